@@ -1,0 +1,28 @@
+#pragma once
+// Wrong input is reported all at once: a list of sentences, each with the place it is about.
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// One mistake: `file:line:column: key: what is wrong; what is allowed`. Line 0: no place in a file.
+struct Mistake {
+  std::string file;
+  int line = 0, column = 0;
+  std::string key, what;
+  std::string sentence() const;
+};
+
+/// Wrong input; what() is one sentence a line, in the order of the file.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Mistake> mistakes);
+  explicit InputError(const std::string& what) : InputError(std::vector<Mistake>{Mistake{{}, 0, 0, {}, what}}) {}
+  const std::vector<Mistake>& mistakes() const { return mistakes_; }
+
+ private:
+  std::vector<Mistake> mistakes_;
+};
+
+}  // namespace elamin

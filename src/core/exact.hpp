@@ -1,0 +1,96 @@
+#pragma once
+// Error-free transformations: sums, products and differences that keep what rounding would throw away.
+// A pair (hi, lo) stands for the unevaluated sum hi + lo with |lo| ≤ ulp(hi)/2, about 32 digits.
+// Source: Dekker 1971; Ogita, Rump, Oishi 2005, "Accurate sum and dot product", algorithms 3.1–3.3.
+#include "core/types.hpp"
+
+#include <cmath>
+
+namespace elamin {
+
+struct Exact {
+  double hi = 0, lo = 0;
+  double value() const { return hi + lo; }
+};
+
+/// a + b = hi + lo exactly (Knuth).
+inline Exact two_sum(double a, double b) {
+  const double s = a + b, t = s - a;
+  return {s, (a - (s - t)) + (b - t)};
+}
+
+/// a + b = hi + lo exactly, for |a| ≥ |b| (Dekker).
+inline Exact quick_two_sum(double a, double b) {
+  const double s = a + b;
+  return {s, b - (s - a)};
+}
+
+/// a · b = hi + lo exactly, barring underflow.
+inline Exact two_product(double a, double b) {
+  const double p = a * b;
+  return {p, std::fma(a, b, -p)};
+}
+
+/// a + b, relative error about 2⁻¹⁰⁵ (no cancellation in the tails is lost).
+inline Exact operator+(Exact a, Exact b) {
+  Exact s = two_sum(a.hi, b.hi);
+  const Exact t = two_sum(a.lo, b.lo);
+  s = quick_two_sum(s.hi, s.lo + t.hi);
+  return quick_two_sum(s.hi, s.lo + t.lo);
+}
+inline Exact operator-(Exact a) { return {-a.hi, -a.lo}; }
+inline Exact operator-(Exact a, Exact b) { return a + (-b); }
+inline Exact operator+(Exact a, double b) { return a + Exact{b, 0}; }
+
+/// a · b, relative error about 2⁻¹⁰⁴.
+inline Exact operator*(Exact a, Exact b) {
+  const Exact p = two_product(a.hi, b.hi);
+  return quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
+/// a / b, relative error about 2⁻¹⁰⁰.
+inline Exact operator/(Exact a, Exact b) {
+  const double q1 = a.hi / b.hi;
+  Exact r = a - Exact{q1, 0} * b;
+  const double q2 = r.hi / b.hi;
+  r = r - Exact{q2, 0} * b;
+  return quick_two_sum(q1, q2) + Exact{r.hi / b.hi, 0};
+}
+
+/// A vector kept as hi + lo, component by component.
+struct ExactVector {
+  Vec3 hi = Vec3::Zero(), lo = Vec3::Zero();
+  Exact operator[](int c) const { return {hi[c], lo[c]}; }
+  void set(int c, Exact e) { hi[c] = e.hi, lo[c] = e.lo; }
+};
+
+inline ExactVector operator-(const ExactVector& a, const ExactVector& b) {
+  ExactVector d;
+  for (int c = 0; c < 3; ++c) d.set(c, a[c] - b[c]);
+  return d;
+}
+inline ExactVector operator+(const ExactVector& a, const ExactVector& b) {
+  ExactVector d;
+  for (int c = 0; c < 3; ++c) d.set(c, a[c] + b[c]);
+  return d;
+}
+
+/// a · b to about 30 digits of |a||b|.
+inline Exact dot(const ExactVector& a, const ExactVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Sum of many doubles with about twice the working precision (Neumaier's compensation), in the order given.
+class ExactSum {
+ public:
+  void add(double x) {
+    const Exact s = two_sum(total_, x);
+    total_ = s.hi, rest_ += s.lo;
+  }
+  double value() const { return total_ + rest_; }
+
+ private:
+  double total_ = 0, rest_ = 0;
+};
+
+}  // namespace elamin

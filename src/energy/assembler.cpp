@@ -1,0 +1,237 @@
+#include "energy/assembler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+constexpr std::int64_t grain = 5000;
+
+// Both dofs of an entry of an element's Hessian, the larger first.
+struct Entry { int row, column; };
+
+// Calls body(element, local row, local column ≤ row) for the packed lower triangle of every element of the group.
+template <class Body>
+void for_each_entry(const ElementGroup& group, const Body& body) {
+  for (int e = 0; e < group.elements(); ++e)
+    for (int r = 0; r < group.gradient_size(); ++r)
+      for (int c = 0; c <= r; ++c) body(e, r, c);
+}
+
+}  // namespace
+
+Assembler::Assembler(const Kinematics& kinematics, const Groups& groups) : kinematics_(kinematics), groups_(groups) {
+  std::int64_t v = 0, g = 0, h = 0;
+  for (const auto& group : groups_) {
+    value_offset_.push_back(v), gradient_offset_.push_back(g), hessian_offset_.push_back(h);
+    v += group->elements();
+    g += std::int64_t(group->elements()) * group->gradient_size();
+    h += std::int64_t(group->elements()) * group->hessian_size();
+  }
+  values_.resize(v), gradients_.resize(g), hessians_.resize(h);
+  build_pattern();
+  build_gathers();
+}
+
+// Columns of the lower triangle: every dof with itself, and the dof pairs of sites that share an element.
+void Assembler::build_pattern() {
+  std::vector<std::vector<int>> neighbours(kinematics_.sites());      // higher or equal sites, sorted, unique
+  for (int p = 0; p < kinematics_.sites(); ++p) neighbours[p].push_back(p);
+  for (const auto& group : groups_)
+    for (int e = 0; e < group->elements(); ++e)
+      for (const int p : group->stencil(e))
+        for (const int q : group->stencil(e))
+          if (q > p) neighbours[p].push_back(q);
+  parallel_for(kinematics_.sites(), grain, [&](std::int64_t p) {
+    std::sort(neighbours[p].begin(), neighbours[p].end());
+    neighbours[p].erase(std::unique(neighbours[p].begin(), neighbours[p].end()), neighbours[p].end());
+  });
+
+  hessian_.resize(kinematics_.dofs(), kinematics_.dofs());
+  std::vector<int> rows;
+  std::vector<int> start{0};
+  for (int j = 0; j < kinematics_.dofs(); ++j) {
+    for (const int q : neighbours[kinematics_.site_of(j)])
+      for (int c = 0; c < 3; ++c)
+        if (const int i = kinematics_.dof(q, c); i >= j) rows.push_back(i);
+    start.push_back(static_cast<int>(rows.size()));
+  }
+  hessian_.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+  std::copy(start.begin(), start.end(), hessian_.outerIndexPtr());
+  std::copy(rows.begin(), rows.end(), hessian_.innerIndexPtr());
+  std::fill_n(hessian_.valuePtr(), rows.size(), 0.0);
+}
+
+void Assembler::build_gathers() {
+  // Counting sort of the contributions: by site for the gradient, by non-zero for the Hessian.
+  std::vector<std::int64_t>& site_start = site_gather_.start;
+  site_start.assign(kinematics_.sites() + 1, 0);
+  for (const auto& group : groups_)
+    for (int e = 0; e < group->elements(); ++e)
+      for (const int p : group->stencil(e)) ++site_start[p + 1];
+  for (std::size_t p = 1; p < site_start.size(); ++p) site_start[p] += site_start[p - 1];
+  site_gather_.index.resize(site_start.back());
+  std::vector<std::int64_t> next(site_start.begin(), site_start.end() - 1);
+  for (std::size_t k = 0; k < groups_.size(); ++k)
+    for (int e = 0; e < groups_[k]->elements(); ++e)
+      for (int i = 0; i < groups_[k]->sites(); ++i)
+        site_gather_.index[next[groups_[k]->stencil(e)[i]]++] =
+            gradient_offset_[k] + std::int64_t(e) * groups_[k]->gradient_size() + 3 * i;
+
+  const auto entry = [&](const ElementGroup& group, int e, int r, int c) {
+    const int i = kinematics_.dof(group.stencil(e)[r / 3], r % 3), j = kinematics_.dof(group.stencil(e)[c / 3], c % 3);
+    return Entry{std::max(i, j), std::min(i, j)};
+  };
+  const auto nonzero = [&](const Entry& at) {
+    const int* first = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[at.column];
+    const int* last = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[at.column + 1];
+    return std::lower_bound(first, last, at.row) - hessian_.innerIndexPtr();
+  };
+  std::vector<std::int64_t>& start = nonzero_gather_.start;
+  start.assign(hessian_.nonZeros() + 1, 0);
+  for (const auto& group : groups_)
+    for_each_entry(*group, [&](int e, int r, int c) {
+      if (const Entry at = entry(*group, e, r, c); at.column >= 0) ++start[nonzero(at) + 1];
+    });
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  nonzero_gather_.index.resize(start.back());
+  next.assign(start.begin(), start.end() - 1);
+  for (std::size_t k = 0; k < groups_.size(); ++k)
+    for_each_entry(*groups_[k], [&](int e, int r, int c) {
+      const std::int64_t place =
+          hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c);
+      const Entry at = entry(*groups_[k], e, r, c);
+      if (at.column >= 0) {
+        nonzero_gather_.index[next[nonzero(at)]++] = place;
+      } else if (at.row >= 0) {         // one dof free, the other prescribed: it feeds ∂g/∂λ
+        const int site_r = groups_[k]->stencil(e)[r / 3], site_c = groups_[k]->stencil(e)[c / 3];
+        const double rate = kinematics_.dof(site_r, r % 3) < 0 ? kinematics_.drive(site_r)[r % 3] : kinematics_.drive(site_c)[c % 3];
+        if (rate != 0) drives_.push_back({at.row, place, rate});
+      }
+    });
+}
+
+double Assembler::sum_values(std::size_t k) const {
+  ExactSum sum;
+  bool finite = true;
+  for (int e = 0; e < groups_[k]->elements(); ++e) {
+    const double v = values_[value_offset_[k] + e];
+    finite = finite && std::isfinite(v);
+    sum.add(v);
+  }
+  return finite ? sum.value() : std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> Assembler::values(const State& state) {
+  std::vector<double> sums;
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    groups_[k]->values(state, values_.data() + value_offset_[k]);
+    sums.push_back(sum_values(k));
+  }
+  return sums;
+}
+
+std::vector<double> Assembler::evaluate(const State& state, bool with_hessian, const State* from) {
+  std::vector<double> sums;
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    groups_[k]->derivatives(state, from, values_.data() + value_offset_[k], gradients_.data() + gradient_offset_[k],
+                            with_hessian ? hessians_.data() + hessian_offset_[k] : nullptr);
+    sums.push_back(sum_values(k));
+  }
+  return sums;
+}
+
+double Assembler::unpredicted(const State& state, const State& from) {
+  double sum = 0;
+  for (std::size_t k = 0; k < groups_.size(); ++k)
+    if (groups_[k]->unpredicted(state, from, values_.data() + value_offset_[k])) sum += sum_values(k);
+  return sum;
+}
+
+void Assembler::gather(const std::vector<double>& buffer, Field& g) const {
+  g.resize(3, kinematics_.sites());
+  parallel_for(kinematics_.sites(), grain, [&](std::int64_t p) {
+    Vec3 sum = Vec3::Zero();
+    for (std::int64_t k = site_gather_.start[p]; k < site_gather_.start[p + 1]; ++k)
+      sum += Eigen::Map<const Vec3>(buffer.data() + site_gather_.index[k]);
+    g.col(p) = sum;
+  });
+}
+
+const SparseMatrix& Assembler::hessian() {
+  double* value = hessian_.valuePtr();
+  parallel_for(hessian_.nonZeros(), grain, [&](std::int64_t i) {
+    double sum = 0;
+    for (std::int64_t k = nonzero_gather_.start[i]; k < nonzero_gather_.start[i + 1]; ++k)
+      sum += hessians_[nonzero_gather_.index[k]];
+    value[i] = sum;
+  });
+  return hessian_;
+}
+
+void Assembler::add_drive(Vector& out) const {
+  for (const Drive& d : drives_) out[d.dof] += hessians_[d.place] * d.rate;
+}
+
+namespace {
+
+// The part of v that an element sees: differences to its first site (energies do not change under translation).
+void relative_motion(const Field& v, std::span<const int> stencil, double* out) {
+  for (std::size_t i = 0; i < stencil.size(); ++i)
+    for (int c = 0; c < 3; ++c) out[3 * i + c] = v(c, stencil[i]) - v(c, stencil[0]);
+}
+
+constexpr int most_local = 12;
+
+// y = H_e v from the packed lower triangle.
+void packed_product(const double* h, const double* v, int n, double* y) {
+  for (int r = 0; r < n; ++r) y[r] = 0;
+  for (int r = 0; r < n; ++r) {
+    for (int c = 0; c < r; ++c, ++h) y[r] += *h * v[c], y[c] += *h * v[r];
+    y[r] += *h++ * v[r];
+  }
+}
+
+}  // namespace
+
+void Assembler::multiply(const Field& v, Field& out) {
+  products_.resize(gradients_.size());
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const ElementGroup& group = *groups_[k];
+    parallel_for(group.elements(), grain, [&](std::int64_t e) {
+      double local[most_local];
+      relative_motion(v, group.stencil(e), local);
+      packed_product(hessians_.data() + hessian_offset_[k] + e * group.hessian_size(), local, group.gradient_size(),
+                     products_.data() + gradient_offset_[k] + e * group.gradient_size());
+    });
+  }
+  gather(products_, out);
+}
+
+double Assembler::quadratic_form(const Field& v) const {
+  ExactSum sum;
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const ElementGroup& group = *groups_[k];
+    for (int e = 0; e < group.elements(); ++e) {
+      double local[most_local], product[most_local];
+      relative_motion(v, group.stencil(e), local);
+      packed_product(hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size(), local,
+                     group.gradient_size(), product);
+      double q = 0;
+      for (int i = 3; i < group.gradient_size(); ++i) q += local[i] * product[i];
+      sum.add(q);
+    }
+  }
+  return sum.value();
+}
+
+double Assembler::largest_element_force() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < gradients_.size(); i += 3)
+    largest = std::max(largest, Eigen::Map<const Vec3>(gradients_.data() + i).norm());
+  return largest;
+}
+
+}  // namespace elamin

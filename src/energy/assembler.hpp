@@ -1,0 +1,61 @@
+#pragma once
+// From element buffers to a gradient on all sites, a sparse Hessian on the free dofs, and ∂g/∂λ.
+#include "energy/law_group.hpp"
+#include "energy/kinematics.hpp"
+
+#include <memory>
+
+namespace elamin {
+
+/// Which places of the element buffers add up to one number, for many numbers: sources of item i are
+/// index[start[i]] … index[start[i+1]−1], summed in this order by whichever thread holds i.
+struct GatherList {
+  std::vector<std::int64_t> start{0};
+  std::vector<std::int64_t> index;
+};
+
+/// Everything that depends on the topology alone is made once, here; evaluations overwrite values only.
+class Assembler {
+ public:
+  using Groups = std::vector<std::unique_ptr<ElementGroup>>;
+  Assembler(const Kinematics& kinematics, const Groups& groups);
+
+  /// Energy of each group, summed in stored order with compensation; +inf where a law is outside its domain.
+  std::vector<double> values(const State& state);
+  /// Fills the element buffers; the calls below read them.
+  std::vector<double> evaluate(const State& state, bool with_hessian, const State* from);
+  /// Sum over the laws that predict their force from `from` of the energy they did not predict.
+  double unpredicted(const State& state, const State& from);
+  /// ∂U/∂x of all sites, 3 × sites, from the last evaluation.
+  void gradient(Field& g) const { gather(gradients_, g); }
+  /// ∂²U/∂q∂q, lower triangle, pattern fixed; from the last evaluation with Hessian.
+  const SparseMatrix& hessian();
+  const SparseMatrix& pattern() const { return hessian_; }
+  /// ∂²U/∂q∂λ through the driven sites, added to `out` (dofs); from the last evaluation with Hessian.
+  void add_drive(Vector& out) const;
+  /// H v for a field v that is zero at prescribed coordinates (3 × sites), element by element on differences of v, so
+  /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
+  void multiply(const Field& v, Field& out);
+  /// vᵀHv in the same way, summed with compensation: relative error about ε N² for the bending mode of N particles.
+  double quadratic_form(const Field& v) const;
+  /// Largest force of one element on one site, from the last evaluation: the scale of internal forces.
+  double largest_element_force() const;
+
+ private:
+  double sum_values(std::size_t group) const;
+  void gather(const std::vector<double>& buffer, Field& out) const;
+  void build_pattern();
+  void build_gathers();
+
+  const Kinematics& kinematics_;
+  const Groups& groups_;
+  std::vector<std::int64_t> value_offset_, gradient_offset_, hessian_offset_;   // of each group in the buffers
+  std::vector<double> values_, gradients_, hessians_, products_;
+  GatherList site_gather_;              // per site: places of its 3 components in gradients_
+  GatherList nonzero_gather_;           // per non-zero: places in hessians_
+  struct Drive { int dof; std::int64_t place; double rate; };
+  std::vector<Drive> drives_;           // ∂g_dof/∂λ += hessians_[place] · rate
+  SparseMatrix hessian_;
+};
+
+}  // namespace elamin

@@ -1,0 +1,100 @@
+#pragma once
+// Elements of one law: which law acts on which sites, and one loop over them. One virtual call a group, none an element.
+#include "core/parallel.hpp"
+#include "laws/law.hpp"
+#include "model/state.hpp"
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// What the assembler sees of a group: stencils, and buffers that each element fills at its own place.
+class ElementGroup {
+ public:
+  virtual ~ElementGroup() = default;
+  virtual int elements() const = 0;
+  virtual int sites() const = 0;
+  virtual std::span<const int> stencil(int element) const = 0;
+  /// Energy of every element.
+  virtual void values(const State& state, double* value) const = 0;
+  /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element; with
+  /// `from` the Hessian that a law predicts from there, if it does.
+  virtual void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const = 0;
+  /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
+  virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
+
+  int gradient_size() const { return 3 * sites(); }
+  int hessian_size() const { return 3 * sites() * (3 * sites() + 1) / 2; }
+  /// Place of the entry (row ≥ column) in an element's packed Hessian.
+  static int packed(int row, int column) { return row * (row + 1) / 2 + column; }
+};
+
+/// A law whose stiffness across depends on a force that a straight step of finite length falsifies (see HarmonicBond).
+template <class L>
+concept PredictingLaw = Law<L> && requires(const L& law, const Points<L::sites>& x) {
+  { law.derivatives(x, x) } -> std::same_as<Local<L::sites>>;
+  { law.unpredicted(x, x) } -> std::same_as<double>;
+};
+
+template <Law L>
+class LawGroup final : public ElementGroup {
+ public:
+  static constexpr int n = L::sites;
+  /// laws: one a kind; kind: which law each element has; stencils: its sites.
+  LawGroup(std::vector<L> laws, std::vector<int> kind, std::vector<std::array<int, n>> stencils)
+      : laws_(std::move(laws)), kind_(std::move(kind)), stencils_(std::move(stencils)) {}
+
+  int elements() const override { return static_cast<int>(stencils_.size()); }
+  int sites() const override { return n; }
+  std::span<const int> stencil(int element) const override { return stencils_[element]; }
+
+  void values(const State& state, double* value) const override {
+    parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].value(gather(state, e)); });
+  }
+
+  void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override {
+    parallel_for(elements(), grain, [&](std::int64_t e) {
+      const Local<n> u = local(state, from, e);
+      value[e] = u.value;
+      Eigen::Map<Eigen::Matrix<double, 3 * n, 1>>(gradient + e * gradient_size()) = u.gradient;
+      if (!hessian) return;
+      double* h = hessian + e * hessian_size();
+      for (int r = 0; r < 3 * n; ++r)
+        for (int c = 0; c <= r; ++c) *h++ = u.hessian(r, c);
+    });
+  }
+
+  bool unpredicted(const State& state, const State& from, double* value) const override {
+    if constexpr (PredictingLaw<L>)
+      parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].unpredicted(gather(state, e), gather(from, e)); });
+    else
+      (void)state, (void)from, (void)value;
+    return PredictingLaw<L>;
+  }
+
+ private:
+  static constexpr std::int64_t grain = 2000;
+  Local<n> local(const State& state, const State* from, std::int64_t e) const {
+    if constexpr (PredictingLaw<L>)
+      if (from) return laws_[kind_[e]].derivatives(gather(state, e), gather(*from, e));
+    return laws_[kind_[e]].derivatives(gather(state, e));
+  }
+  Points<n> gather(const State& state, std::int64_t e) const {
+    Points<n> x;
+    for (int i = 0; i < n; ++i) {
+      x.position.col(i) = state.position.col(stencils_[e][i]);
+      x.tail.col(i) = state.tail.col(stencils_[e][i]);
+    }
+    return x;
+  }
+
+  std::vector<L> laws_;
+  std::vector<int> kind_;
+  std::vector<std::array<int, n>> stencils_;
+};
+
+}  // namespace elamin

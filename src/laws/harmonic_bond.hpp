@@ -1,0 +1,76 @@
+#pragma once
+#include "laws/law.hpp"
+
+namespace elamin {
+
+/// Harmonic bond  U = K (r − r₀)²,  r = |x₁ − x₀|.
+///   ∇₁U = 2K (r − r₀) n = −∇₀U,   n = (x₁ − x₀)/r
+///   ∇₁∇₁U = 2K [ n nᵀ + (1 − r₀/r)(I − n nᵀ) ] = ∇₀∇₀U = −∇₀∇₁U
+/// K [energy/length²] (no factor ½, as in LAMMPS), r₀ [length].  Smooth but for r = 0, where U = K r₀² and, as in LAMMPS,
+/// there is no force; the Hessian is taken as that of r₀ = 0 there.
+/// The stretch is formed as (r² − r₀²)/(r + r₀) with r² − r₀² exact, so a strain of 1e-12 keeps all its digits.
+/// Source: Guerra 2021, eq. (6).
+struct HarmonicBond {
+  static constexpr int sites = 2;
+  double K, r0;
+
+  double value(const Points<2>& x) const {
+    const double e = stretch(x.edge(0, 1));
+    return K * e * e;
+  }
+
+  Local<2> derivatives(const Points<2>& x) const {
+    const ExactVector d = x.edge(0, 1);
+    return derivatives(d, stretch(d));
+  }
+
+  /// The same, but with the transverse stiffness of the force that the linearisation at `from` predicts,
+  ///   2K [ n nᵀ + (ê/r)(I − n nᵀ) ],   ê = (r̄ − r₀) + n̄·(d − d̄),   barred: at `from`,
+  /// instead of that of the stretch that a straight step of finite length makes: Newton's method on the mixed energy
+  /// U(x, N) = N (r − r₀) − N²/4K with N eliminated. Source: Magisano, Leonetti, Garcea 2017 (mixed integration points).
+  Local<2> derivatives(const Points<2>& x, const Points<2>& from) const {
+    return derivatives(x.edge(0, 1), linearised(x, from));
+  }
+
+  /// K (e − ê)²: energy of the part of the stretch e = r − r₀ that the linearisation at `from` did not predict.
+  double unpredicted(const Points<2>& x, const Points<2>& from) const {
+    const double e = stretch(x.edge(0, 1)) - linearised(x, from);
+    return K * e * e;
+  }
+
+ private:
+  Local<2> derivatives(const ExactVector& d, double transverse_stretch) const {
+    const double r = d.hi.norm(), e = stretch(d);
+    Local<2> u;
+    u.value = K * e * e;
+    Mat3 h = 2 * K * Mat3::Identity();
+    if (r > 0) {
+      const Vec3 n = d.hi / r;
+      u.force_part(1) = 2 * K * e * n;
+      u.force_part(0) = -u.force_part(1);
+      const double transverse = 2 * K * transverse_stretch / r;      // 2K (1 − r₀/r)
+      h = n * n.transpose();
+      h *= 2 * K - transverse;
+      h.diagonal().array() += transverse;
+    }
+    u.block(0, 0) = u.block(1, 1) = h;
+    u.block(0, 1) = u.block(1, 0) = -h;
+    return u;
+  }
+
+  double linearised(const Points<2>& x, const Points<2>& from) const {
+    const ExactVector d = from.edge(0, 1);
+    const double r = d.hi.norm();
+    return stretch(d) + (r > 0 ? d.hi.dot((x.edge(0, 1) - d).hi) / r : 0.0);
+  }
+
+  double stretch(const ExactVector& d) const {                       // r − r₀
+    const double r = d.hi.norm();
+    const Exact excess = dot(d, d) - two_product(r0, r0);            // r² − r₀²
+    return r + r0 > 0 ? excess.value() / (r + r0) : 0.0;
+  }
+};
+
+static_assert(Law<HarmonicBond>);
+
+}  // namespace elamin

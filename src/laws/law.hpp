@@ -1,0 +1,45 @@
+#pragma once
+// What a law is: numbers and their mathematics on a few sites; no index, no base class, no state of the run.
+#include "core/exact.hpp"
+
+#include <concepts>
+
+namespace elamin {
+
+/// The positions of n sites, each as position + tail (see State); differences are formed without losing a digit.
+template <int n>
+struct Points {
+  Eigen::Matrix<double, 3, n> position = Eigen::Matrix<double, 3, n>::Zero();
+  Eigen::Matrix<double, 3, n> tail = Eigen::Matrix<double, 3, n>::Zero();
+
+  Points() = default;
+  /// From plain positions, 3 × n.
+  explicit Points(const Eigen::Matrix<double, 3, n>& x) : position(x) {}
+
+  /// x_j − x_i, to about 32 digits.
+  ExactVector edge(int i, int j) const {
+    return ExactVector{position.col(j), tail.col(j)} - ExactVector{position.col(i), tail.col(i)};
+  }
+};
+
+/// Value, gradient (3n) and Hessian (3n × 3n, symmetric) of a law on n sites; site i holds the rows 3i, 3i+1, 3i+2.
+template <int n>
+struct Local {
+  double value = 0;
+  Eigen::Matrix<double, 3 * n, 1> gradient = Eigen::Matrix<double, 3 * n, 1>::Zero();
+  Eigen::Matrix<double, 3 * n, 3 * n> hessian = Eigen::Matrix<double, 3 * n, 3 * n>::Zero();
+
+  auto force_part(int i) { return gradient.template segment<3>(3 * i); }
+  auto block(int i, int j) { return hessian.template block<3, 3>(3 * i, 3 * j); }
+};
+
+/// A law says on how many sites it acts, and gives its energy alone or with both derivatives.
+/// Outside its domain it returns +inf; it never throws.
+template <class L>
+concept Law = requires(const L& law, const Points<L::sites>& x) {
+  { L::sites } -> std::convertible_to<int>;
+  { law.value(x) } -> std::same_as<double>;
+  { law.derivatives(x) } -> std::same_as<Local<L::sites>>;
+};
+
+}  // namespace elamin

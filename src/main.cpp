@@ -1,0 +1,90 @@
+// The command line: which command, on which file. Everything else is in study/.
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "results/summary.hpp"
+#include "study/check_command.hpp"
+#include "study/energy_command.hpp"
+#include "study/run.hpp"
+#include "study/verify_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <csignal>
+
+namespace {
+
+extern "C" void on_interrupt(int) { elamin::interrupt_requested = true; }
+
+const char* const description =
+    "elamin: static equilibria of elastic structures made of glued particles.\n"
+    "\n"
+    "  elamin problem.toml            run the study; results go to a directory named like the file\n"
+    "  elamin energy problem.toml     energies and forces of the starting state, nothing solved\n"
+    "  elamin check problem.toml      every mistake in the file, or what was understood of it\n"
+    "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n";
+const char* const footer =
+    "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
+    "130 interrupted.\n"
+    "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: README.md and problems/.\n";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace elamin;
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+
+  CLI::App app{description};
+  app.footer(footer);
+  app.set_version_flag("--version", "elamin " + version());
+  std::string file;
+  std::vector<std::string> set, files;
+  RunOptions options;
+  EnergyOptions energy;
+  const auto common = [&](CLI::App* command) {
+    command->add_option("--set", set, "KEY=VALUE: change a key of the file, as beam.column.particles=40; may be repeated")->allow_extra_args(false);
+  };
+  const auto running = [&](CLI::App* command) {
+    common(command);
+    command->add_option("-o,--output", options.directory, "directory of the results (default: the file's name without .toml)");
+    command->add_option("--threads", options.threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+    command->add_flag("--quiet", options.quiet, "print nothing but errors");
+  };
+  app.add_option("problem", file, "the problem file")->type_name("FILE");
+  running(&app);
+  CLI::App* energy_app = app.add_subcommand("energy", "energies and forces of the file's starting state, nothing solved");
+  energy_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
+  energy_app->add_flag("--json", energy.json, "print JSON");
+  energy_app->add_option("--forces", energy.forces_file, "write id,fx,fy,fz of all particles to this CSV file");
+  energy_app->add_option("--lambda", energy.load_factor, "load factor (default: where the study starts; 1 without a path)");
+  common(energy_app);
+  CLI::App* check_app = app.add_subcommand("check", "read and check only; say what was understood");
+  check_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
+  common(check_app);
+  CLI::App* verify_app = app.add_subcommand("verify", "run, and hold the results against [[expect]]");
+  verify_app->add_option("problems", files, "problem files")->type_name("FILE")->required();
+  running(verify_app);
+  app.require_subcommand(0, 1);
+
+  try {
+    app.parse(argc, argv);
+    std::vector<Setting> settings;
+    for (const std::string& s : set) settings.push_back(parse_setting(s));
+    options.settings = energy.settings = settings;
+    options.file = energy.file = file;
+    if (*energy_app) return energy_command(energy), exit_done;
+    if (*check_app) return check_command(file, settings), exit_done;
+    if (*verify_app) return verify_command(files, options);
+    if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
+    return run(options).exit_status;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_wrong_input;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exit_wrong_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "elamin: {}\n", error.what());
+    return exit_not_converged;
+  }
+}

@@ -1,0 +1,86 @@
+#pragma once
+// A structure made of glued particles: what there is, how it is held and loaded. No mathematics, no input.
+#include "model/state.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+struct BondType { double stiffness, rest_length; };   // U = K (r − r₀)²: K [energy/length²], r₀ [length]
+struct AngleType { double stiffness; };               // U = B (1 + cos θ): B [energy]
+struct Bond { int type; std::array<int, 2> particles; };    // particles by index from 0
+struct Angle { int type; std::array<int, 3> particles; };   // the middle one second
+
+/// A named set of particles, indices from 0, ascending.
+struct Group {
+  std::string name;
+  std::vector<int> particles;
+};
+
+/// Particles whose chosen coordinates are prescribed: x = X + λ d, or X + d if constant.
+struct Support {
+  std::string group;
+  std::vector<int> particles;
+  std::array<bool, 3> held{true, true, true};   // x, y, z
+  Vec3 displacement = Vec3::Zero();             // [length]
+  bool constant = false;
+};
+
+/// Dead load on each of these particles: energy −λ F·x, or −F·x if constant.
+struct Load {
+  std::string group;
+  std::vector<int> particles;
+  Vec3 force = Vec3::Zero();                    // on every particle
+  bool constant = false;
+};
+
+/// Weight: energy −λ m a·x, or −m a·x if constant.
+struct Gravity {
+  std::string group;
+  std::vector<int> particles;
+  Vec3 acceleration = Vec3::Zero();
+  bool constant = true;
+};
+
+/// Drag −γ v: no energy; matters in dynamics and in the forces of a moving state.
+struct Viscosity {
+  std::vector<int> particles;
+  double coefficient = 0;
+};
+
+/// A set of particles that was built as one thing, for messages and `check`.
+struct Structure {
+  std::string name, kind;                       // kind: "beam", "lammps", …
+  int first = 0, count = 0;                     // its particles
+  double youngs_modulus = 0;                    // 0: not known
+  int bond_type = -1, angle_type = -1;          // of a beam
+};
+
+struct Model {
+  State start;                                  // the reference configuration X
+  std::optional<State> restart;                 // where to start from instead, with its load factor
+  std::vector<int> id;                          // LAMMPS's own, or counted from 1
+  std::vector<int> type, molecule;              // from 1
+  std::vector<double> diameter, density;        // density 0: not given
+  Field velocity;                               // 3 × particles, or empty: at rest
+  std::vector<BondType> bond_types;
+  std::vector<AngleType> angle_types;
+  std::vector<Bond> bonds;
+  std::vector<Angle> angles;
+  std::vector<Structure> structures;
+  std::vector<Group> groups;                    // structures' own, "all", then the named ones
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+  std::vector<Gravity> gravity;
+  std::vector<Viscosity> viscosity;
+  std::optional<int> plane_normal;              // 0, 1, 2: the coordinate that every particle keeps
+
+  int particles() const { return static_cast<int>(start.particles()); }
+  /// Mass of particle i: density · π d³/6.
+  double mass(int i) const { return density[i] * 3.14159265358979323846 / 6 * diameter[i] * diameter[i] * diameter[i]; }
+};
+
+}  // namespace elamin

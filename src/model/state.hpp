@@ -1,0 +1,23 @@
+#pragma once
+// Where everything is: the configuration that an energy is a function of.
+#include "core/exact.hpp"
+
+namespace elamin {
+
+/// Positions of all particles as position + tail (about 32 digits), and the load factor λ.
+/// A chain of N particles has a condition number of about 5 N⁴; the tails keep differences of neighbours exact to the
+/// last bit although the positions are large beside them.
+struct State {
+  Field position;          // 3 × particles [length]
+  Field tail;              // 3 × particles, what the rounding of `position` left out
+  double load_factor = 0;
+
+  State() = default;
+  explicit State(Field positions) : position(std::move(positions)), tail(Field::Zero(3, position.cols())) {}
+
+  Eigen::Index particles() const { return position.cols(); }
+  ExactVector at(Eigen::Index i) const { return {position.col(i), tail.col(i)}; }
+  void set(Eigen::Index i, const ExactVector& x) { position.col(i) = x.hi, tail.col(i) = x.lo; }
+};
+
+}  // namespace elamin

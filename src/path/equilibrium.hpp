@@ -1,0 +1,26 @@
+#pragma once
+// One equilibrium with what its neighbours are computed from.
+#include "path/point.hpp"
+#include "solve/newton.hpp"
+
+namespace elamin {
+
+struct Equilibrium {
+  PathPoint point;
+  Vector tangent;                      // dx/dλ at fixed zero modes (dofs) [length]
+  Eigen::MatrixXd zero_modes;          // orthonormal, dofs × count: rigid motions and symmetries that cost nothing
+};
+
+/// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
+Equilibrium assess(Newton& newton, const State& state, const Report& report);
+
+/// Follows the branch from one equilibrium to the load factor λ: tangent predictor, Newton corrector.
+/// Converged only if the corrector moved less than the predictor did, so that it stays on the branch.
+Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor);
+
+/// The directions in which an equilibrium is about to lose its stability or has lost it: eigenvectors of the `count`
+/// lowest eigenvalues above `skip`, turned so that the choice within a multiple eigenvalue does not depend on rounding:
+/// the first one follows x as much as it can, else y, else z, and each has a positive sum or leading entry.
+Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes);
+
+}  // namespace elamin

@@ -1,0 +1,144 @@
+#include "path/locate.hpp"
+
+#include "path/bordered.hpp"
+
+#include <cmath>
+#include <functional>
+
+namespace elamin {
+
+namespace {
+
+struct Sample {
+  double t, f;               // parameter; the eigenvalue that changes sign
+  Equilibrium e;
+};
+
+// Bracketed root finding by the Illinois variant of regula falsi with bisection where it is slow. Stops when the secant
+// through the bracket predicts a change below `resolution`, or the bracket is that small; returns the better end.
+// Nothing if an evaluation fails.
+std::optional<Sample> find_zero(Sample a, Sample b, double resolution, const std::function<std::optional<Sample>(double, const Sample&)>& evaluate) {
+  constexpr int most = 80;
+  double weight_a = a.f, weight_b = b.f;
+  for (int k = 0; k < most; ++k) {
+    const double width = b.t - a.t;
+    double t = a.t - weight_a * width / (weight_b - weight_a);
+    if (k % 4 == 3) t = (a.t + b.t) / 2;
+    const Sample& nearest = std::abs(t - a.t) < std::abs(t - b.t) ? a : b;
+    if (std::abs(width) <= 2 * resolution || std::abs(t - nearest.t) <= resolution / 4) break;
+    std::optional<Sample> c = evaluate(t, nearest);
+    if (!c) return {};
+    if ((c->f < 0) == (a.f < 0)) {
+      weight_b = (k % 4 == 3) ? b.f : weight_b / 2;
+      a = std::move(*c), weight_a = a.f;
+    } else {
+      weight_a = (k % 4 == 3) ? a.f : weight_a / 2;
+      b = std::move(*c), weight_b = b.f;
+    }
+    if (a.f == 0 || b.f == 0) break;
+  }
+  return std::abs(a.f) < std::abs(b.f) ? a : b;
+}
+
+// The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
+double eigenvalue(Newton& newton, const Equilibrium& e, int index) {
+  newton.energy().evaluate(e.point.state);
+  const int zeros = static_cast<int>(e.zero_modes.cols());
+  const EigenPairs pairs = newton.factors().lowest(index + zeros + 1);
+  std::vector<double> values;
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j)
+    if (zeros == 0 || (e.zero_modes.transpose() * pairs.vectors.col(j)).norm() < 0.5) values.push_back(pairs.values[j]);
+  return index < static_cast<int>(values.size()) ? values[index] : values.empty() ? 0.0 : values.back();
+}
+
+// Eigenvectors whose eigenvalues are zero beside `scale`, without the zero modes that were there before.
+Eigen::MatrixXd critical_modes(Newton& newton, const Equilibrium& e, int index, double scale, const Eigen::MatrixXd& known) {
+  newton.energy().evaluate(e.point.state);
+  constexpr int most_multiple = 6;
+  const EigenPairs pairs = newton.factors().lowest(index + static_cast<int>(known.cols()) + most_multiple);
+  Eigen::MatrixXd modes(pairs.vectors.rows(), 0);
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
+    if (std::abs(pairs.values[j]) > scale) continue;
+    if (known.cols() > 0 && (known.transpose() * pairs.vectors.col(j)).norm() > 0.5) continue;
+    modes.conservativeResize(Eigen::NoChange, modes.cols() + 1);
+    modes.rightCols(1) = pairs.vectors.col(j);
+  }
+  return canonical_modes(newton.energy().kinematics(), modes);
+}
+
+// Zero modes of the branch: those that both ends have.
+Eigen::MatrixXd persistent(const Equilibrium& a, const Equilibrium& b) {
+  return a.zero_modes.cols() <= b.zero_modes.cols() ? a.zero_modes : b.zero_modes;
+}
+
+Event finish(Newton& newton, Equilibrium at, EventKind kind, int index, double scale, const Eigen::MatrixXd& known) {
+  Event event;
+  event.kind = kind;
+  event.modes = critical_modes(newton, at, index, scale, known);
+  at.point.multiplicity = static_cast<int>(event.modes.cols());
+  at.point.stability.stable = false;
+  event.at = std::move(at);
+  return event;
+}
+
+}  // namespace
+
+std::optional<Event> locate_crossing(Newton& newton, const Equilibrium& a, const Equilibrium& b) {
+  const int before = a.point.stability.negative, after = b.point.stability.negative;
+  const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
+  const Eigen::MatrixXd known = persistent(a, b);
+  Sample lower{a.point.state.load_factor, eigenvalue(newton, a, index), a};
+  Sample upper{b.point.state.load_factor, eigenvalue(newton, b, index), b};
+  if ((lower.f < 0) == (upper.f < 0)) return {};
+  const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
+  const double resolution = 1e-14 * std::max(std::abs(lower.t), std::abs(upper.t));
+  const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
+    Equilibrium start = from.e;
+    if (std::abs(from.f) < 1e-6 * scale) {                     // close by, the critical modes stay as they are
+      const Eigen::MatrixXd modes = critical_modes(newton, from.e, index, 1e-5 * scale, known);
+      start.zero_modes.resize(modes.rows(), known.cols() + modes.cols());
+      if (known.cols() > 0) start.zero_modes.leftCols(known.cols()) = known;
+      start.zero_modes.rightCols(modes.cols()) = modes;
+      start.tangent -= modes * (modes.transpose() * start.tangent);
+    }
+    Equilibrium e = continue_to(newton, start, t);
+    if (!e.point.report.converged()) return {};
+    e.zero_modes = known;
+    return Sample{t, eigenvalue(newton, e, index), std::move(e)};
+  });
+  if (!zero || std::abs(zero->f) > 1e-6 * scale) return {};
+  return finish(newton, zero->e, EventKind::branch, index, std::max(1e-7 * scale, 0.0), known);
+}
+
+std::optional<Event> locate_limit(Newton& newton, const Equilibrium& a, double reach) {
+  const int index = a.point.stability.negative;
+  const Eigen::MatrixXd known = a.zero_modes;
+  const ArcStep arc(newton.energy(), a, reach > a.point.state.load_factor ? 1 : -1);
+  Sample lower{0, eigenvalue(newton, a, index), a};
+  const auto evaluate = [&](double s, const Sample&) -> std::optional<Sample> {
+    Equilibrium e = arc.equilibrium(newton, s);
+    if (!e.point.report.converged()) return {};
+    e.zero_modes = known;
+    return Sample{s, eigenvalue(newton, e, index), std::move(e)};
+  };
+  constexpr int most = 60;
+  double s = 1e-3 * std::abs(reach - a.point.state.load_factor);
+  std::optional<Sample> upper;
+  for (int k = 0; k < most; ++k) {
+    std::optional<Sample> next = evaluate(s, lower);
+    if (next && (next->f < 0) != (lower.f < 0)) {
+      upper = next;
+      break;
+    }
+    if (next && k < 40) s *= 2;
+    else if (!next) s /= 3;
+    if (s < 1e-14 * std::abs(reach - a.point.state.load_factor)) return {};
+  }
+  if (!upper) return {};
+  const double scale = std::abs(lower.f);
+  const std::optional<Sample> zero = find_zero(lower, *upper, 1e-9 * upper->t, evaluate);
+  if (!zero) return {};
+  return finish(newton, zero->e, EventKind::limit, index, std::max(1e-4 * scale, 4 * std::abs(zero->f)), known);
+}
+
+}  // namespace elamin

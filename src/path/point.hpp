@@ -1,0 +1,34 @@
+#pragma once
+// One equilibrium of a path and what is known of it.
+#include "energy/terms.hpp"
+#include "model/state.hpp"
+#include "solve/report.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// What the Hessian over the free dofs says of an equilibrium.
+struct Stability {
+  int negative = 0;                       // Morse index: eigenvalues below zero by more than rounding
+  int zero = 0;                           // eigenvalues that are zero to rounding
+  std::vector<std::string> zero_modes;    // names of the rigid motions or symmetries that they are
+  bool stable = false;                    // no negative one, and every zero one is named
+};
+
+enum class EventKind { limit, branch, contact };
+
+/// One equilibrium on a path; label "" unless it is an event, "initial" or "final".
+struct PathPoint {
+  int step = 0;
+  std::string label;
+  int branch = 0;                         // 0: where the path started; one more after every jump or switch
+  State state;                            // with its load factor
+  EnergyTerms energy;
+  Report report;
+  Stability stability;
+  int multiplicity = 0;                   // of the zero eigenvalue, for an event
+};
+
+}  // namespace elamin

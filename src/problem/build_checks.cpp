@@ -1,0 +1,99 @@
+#include "problem/build_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace elamin {
+namespace {
+
+/// Index of the structure of each particle.
+std::vector<int> structure_of(const Model& model) {
+  std::vector<int> of(model.particles());
+  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s)
+    std::fill_n(of.begin() + model.structures[s].first, model.structures[s].count, s);
+  return of;
+}
+
+const TablePlace& place_of(const Problem& problem, const Structure& s) {
+  for (const BeamTable& b : problem.beams)
+    if (s.kind == "beam" && b.name == s.name) return b.place;
+  return problem.lammps->place;
+}
+
+}  // namespace
+
+void check_distinct(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  // Sorted along a direction that no lattice is normal to, particles in one place are neighbours in the list.
+  const Vec3 direction = Vec3(0.5180339887, 0.6823278038, 0.5158487229).normalized();
+  const Vector along = model.start.position.transpose() * direction;
+  std::vector<int> order(model.particles());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return std::pair(along[i], i) < std::pair(along[j], j); });
+  const double widest = model.diameter.empty() ? 0 : *std::max_element(model.diameter.begin(), model.diameter.end());
+  const double extent = model.start.position.size() ? model.start.position.cwiseAbs().maxCoeff() : 0;
+  const double rounding = 8 * epsilon * extent;   // of `along`
+
+  const std::vector<int> structure = structure_of(model);
+  std::set<std::pair<int, int>> told;
+  for (std::size_t a = 0; a < order.size(); ++a)
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      const auto [i, j] = std::minmax(order[a], order[b]);
+      if (along[order[b]] - along[order[a]] > 1e-9 * widest + rounding) break;
+      const Vec3 apart = model.start.position.col(i) - model.start.position.col(j);
+      if (apart.norm() > 1e-9 * std::min(model.diameter[i], model.diameter[j])) continue;
+      const Structure &first = model.structures[structure[i]], &second = model.structures[structure[j]];
+      const bool of_file = first.kind == "lammps" && second.kind == "lammps";
+      const bool allowed = of_file && problem.study == StudyType::energy;
+      if (!allowed && told.insert({structure[i], structure[j]}).second) {
+        const Vec3 x = model.start.position.col(i);
+        mistakes.add(place_of(problem, second),
+                     fmt::format("particle {} is in the same place as particle {} of \"{}\", [{}, {}, {}]; particles must lie apart",
+                                 model.id[j], model.id[i], first.name, x[0], x[1], x[2]));
+      }
+      if (told.size() > 20) return;
+      break;   // on to the next of the list, so that a heap of many in one place takes no longer
+    }
+}
+
+void check_plane(const Problem& problem, const Model& model, const Field& position, const TablePlace& whose, Mistakes& mistakes) {
+  if (!model.plane_normal || position.cols() == 0) return;
+  const int c = *model.plane_normal;
+  const auto coordinate = position.row(c);
+  const double level = model.start.position(c, 0), allowed = 1e-12 * position.cwiseAbs().maxCoeff();
+  Eigen::Index i = 0;
+  const double off = (coordinate.array() - level).abs().maxCoeff(&i);
+  if (off > allowed)
+    mistakes.add(whose, fmt::format("particle {} is not in the plane \"{}\" of particle {}: {} is {} instead of {}",
+                                    model.id[static_cast<std::size_t>(i)], problem.plane, model.id[0], "xyz"[c], coordinate[i], level));
+}
+
+void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  if (problem.study == StudyType::energy) return;
+  std::vector<int> root(model.particles());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  const auto join = [&](int i, int j) { root[find(i)] = find(j); };
+  for (const Bond& b : model.bonds) join(b.particles[0], b.particles[1]);
+  for (const Angle& a : model.angles) join(a.particles[0], a.particles[1]), join(a.particles[1], a.particles[2]);
+
+  std::vector<bool> held(model.particles());
+  for (const Support& s : model.supports)
+    for (const int i : s.particles) held[find(i)] = true;
+  const std::vector<int> structure = structure_of(model);
+  std::vector<int> told(model.structures.size());
+  for (int i = 0; i < model.particles(); ++i) {
+    if (held[find(i)] || told[structure[i]]++) continue;
+    const Structure& s = model.structures[structure[i]];
+    const std::string part = s.kind == "beam" ? "none of its particles is held by a support"
+                                              : fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
+    mistakes.add(place_of(problem, s), part + "; an equilibrium needs a [[support]]");
+  }
+}
+
+}  // namespace elamin

@@ -1,0 +1,14 @@
+#pragma once
+// Who is held, loaded, heavy and dragged.
+#include "problem/build_groups.hpp"
+
+namespace elamin {
+
+/// Adds the supports to the model. A mistake: two that prescribe one coordinate differently; one that leaves the plane.
+/// Returns whether all of them could be built.
+bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
+
+/// Adds loads, gravity and viscosity. A mistake: a force out of the plane; gravity on particles without density.
+void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
+
+}  // namespace elamin

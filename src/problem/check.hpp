@@ -1,0 +1,22 @@
+#pragma once
+// What can be said of a problem before anything is built: names, references, and keys that go together or do not.
+#include "problem/mistakes.hpp"
+#include "problem/problem.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// Adds to the mistakes what is wrong and marks its tables as broken; of a table that is broken already, tells only what
+/// its mistakes do not explain.
+/// `other_names`: of structures that were refused, so that their groups are not missed too.
+void check_problem(Problem& problem, const std::vector<std::string>& other_names, Mistakes& mistakes);
+
+/// Columns that the tables of every run have; an observable may not take one of these names.
+const std::vector<std::string>& standing_columns();
+
+/// Whether a name is "type" and a number: the groups of a LAMMPS data file.
+bool is_type_group(const std::string& name);
+
+}  // namespace elamin

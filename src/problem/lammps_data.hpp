@@ -1,0 +1,40 @@
+#pragma once
+// Reader of LAMMPS data files (the file of `read_data` and `write_data`): particles, bonds, angles and their
+// coefficients.
+#include "core/types.hpp"
+#include "model/model.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// What a LAMMPS data file holds. Particles are sorted by id, which need not be contiguous; bonds and angles hold
+/// particle indices from 0 and types from 0. Types of particles and molecules are LAMMPS's own numbers (types from 1).
+struct LammpsData {
+  std::vector<int> id, type, molecule;
+  std::vector<double> diameter, density;   // 0: the atom style has none
+  std::vector<double> mass;                // of every particle, from the section Masses [mass]; 0: not given there
+  Field position;                          // 3 × particles [length], unwrapped with the image flags
+  Field velocity;                          // 3 × particles [length/time], or 3 × 0: none
+  std::vector<BondType> bond_types;
+  std::vector<AngleType> angle_types;
+  std::vector<Bond> bonds;
+  std::vector<Angle> angles;
+};
+
+/// Reads `file`. atom_style is LAMMPS's, such as "sphere" or "hybrid sphere angle"; "": what the comment of the section
+/// says, as in `Atoms # sphere`. The argument wins where both are there.
+///
+/// Atom styles: atomic, sphere, bond, angle, molecular, full, and hybrids of them, whose columns are id type x y z and
+/// then every sub-style's own in their order. `Atoms # hybrid` without sub-styles is taken for `hybrid sphere angle` if
+/// it has that many columns (8, or 11 with image flags). Image flags n move a particle by n box lengths.
+///
+/// Sections: Atoms, Velocities, Masses, Bonds, Angles, Bond Coeffs (harmonic), Angle Coeffs (cosine), in any order.
+/// A sphere's mass follows from its diameter and density; the Masses then serve for nothing, as in LAMMPS.
+/// Angular velocities and charges are read and dropped: nothing here depends on them.
+///
+/// Throws InputError with file, line and column of up to 20 mistakes; memory never grows beyond what the file holds.
+LammpsData read_lammps_data(const std::string& file, const std::string& atom_style = "");
+
+}  // namespace elamin

@@ -1,0 +1,137 @@
+#include "problem/lammps_lines.hpp"
+
+#include "problem/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace elamin {
+namespace {
+
+constexpr std::size_t most_mistakes = 20;
+
+bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+bool control(char c) { return (static_cast<unsigned char>(c) < 32 && c != '\n' && !blank(c)) || c == 127; }
+
+std::string read_text(const std::string& file) {
+  const auto refuse = [&](const std::string& what) { throw InputError({Mistake{file, 0, 0, {}, what}}); };
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) refuse("no such file; a LAMMPS data file is needed");
+  if (!std::filesystem::is_regular_file(status)) refuse("is not a file of text; a LAMMPS data file is needed");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  std::string text;
+  std::vector<char> block(1 << 20);
+  try {
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0) {
+      const std::string_view piece(block.data(), static_cast<std::size_t>(in.gcount()));
+      for (const char c : piece)
+        if (control(c)) refuse("is a binary file; a LAMMPS data file is text (write_data, not write_restart)");
+      text.append(piece);
+    }
+  } catch (const std::bad_alloc&) {
+    refuse("does not fit into the memory");
+  }
+  if (in.bad()) refuse("cannot be read to its end");
+  return text;
+}
+
+}  // namespace
+
+std::string joined(const DataLine& line, std::size_t first) {
+  std::string all;
+  for (std::size_t i = first; i < line.size(); ++i) (all += i > first ? " " : "") += line[i];
+  return all;
+}
+
+LammpsLines::LammpsLines(std::string file) : file_(std::move(file)), text_(read_text(file_)) {
+  position_ = text_.find('\n');
+  position_ = position_ == std::string::npos ? text_.size() : position_ + 1;
+  number_ = 1;
+}
+
+bool LammpsLines::next(DataLine& line) {
+  line.words.clear();
+  line.comment = {};
+  while (position_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+    std::string_view content(text_.data() + position_, end - position_);
+    position_ = end + 1;
+    line.number = ++number_;
+    if (const std::size_t hash = content.find('#'); hash != std::string_view::npos) {
+      line.comment = content.substr(hash + 1);
+      content = content.substr(0, hash);
+      while (!line.comment.empty() && blank(line.comment.front())) line.comment.remove_prefix(1);
+      while (!line.comment.empty() && blank(line.comment.back())) line.comment.remove_suffix(1);
+    }
+    for (std::size_t i = 0; i < content.size();) {
+      std::size_t j = i;
+      while (j < content.size() && !blank(content[j])) ++j;
+      if (j > i) line.words.push_back({content.substr(i, j - i), static_cast<int>(i) + 1});
+      i = j + 1;
+    }
+    if (!line.words.empty()) return true;
+  }
+  return false;
+}
+
+void LammpsLines::mistake(const DataLine& line, std::size_t word, std::string key, std::string what) {
+  mistake(line.number, word < line.size() ? line.words[word].column : 1, std::move(key), std::move(what));
+}
+
+void LammpsLines::mistake(int line, int column, std::string key, std::string what) {
+  mistakes_.push_back({file_, line, column, std::move(key), std::move(what)});
+  if (mistakes_.size() == most_mistakes) {
+    int end = 1;                                     // behind all of them
+    for (const Mistake& m : mistakes_)
+      if (m.line == number_) end = std::max(end, m.column);
+    mistakes_.push_back({file_, number_, end, {}, fmt::format("{} mistakes; there may be more", most_mistakes)});
+    finish();
+  }
+}
+
+void LammpsLines::finish() const {
+  if (!mistakes_.empty()) throw InputError(mistakes_);
+}
+
+std::optional<double> LammpsLines::number(const DataLine& line, std::size_t i, const std::string& key) {
+  std::string_view word = line[i];
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::result_out_of_range)
+    mistake(line, i, key, quoted(std::string(line[i])) + " is too large or too small for a floating-point number");
+  else if (error != std::errc{} || end != word.data() + word.size())
+    mistake(line, i, key, quoted(std::string(line[i])) + " is not a number");
+  else if (!std::isfinite(value))
+    mistake(line, i, key, quoted(std::string(line[i])) + " is not finite");
+  else
+    return value;
+  return std::nullopt;
+}
+
+std::optional<int> LammpsLines::integer(const DataLine& line, std::size_t i, const std::string& key, int lo, int hi) {
+  std::string_view word = line[i];
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  long long value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || error == std::errc::invalid_argument)
+    mistake(line, i, key, quoted(std::string(line[i])) + " is not an integer");
+  else if (error != std::errc{} || value < lo || value > hi)
+    mistake(line, i, key,
+            hi < lo ? quoted(std::string(line[i])) + " is out of range; the header of the file announces none"
+                    : fmt::format("{} is out of range; {} to {} is allowed", quoted(std::string(line[i])), lo, hi));
+  else
+    return static_cast<int>(value);
+  return std::nullopt;
+}
+
+}  // namespace elamin

@@ -1,0 +1,160 @@
+#pragma once
+// A problem file as plain numbers: every table a struct, every default in it. What the file says, not what it means.
+#include "core/types.hpp"
+#include "laws/section.hpp"
+#include "path/options.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// Where something stands in the problem file; line 0: it came from the command line.
+struct Place { int line = 0, column = 0; };
+
+/// Where a table and its keys stand, for messages that come after reading. It is not part of what the file says:
+/// two tables that say the same are equal wherever they stand.
+struct TablePlace : Place {
+  std::string key;                              // what `--set` calls the table: "beam.column", "support.2", "path"
+  std::map<std::string, Place> keys;            // of those that are written
+  bool broken = false;                          // a mistake was found in it
+  bool operator==(const TablePlace&) const { return true; }
+};
+
+struct BeamTable {
+  TablePlace place;
+  std::string name;
+  Section section = Section::cylinder;
+  int particles = 0;
+  std::optional<Vec3> from, to;                 // either these …
+  std::optional<Vec3> center, axis;             // … or these, with spacing
+  std::optional<double> spacing;                // default: the diameter
+  double diameter = 0;
+  std::optional<double> thickness;              // default: the diameter
+  std::optional<double> youngs_modulus;         // needed unless both stiffnesses are given
+  std::optional<double> density;
+  std::optional<double> bond_stiffness, angle_stiffness, rest_length;
+  bool operator==(const BeamTable&) const = default;
+};
+
+struct LammpsTable {
+  TablePlace place;
+  std::string data;                             // made absolute from the folder of the problem file
+  std::string atom_style;                       // "": what the file's "Atoms # …" says
+  bool operator==(const LammpsTable&) const = default;
+};
+
+struct GroupTable {
+  TablePlace place;
+  std::string name, of = "all";
+  std::optional<int> first, last, middle;
+  std::optional<std::vector<int>> ids;
+  struct Inside {                               // shape "block"
+    TablePlace place;
+    Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
+    bool operator==(const Inside&) const = default;
+  };
+  std::optional<Inside> inside;
+  bool operator==(const GroupTable&) const = default;
+};
+
+struct SupportTable {
+  TablePlace place;
+  std::string group, directions = "xyz";
+  Vec3 displacement = Vec3::Zero();
+  bool constant = false;
+  bool operator==(const SupportTable&) const = default;
+};
+
+struct LoadTable {
+  TablePlace place;
+  std::string group;
+  std::optional<Vec3> force, total_force;
+  bool constant = false;
+  bool operator==(const LoadTable&) const = default;
+};
+
+struct GravityTable {
+  TablePlace place;
+  std::string group = "all";
+  Vec3 acceleration = Vec3::Zero();
+  bool constant = true;
+  bool operator==(const GravityTable&) const = default;
+};
+
+struct ViscosityTable {
+  TablePlace place;
+  std::string group = "all";
+  double coefficient = 0;
+  bool operator==(const ViscosityTable&) const = default;
+};
+
+enum class StudyType { energy, equilibrium, path };
+
+struct PathTable {
+  TablePlace place;
+  std::string method = "load_steps";
+  int steps = 100;
+  double from = 0, to = 1;
+  WhenUnstable when_unstable = WhenUnstable::jump;
+  int branches = 0;
+  std::vector<std::string> locate{"limit", "branch", "contact"};
+  std::string start;                            // a states/LABEL.data to restart from, made absolute
+  std::optional<double> start_lambda;           // with start; default: `from`
+  bool operator==(const PathTable&) const = default;
+};
+
+struct SolverTable {
+  TablePlace place;
+  std::string method = "newton";
+  double tolerance = 1e-10;                     // residual, relative to the largest internal force
+  int max_iterations = 200;
+  bool operator==(const SolverTable&) const = default;
+};
+
+enum class Quantity { position, displacement, reaction, velocity };
+enum class Component { x, y, z, norm };
+enum class Reduce { mean, sum, min, max };
+
+struct ObserveTable {
+  TablePlace place;
+  std::string name, group;
+  Quantity quantity = Quantity::position;
+  Component component = Component::x;
+  Reduce reduce = Reduce::mean;                 // sum for a reaction
+  bool operator==(const ObserveTable&) const = default;
+};
+
+struct ExpectTable {
+  TablePlace place;
+  std::string observable, at = "final";         // a column of path.csv; "final", an event's label, or "lambda=VALUE"
+  double value = 0;
+  double rtol = 1e-8, atol = 0;
+  std::string source;
+  bool operator==(const ExpectTable&) const = default;
+};
+
+/// Everything one run needs. Sweeps are expanded before this is read (see sweep.hpp).
+struct Problem {
+  std::string file;                             // path of the problem file, as given
+  std::string sha256;                           // of its bytes, 64 hexadecimal digits
+  std::string title;
+  std::string plane;                            // "", "xy", "xz", "yz"
+  std::optional<LammpsTable> lammps;
+  std::vector<BeamTable> beams;
+  std::vector<GroupTable> groups;
+  std::vector<SupportTable> supports;
+  std::vector<LoadTable> loads;
+  std::vector<GravityTable> gravity;
+  std::vector<ViscosityTable> viscosity;
+  StudyType study = StudyType::path;
+  PathTable path;
+  SolverTable solver;
+  std::vector<ObserveTable> observe;
+  std::vector<ExpectTable> expect;
+  bool operator==(const Problem&) const = default;
+};
+
+}  // namespace elamin

@@ -1,0 +1,72 @@
+#include "problem/read.hpp"
+
+#include "problem/build.hpp"
+#include "problem/check.hpp"
+#include "problem/reader.hpp"
+#include "problem/tables.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace elamin {
+namespace {
+
+/// Defaults that are the values of other keys.
+void complete(Problem& p) {
+  for (BeamTable& b : p.beams) {
+    if (!b.thickness) b.thickness = b.diameter;
+    if (b.center && !b.spacing) b.spacing = b.diameter;
+  }
+  if (!p.path.start.empty() && !p.path.start_lambda) p.path.start_lambda = p.path.from;
+}
+
+/// Names inside tables that the schema does not know.
+std::vector<std::string> names_in_unknown_tables(const Document& document) {
+  std::vector<std::string> names;
+  for (const Entry& e : document.root) {
+    if (!is_tables(e.node) || unavailable(e.key).empty()) continue;
+    for (const Node& element : std::get<List>(e.node.value))
+      if (const Node* name = find(std::get<Entries>(element.value), "name"))
+        if (const auto* text = std::get_if<std::string>(&name->value)) names.push_back(*text);
+  }
+  return names;
+}
+
+/// Whether there is a table that is meant to be a structure and was refused.
+bool structure_refused(const Document& document) {
+  return std::any_of(document.root.begin(), document.root.end(), [](const Entry& e) {
+    const bool is_table = std::holds_alternative<Entries>(e.node.value) || is_tables(e.node);
+    return (e.key == "beam" && !is_tables(e.node)) || (is_table && !has_table(e.key));
+  });
+}
+
+}  // namespace
+
+ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
+  ProblemFile file;
+  const std::string folder = std::filesystem::path(document.file).parent_path().string();
+  Reader reader(document.root, {}, "", "", folder, mistakes);
+  describe(reader, file);
+  reader.finish();
+  file.problem.file = document.file;
+  file.problem.sha256 = document.sha256;
+  complete(file.problem);
+  if (file.problem.beams.empty() && !file.problem.lammps && !structure_refused(document))
+    mistakes.add("holds no structure; add a [[beam]] or a [lammps] data file");
+  check_problem(file.problem, names_in_unknown_tables(document), mistakes);
+  return file;
+}
+
+Problem read_problem(const std::string& file, const std::vector<Setting>& settings) {
+  Document document = read_document(file);
+  Mistakes mistakes(file);
+  for (const Setting& setting : settings) apply(setting, document, mistakes);
+  Problem problem = read_tables(document, mistakes).problem;
+  if (mistakes.any()) {
+    check_model(problem, !structure_refused(document), mistakes);   // what is whole may hold more mistakes, and all are told at once
+    mistakes.raise();
+  }
+  return problem;
+}
+
+}  // namespace elamin

@@ -1,0 +1,20 @@
+#pragma once
+// Help with a word that is not known: the nearest one, and all that are.
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// `; did you mean "steps"?` with the candidate nearest to `word`, or "" if none is near.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+
+/// `a, b, c`; a long list is cut short.
+std::string listed(const std::vector<std::string>& words);
+
+/// `"a", "b" or "c"`.
+std::string quoted_choice(const std::vector<std::string>& words);
+
+/// `"word"`, with control characters and what is too long left out.
+std::string quoted(const std::string& word);
+
+}  // namespace elamin

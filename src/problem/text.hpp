@@ -1,0 +1,22 @@
+#pragma once
+// The bytes of a file, before anything is known of them.
+#include "problem/problem.hpp"
+
+#include <string>
+
+namespace elamin {
+
+/// The contents of a file that is to be a text in UTF-8. Throws InputError if it is not there, is a folder, cannot be
+/// read, is larger than 64 MB, or holds bytes that are no text (with the line and column of the first).
+std::string read_text(const std::string& file);
+
+/// Whether the bytes are well-formed UTF-8 without the character 0.
+bool is_text(const std::string& bytes);
+
+/// Line and column, in characters from 1, of the byte at an offset.
+Place place_in(const std::string& text, std::size_t offset);
+
+/// SHA-256, as 64 hexadecimal digits.
+std::string sha256(const std::string& bytes);
+
+}  // namespace elamin

@@ -1,0 +1,29 @@
+#pragma once
+// The columns of path.csv, events.csv and sweep.csv, and how a point of a path becomes a row of them.
+#include "path/point.hpp"
+#include "results/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// step, label, branch, lambda, energy, bond, angle, external, residual, iterations, negative, stable, then the
+/// observables.
+std::vector<std::string> path_columns(const std::vector<std::string>& observables);
+Row path_row(const PathPoint& point, const std::vector<double>& observables);
+
+/// label, lambda, multiplicity, then the columns of path.csv without label and lambda.
+std::vector<std::string> event_columns(const std::vector<std::string>& observables);
+Row event_row(const PathPoint& point, const std::vector<double>& observables);
+
+/// An event's label has a colon and a number, as in "branch:1"; "initial" and "final" are no events.
+bool is_event(const std::string& label);
+
+/// The swept keys, status, the load factors of branch:1, limit:1 and contact:1 (empty: there was none), then the
+/// columns of path.csv with the values of the last row.
+std::vector<std::string> sweep_columns(const std::vector<std::string>& keys,
+                                       const std::vector<std::string>& observables);
+Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events);
+
+}  // namespace elamin

@@ -1,0 +1,42 @@
+#pragma once
+// The directory that a run leaves behind.
+#include "results/record.hpp"
+#include "results/summary.hpp"
+
+#include <fstream>
+#include <string>
+
+namespace elamin {
+
+/// path.csv, events.csv, states/, log.txt, resolved.toml and summary.json of one run. Every row, state and line is on
+/// the disk as soon as it is added, so that an interrupted run keeps what it has.
+class RunDirectory {
+ public:
+  /// Creates the directory and writes resolved.toml. Results of an earlier run in it are removed (a directory is one if
+  /// it holds a resolved.toml). problem and model must outlive this. Throws InputError if something cannot be written.
+  RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml);
+
+  /// A row of path.csv, of events.csv if it is an event, a state if it has a label; forces: see Record::add.
+  void add(const PathPoint& point, const Field& forces);
+
+  /// A line of log.txt, with the time.
+  void log(const std::string& line);
+
+  /// Writes summary.json.
+  void finish(const Summary& summary);
+
+  const Record& record() const { return record_; }
+  const std::string& directory() const { return directory_; }
+
+  /// The file of a label's state: "branch:1" → DIR/states/branch-1.data.
+  std::string state_file(const std::string& label) const;
+
+ private:
+  Record record_;
+  const Model& model_;
+  std::string directory_, title_;
+  std::ofstream log_;
+  CsvFile path_, events_;
+};
+
+}  // namespace elamin

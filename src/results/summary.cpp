@@ -1,0 +1,66 @@
+#include "results/summary.hpp"
+
+#include "results/text_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace elamin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json value(const Cell& cell) {
+  if (const bool* b = std::get_if<bool>(&cell)) return *b;
+  if (const int* i = std::get_if<int>(&cell)) return *i;
+  if (const double* d = std::get_if<double>(&cell)) return number(*d);
+  if (const std::string* s = std::get_if<std::string>(&cell)) return *s;
+  return nullptr;
+}
+
+Json object(const Table& table, const Row& row) {
+  Json all = Json::object();
+  for (std::size_t i = 0; i < row.size(); ++i) all[table.columns[i]] = value(row[i]);
+  return all;
+}
+
+Json object(const std::vector<std::pair<std::string, double>>& entries) {
+  Json all = Json::object();
+  for (const auto& [name, v] : entries) all[name] = number(v);
+  return all;
+}
+
+}  // namespace
+
+std::string status_name(Status status) {
+  switch (status) {
+    case Status::converged: return "done";
+    case Status::not_converged: return "not_converged";
+    case Status::interrupted: return "interrupted";
+  }
+  return "not_converged";
+}
+
+std::string version() { return ELAMIN_VERSION; }
+
+void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events) {
+  Json all;
+  all["title"] = summary.title;
+  all["status"] = summary.status;
+  all["message"] = summary.message;
+  all["points"] = path.rows.size();
+  all["events"] = Json::array();
+  for (const Row& row : events.rows) all["events"].push_back(object(events, row));
+  all["final"] = path.rows.empty() ? Json(nullptr) : object(path, path.rows.back());
+  all["times"] = object(summary.times);
+  all["version"] = version();
+  all["input"] = summary.input;
+  all["input_sha256"] = summary.input_sha256;
+  all["tolerances"] = object(summary.tolerances);
+  write_text(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");   // replace: text that is not UTF-8
+}
+
+}  // namespace elamin

@@ -1,0 +1,30 @@
+#pragma once
+// summary.json: how a run ended, and on what it stands.
+#include "results/table.hpp"
+#include "solve/report.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elamin {
+
+struct Summary {
+  std::string title, status, message;                          // status: see status_name
+  std::string input, input_sha256;                             // the problem file, and the hash of its bytes
+  std::vector<std::pair<std::string, double>> times;           // what and seconds
+  std::vector<std::pair<std::string, double>> tolerances;
+};
+
+/// "done", "not_converged" or "interrupted".
+std::string status_name(Status status);
+
+/// The version of this program.
+std::string version();
+
+/// Writes status, message, points, events (rows as objects), final (all columns of the last row, or null), times,
+/// version, input_sha256, tolerances. Numbers that are not finite become null. Throws InputError if it cannot be
+/// written.
+void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events);
+
+}  // namespace elamin

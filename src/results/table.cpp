@@ -1,0 +1,59 @@
+#include "results/table.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace elamin {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string all = "\"";
+  for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return all + "\"";
+}
+
+}  // namespace
+
+int column_index(const std::vector<std::string>& columns, const std::string& name) {
+  const auto it = std::find(columns.begin(), columns.end(), name);
+  return it == columns.end() ? -1 : static_cast<int>(it - columns.begin());
+}
+
+std::optional<double> as_number(const Cell& cell) {
+  if (const bool* b = std::get_if<bool>(&cell)) return *b ? 1.0 : 0.0;
+  if (const int* i = std::get_if<int>(&cell)) return *i;
+  if (const double* d = std::get_if<double>(&cell); d && std::isfinite(*d)) return *d;
+  return std::nullopt;
+}
+
+std::string csv_text(const Cell& cell) {
+  if (const bool* b = std::get_if<bool>(&cell)) return *b ? "true" : "false";
+  if (const int* i = std::get_if<int>(&cell)) return std::to_string(*i);
+  if (const double* d = std::get_if<double>(&cell)) return std::isfinite(*d) ? fmt::format("{:.17g}", *d) : "";
+  if (const std::string* s = std::get_if<std::string>(&cell)) return quoted(*s);
+  return "";
+}
+
+CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns)
+    : file_(std::move(file)), columns_(columns.size()), out_(file_, std::ios::binary) {
+  if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
+  add(Row(columns.begin(), columns.end()));
+}
+
+void CsvFile::add(const Row& row) {
+  if (row.size() != columns_)
+    throw std::logic_error(fmt::format("{}: a row of {} entries for {} columns", file_, row.size(), columns_));
+  std::string line;
+  for (std::size_t i = 0; i < row.size(); ++i) (line += i > 0 ? "," : "") += csv_text(row[i]);
+  out_ << line << '\n' << std::flush;
+  if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
+}
+
+}  // namespace elamin

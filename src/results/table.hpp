@@ -1,0 +1,42 @@
+#pragma once
+// Tables of results: kept in memory, and written row by row to a CSV file.
+#include <fstream>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace elamin {
+
+/// One entry; empty where nothing is known. A number that is not finite counts as empty wherever it is written.
+using Cell = std::variant<std::monostate, bool, int, double, std::string>;
+using Row = std::vector<Cell>;
+
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<Row> rows;
+};
+
+/// Index of a column, or -1.
+int column_index(const std::vector<std::string>& columns, const std::string& name);
+
+/// A cell as a number (true 1, false 0); nothing for text, empty cells and what is not finite.
+std::optional<double> as_number(const Cell& cell);
+
+/// A cell as it stands in a CSV file (RFC 4180): %.17g, true/false, text in quotes where it needs them; empty if empty.
+std::string csv_text(const Cell& cell);
+
+/// A CSV file with a header; every row is on the disk before add returns.
+class CsvFile {
+ public:
+  /// Creates the file and writes the header. Throws InputError if it cannot be written, as add does.
+  CsvFile(std::string file, const std::vector<std::string>& columns);
+  void add(const Row& row);
+
+ private:
+  std::string file_;
+  std::size_t columns_;
+  std::ofstream out_;
+};
+
+}  // namespace elamin

@@ -1,0 +1,81 @@
+#include "solve/cholesky.hpp"
+
+#include <cholmod.h>
+
+extern "C" void openblas_set_num_threads(int);
+
+#include <stdexcept>
+
+namespace elamin {
+
+namespace {
+
+// A view, no copy.
+cholmod_sparse view(const SparseMatrix& m) {
+  cholmod_sparse a{};
+  a.nrow = m.rows(), a.ncol = m.cols(), a.nzmax = m.nonZeros();
+  a.p = const_cast<int*>(m.outerIndexPtr()), a.i = const_cast<int*>(m.innerIndexPtr());
+  a.x = const_cast<double*>(m.valuePtr());
+  a.stype = -1, a.itype = CHOLMOD_INT, a.xtype = CHOLMOD_REAL, a.dtype = CHOLMOD_DOUBLE, a.sorted = 1, a.packed = 1;
+  return a;
+}
+
+}  // namespace
+
+struct Cholesky::Cholmod {
+  cholmod_common common;
+  cholmod_factor* factor = nullptr;
+  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;      // kept between solves: no allocation in the loop
+
+  Cholmod() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.final_ll = 1;
+    common.quick_return_if_not_posdef = 1;
+    common.supernodal = CHOLMOD_AUTO;
+    openblas_set_num_threads(1);                                // threaded sums would depend on the number of threads
+  }
+  ~Cholmod() {
+    release();
+    cholmod_finish(&common);
+  }
+  void release() {
+    if (factor) cholmod_free_factor(&factor, &common);
+    for (cholmod_dense** d : {&x, &y, &e})
+      if (*d) cholmod_free_dense(d, &common);
+  }
+};
+
+Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()) {}
+Cholesky::~Cholesky() = default;
+
+void Cholesky::analyze(const SparseMatrix& pattern) {
+  cholmod_->release();
+  cholmod_sparse a = view(pattern);
+  cholmod_->factor = cholmod_analyze(&a, &cholmod_->common);
+  if (!cholmod_->factor) throw std::runtime_error("CHOLMOD: the analysis of the pattern failed (out of memory?)");
+}
+
+bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
+  if (hessian.cols() == 0) return true;
+  cholmod_sparse a = view(hessian);
+  double beta[2] = {shift, 0};
+  const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, cholmod_->factor, &cholmod_->common);
+  if (!ok && cholmod_->common.status < 0) throw std::runtime_error("CHOLMOD: the factorisation failed (out of memory?)");
+  return cholmod_->common.status == CHOLMOD_OK && cholmod_->factor->minor == cholmod_->factor->n;
+}
+
+Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
+  if (b.rows() == 0) return b;
+  cholmod_dense rhs{};
+  rhs.nrow = b.rows(), rhs.ncol = b.cols(), rhs.nzmax = b.size(), rhs.d = b.rows();
+  rhs.x = const_cast<double*>(b.data()), rhs.xtype = CHOLMOD_REAL, rhs.dtype = CHOLMOD_DOUBLE;
+  Cholmod& c = *cholmod_;
+  if (!cholmod_solve2(CHOLMOD_A, c.factor, &rhs, nullptr, &c.x, nullptr, &c.y, &c.e, &c.common))
+    throw std::runtime_error("CHOLMOD: the solve failed");
+  return Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(c.x->x), b.rows(), b.cols());
+}
+
+Vector Cholesky::solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
+
+}  // namespace elamin

@@ -1,0 +1,58 @@
+#pragma once
+// What can be asked of the Hessian at a state: is it positive definite, its inertia, its lowest eigenpairs.
+#include "energy/energy.hpp"
+#include "solve/cholesky.hpp"
+#include "solve/pivoted.hpp"
+
+namespace elamin {
+
+/// Numbers of eigenvalues below zero and at zero, "zero" within the rounding of the assembled Hessian.
+struct Inertia {
+  int negative = 0, zero = 0;
+  bool positive_definite() const { return negative == 0 && zero == 0; }
+};
+
+/// Eigenvalues ascending [force/length], orthonormal eigenvectors as columns (dofs × count).
+struct EigenPairs {
+  Vector values;
+  Eigen::MatrixXd vectors;
+};
+
+/// Both factorisations of one energy's Hessian with their symbolic analyses. All calls speak of the Hessian of the
+/// energy's last evaluation.
+class Factors {
+ public:
+  explicit Factors(Energy& energy);
+
+  /// σ = 16 ε ‖H‖₁: eigenvalues within ±σ cannot be told from zero. [force/length]
+  double zero_level() const;
+  /// By LLᵀ of H − σI alone where that succeeds, else by the pivoted inertias of H ± σI.
+  Inertia inertia();
+  /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
+  /// it positive definite; returns τ.  The factor is then in cholesky().
+  double make_positive(double guess);
+  /// The `count` lowest eigenpairs, by block inverse iteration with Rayleigh–Ritz on a few guard vectors more, which
+  /// finds multiple eigenvalues as such; values are Rayleigh quotients formed element by element (Energy::quadratic_form).
+  /// `guess`: a shift that may make the Hessian positive definite, as of make_positive.
+  EigenPairs lowest(int count, double guess = 0);
+
+  Cholesky& cholesky() { return cholesky_; }
+  PivotedFactor& pivoted();
+  int factorizations() const { return factorizations_; }
+  bool try_cholesky(double shift) {
+    ++factorizations_;
+    return cholesky_.factorize(energy_.hessian(), shift);
+  }
+  bool try_pivoted(double shift) {
+    ++factorizations_;
+    return pivoted().factorize(energy_.hessian(), shift);
+  }
+
+ private:
+  Energy& energy_;
+  Cholesky cholesky_;
+  std::unique_ptr<PivotedFactor> pivoted_;       // made when first needed
+  int factorizations_ = 0;
+};
+
+}  // namespace elamin

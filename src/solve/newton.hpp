@@ -1,0 +1,56 @@
+#pragma once
+#include "solve/factors.hpp"
+#include "solve/report.hpp"
+
+#include <functional>
+
+namespace elamin {
+
+struct NewtonOptions {
+  double tolerance = 1e-10;        // residual, relative to the largest internal force
+  int max_iterations = 200;
+};
+
+/// Newton's method. Both calls leave the state where they got to, prescribed coordinates as they are, and evaluate the
+/// energy with its exact Hessian there.
+///
+/// Slender structures stretch 10³–10⁶ times less willingly than they bend: a straight step that turns a bond by θ stretches
+/// it by θ²/2, and the force of that stretch would stiffen the next Hessian beyond use. So the Hessian after a step takes
+/// the axial forces that the step's linearisation predicted (Energy::evaluate with `from`), which is Newton's method on
+/// the mixed energy of positions and axial forces, and steps are judged by the energy less what was not predicted of it:
+/// the number of iterations does not grow with slenderness. At an equilibrium both Hessians are the same.
+/// Source: Magisano, Leonetti, Garcea 2017, Int. J. Numer. Meth. Engng 109; turns of a bond are kept below 0.3 a step.
+class Newton {
+ public:
+  explicit Newton(Energy& energy, NewtonOptions options = {});
+
+  /// Finds a minimum: converged means a small residual and no negative eigenvalue. A saddle is left along its negative
+  /// curvature. Steps lower the energy (Armijo on what was predicted); where rounding hides the energy's change, they
+  /// must lower the residual.
+  Report minimise(State& state);
+
+  /// Finds the stationary point near the state, stable or not. Directions in the columns of `held` (orthonormal,
+  /// dofs × m) keep their value: zero modes, or the critical modes at an event. `from`: the equilibrium that a predictor
+  /// led here from, if one did. Not converged if the steps do not shrink.
+  Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr);
+
+  /// Moves the state from a saddle down along ± direction (dofs), sign as given, until the energy rises or what is
+  /// glued turns by a third of a radian. False if no lower energy is found.
+  bool leave_saddle(State& state, const Vector& direction);
+
+  Energy& energy() { return energy_; }
+  Factors& factors() { return factors_; }
+
+ private:
+  struct Step;
+  double residual() const;
+  void record(Report& report, double step, double shift) const;
+  bool attempt(const State& from, const Step& step, double alpha, State& to);
+  void polish(State& state, Report& report, const std::function<Vector(const Vector&)>& solve);
+
+  Energy& energy_;
+  NewtonOptions options_;
+  Factors factors_;
+};
+
+}  // namespace elamin

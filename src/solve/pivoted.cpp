@@ -1,0 +1,94 @@
+#include "solve/pivoted.hpp"
+
+#include <dmumps_c.h>
+
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+namespace {
+
+std::mutex one_at_a_time;                                  // the library keeps global state
+constexpr int fortran_communicator = -987654;              // MPI_COMM_WORLD of the sequential build
+
+}  // namespace
+
+struct PivotedFactor::Mumps {
+  DMUMPS_STRUC_C id{};
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+  bool started = false;
+
+  int& icntl(int i) { return id.icntl[i - 1]; }
+  void call(int job) {
+    id.job = job;
+    dmumps_c(&id);
+  }
+  void stop() {
+    if (started) call(-2);
+    started = false;
+  }
+};
+
+PivotedFactor::PivotedFactor() : mumps_(std::make_unique<Mumps>()) {}
+
+PivotedFactor::~PivotedFactor() {
+  const std::lock_guard lock(one_at_a_time);
+  mumps_->stop();
+}
+
+void PivotedFactor::analyze(const SparseMatrix& pattern) {
+  const std::lock_guard lock(one_at_a_time);
+  Mumps& m = *mumps_;
+  m.stop();
+  m.rows.clear(), m.columns.clear();
+  for (int j = 0; j < pattern.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(pattern, j); it; ++it)
+      m.rows.push_back(static_cast<int>(it.row()) + 1), m.columns.push_back(j + 1);
+  m.values.assign(m.rows.size(), 0.0);
+  m.id = {};
+  m.id.comm_fortran = fortran_communicator;
+  m.id.par = 1, m.id.sym = 2;
+  m.call(-1);
+  m.started = true;
+  for (int i = 1; i <= 4; ++i) m.icntl(i) = i == 4 ? 0 : -1;   // silent
+  m.icntl(13) = 1;                                         // no parallel root: its pivots would not be counted
+  m.icntl(14) = 50;                                        // % of memory for delayed pivots
+  m.icntl(10) = 0;                                         // Newton on exact residuals refines, not the solver
+  m.id.n = static_cast<int>(pattern.rows());
+  m.id.nnz = static_cast<std::int64_t>(m.rows.size());
+  m.id.irn = m.rows.data(), m.id.jcn = m.columns.data(), m.id.a = m.values.data();
+  m.call(1);
+  if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the analysis failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
+}
+
+bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift) {
+  const std::lock_guard lock(one_at_a_time);
+  Mumps& m = *mumps_;
+  for (std::size_t k = 0; k < m.values.size(); ++k)
+    m.values[k] = hessian.valuePtr()[k] + (m.rows[k] == m.columns[k] ? shift : 0.0);
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    m.call(2);
+    if (m.id.infog[0] != -8 && m.id.infog[0] != -9) break;   // workspace too small for the delayed pivots
+    m.icntl(14) *= 3;
+  }
+  if (m.id.infog[0] == -10) return false;                  // numerically singular
+  if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the factorisation failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
+  return true;
+}
+
+int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
+
+Vector PivotedFactor::solve(const Vector& b) {
+  const std::lock_guard lock(one_at_a_time);
+  Vector x = b;
+  mumps_->id.rhs = x.data(), mumps_->id.nrhs = 1, mumps_->id.lrhs = static_cast<int>(x.size());
+  mumps_->call(3);
+  if (mumps_->id.infog[0] < 0) throw std::runtime_error("MUMPS: the solve failed");
+  return x;
+}
+
+}  // namespace elamin

@@ -1,0 +1,22 @@
+#pragma once
+#include "problem/settings.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// `elamin energy`: energies and forces of the state that the file starts from, nothing solved.
+/// Prints a table, or JSON; writes the forces −∂U/∂x of all particles, held or not, plus the drag −γv of a moving state,
+/// to `forces_file` if that is not empty (id,fx,fy,fz in id order). Throws InputError as reading does.
+struct EnergyOptions {
+  std::string file;
+  std::vector<Setting> settings;
+  bool json = false;
+  std::string forces_file;
+  std::optional<double> load_factor;   // default: where the study starts; 1 without a path
+};
+void energy_command(const EnergyOptions& options);
+
+}  // namespace elamin

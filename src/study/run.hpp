@@ -1,0 +1,34 @@
+#pragma once
+// One study from its problem to its directory, and many of them side by side.
+#include "problem/problem.hpp"
+#include "problem/settings.hpp"
+#include "results/expectations.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// Exit statuses of the program.
+enum ExitStatus { exit_done = 0, exit_wrong_input = 1, exit_not_converged = 2, exit_not_met = 3, exit_interrupted = 130 };
+
+struct RunOptions {
+  std::string file;                    // the problem file
+  std::vector<Setting> settings;       // --set KEY=VALUE
+  std::string directory;               // "": the problem file's name without .toml
+  int threads = 0;                     // 0: all cores
+  bool quiet = false;
+};
+
+/// What a run came to.
+struct RunResult {
+  int exit_status = exit_done;
+  std::string directory;
+  std::vector<Verdict> verdicts;       // of its [[expect]]
+};
+
+/// Reads, checks, runs and writes a problem file; with [[sweep]] one run for each combination, in parallel.
+/// Throws InputError before anything is written if the file is wrong.
+RunResult run(const RunOptions& options);
+
+}  // namespace elamin

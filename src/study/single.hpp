@@ -1,0 +1,26 @@
+#pragma once
+// One run of one problem into one directory.
+#include "model/model.hpp"
+#include "results/expectations.hpp"
+#include "results/progress.hpp"
+#include "results/table.hpp"
+#include "solve/report.hpp"
+
+namespace elamin {
+
+struct SingleResult {
+  Status status = Status::converged;
+  std::string why;
+  Table path, events;
+  std::vector<std::string> observables;
+  std::vector<Verdict> verdicts;
+};
+
+/// Traces the study of a problem and writes everything it leaves to `directory` as it goes. What does not converge is in
+/// the result, not thrown; InputError if the directory cannot be written.
+SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, Progress::Style style);
+
+/// 0, 2 if not converged, 130 if interrupted.
+int exit_status(const SingleResult& result);
+
+}  // namespace elamin

@@ -1,0 +1,33 @@
+#pragma once
+// From a problem and its model to equilibria: which solver calls a study is made of.
+#include "path/load_steps.hpp"
+#include "problem/problem.hpp"
+
+#include <functional>
+
+namespace elamin {
+
+/// How a study ended.
+struct Outcome {
+  Status status = Status::converged;
+  std::string why;
+};
+
+/// Where the points of a study go, one by one, the last with `last` set; and sentences for the log.
+struct Sink {
+  std::function<void(const PathPoint& point, bool last)> point;
+  std::function<void(const std::string& note)> note;
+};
+
+/// The load factor that a problem starts at: path.start_lambda or path.from of a path; 1 (loads and displacements in
+/// full) of an energy or equilibrium study.
+double starting_load_factor(const Problem& problem);
+
+/// The state that a problem starts from: the model's (or the one it restarts from), with the prescribed coordinates where
+/// the load factor puts them.
+State starting_state(const Problem& problem, const Energy& energy);
+
+/// Runs the study and yields its points as they are found.
+Outcome trace(const Problem& problem, Energy& energy, const Sink& sink);
+
+}  // namespace elamin

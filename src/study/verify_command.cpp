@@ -1,0 +1,39 @@
+#include "study/verify_command.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace elamin {
+
+int verify_command(const std::vector<std::string>& files, const RunOptions& options) {
+  int status = exit_done, met = 0, expectations = 0, wrong = 0;
+  for (const std::string& file : files) {
+    RunOptions one = options;
+    one.file = file;
+    if (files.size() > 1 && !options.directory.empty())
+      one.directory = (std::filesystem::path(options.directory) / std::filesystem::path(file).stem()).string();
+    try {
+      const RunResult result = run(one);
+      int here = 0;
+      for (const Verdict& v : result.verdicts) {
+        here += v.met;
+        if (!v.met || !options.quiet) fmt::print("{} {}\n", v.met ? "met    " : "NOT MET", v.sentence);
+      }
+      const int all = static_cast<int>(result.verdicts.size());
+      met += here, expectations += all;
+      if (all == 0) fmt::print("{}: nothing is expected of this file: it has no [[expect]]\n", file);
+      status = std::max(status, here < all ? std::max<int>(result.exit_status, exit_not_met) : result.exit_status);
+      if (result.exit_status == exit_interrupted) return exit_interrupted;
+    } catch (const InputError& error) {
+      fmt::print(stderr, "{}\n", error.what());
+      ++wrong;
+    }
+  }
+  fmt::print("{} of {} expectations met in {} file{}\n", met, expectations, files.size(), files.size() == 1 ? "" : "s");
+  return wrong > 0 ? exit_wrong_input : status;
+}
+
+}  // namespace elamin

@@ -1,0 +1,140 @@
+#include "catch.hpp"
+#include "chain.hpp"
+#include "core/parallel.hpp"
+#include "energy/energy.hpp"
+#include "laws/check_law.hpp"
+
+using namespace elamin;
+
+namespace {
+
+// A bent chain with driven points, single directions, dead loads and weights of both kinds.
+Model loaded_model() {
+  Model m = chain(9, 50, 0.4, 1, Vec3(1, 0.2, -0.3));
+  hold(m, 0, 1);
+  hold(m, 7, 8, {true, false, true}, Vec3(-0.5, 0, 0.3));
+  m.loads.push_back({"", {3, 4}, Vec3(0.1, -0.2, 0.3), false});
+  m.loads.push_back({"", {5}, Vec3(0, 0.3, 0.1), true});
+  m.gravity.push_back({"", {2, 3, 4, 5}, Vec3(0.1, 0, -0.4), true});
+  m.gravity.push_back({"", {4, 5}, Vec3(0, 0.2, 0.4), false});
+  return m;
+}
+
+State bent(const Energy& energy, double load_factor) {
+  State state = energy.model().start;
+  energy.kinematics().prescribe(state, load_factor);
+  Vector step(energy.dofs());
+  for (Eigen::Index k = 0; k < step.size(); ++k) step[k] = 0.2 * std::sin(1.7 * static_cast<double>(k));
+  energy.kinematics().retract(state, step);
+  return state;
+}
+
+const double h = std::pow(epsilon, 0.2), accuracy = 100 * std::pow(epsilon, 0.8);
+
+}  // namespace
+
+TEST_CASE("the assembled energy agrees with its differences", "[energy]") {
+  const Model model = loaded_model();
+  Energy energy(model);
+  const State state = bent(energy, 0.7);
+  energy.evaluate(state);
+  const Vector g = energy.gradient();
+  const SparseMatrix lower = energy.hessian();
+  const Eigen::MatrixXd H = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+  CHECK(energy.last_terms().total() == energy.value(state));
+  CHECK(energy.dofs() == 5 * 3 + 2);
+  const double scale = H.norm();
+  for (int k = 0; k < energy.dofs(); ++k) {
+    const auto along = [&](double s) {
+      State moved = state;
+      energy.kinematics().retract(moved, Vector::Unit(energy.dofs(), k), s);
+      return moved;
+    };
+    const double slope = difference([&](double s) { return energy.value(along(s)); }, h);
+    CHECK(std::abs(slope - g[k]) <= accuracy * scale);
+    const Vector column = difference([&](double s) -> Vector { energy.evaluate(along(s), false); return energy.gradient(); }, h);
+    CHECK((column - H.col(k)).cwiseAbs().maxCoeff() <= accuracy * scale);
+  }
+}
+
+TEST_CASE("∂g/∂λ agrees with differences in the load factor", "[energy]") {
+  const Model model = loaded_model();
+  Energy energy(model);
+  const State state = bent(energy, 0.7);
+  energy.evaluate(state);
+  const Vector exact = energy.load_derivative();
+  const double scale = Eigen::MatrixXd(energy.hessian()).norm();
+  const Vector differences = difference([&](double s) -> Vector {
+    State moved = state;
+    energy.kinematics().prescribe(moved, state.load_factor + s);
+    energy.evaluate(moved, false);
+    return energy.gradient();
+  }, h);
+  CHECK((exact - differences).cwiseAbs().maxCoeff() <= accuracy * scale);
+  CHECK(exact.norm() > 0);
+}
+
+TEST_CASE("products element by element agree with the assembled Hessian", "[energy]") {
+  const Model model = loaded_model();
+  Energy energy(model);
+  energy.evaluate(bent(energy, 0.7));
+  const Eigen::MatrixXd H = Eigen::MatrixXd(energy.hessian()).selfadjointView<Eigen::Lower>();
+  Vector v(energy.dofs());
+  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = std::cos(2.3 * static_cast<double>(k));
+  CHECK((energy.multiply(v) - H * v).norm() <= 64 * epsilon * H.norm() * v.norm());
+  CHECK(std::abs(energy.quadratic_form(v) - v.dot(H * v)) <= 64 * epsilon * H.norm() * v.squaredNorm());
+}
+
+TEST_CASE("forces of all particles are minus the gradient and balance the loads", "[energy]") {
+  const Model model = loaded_model();
+  Energy energy(model);
+  const State state = bent(energy, 0.7);
+  const Field forces = energy.forces(state);
+  energy.evaluate(state);
+  CHECK((energy.kinematics().restrict(forces) + energy.gradient()).norm() == 0);
+  Vec3 loads = Vec3::Zero();
+  for (const Load& l : model.loads) loads += l.force * static_cast<double>(l.particles.size()) * (l.constant ? 1.0 : 0.7);
+  for (const Gravity& g : model.gravity)
+    for (const int p : g.particles) loads += model.mass(p) * g.acceleration * (g.constant ? 1.0 : 0.7);
+  CHECK((forces.rowwise().sum() - loads).norm() <= 64 * epsilon * energy.force_scale());
+}
+
+TEST_CASE("a plane takes its normal out of the dofs", "[energy]") {
+  Model model = chain(5, 1, 1, 1);
+  model.plane_normal = 1;
+  hold(model, 0, 0);
+  CHECK(Energy(model).dofs() == 4 * 2);
+}
+
+TEST_CASE("prescribed coordinates are where the load factor puts them", "[energy]") {
+  Model model = chain(3, 1, 1, 1);
+  hold(model, 2, 2, {true, false, true}, Vec3(0.25, 0, -0.5));
+  Support constant;
+  constant.particles = {0}, constant.displacement = Vec3(0, 0.125, 0), constant.constant = true;
+  model.supports.push_back(constant);
+  const Kinematics kinematics(model);
+  State state = model.start;
+  kinematics.prescribe(state, 0.5);
+  CHECK(state.position.col(2) == Vec3(0.125, 0, 1.75));
+  CHECK(state.position.col(0) == Vec3(0, 0.125, 0));
+  CHECK(state.load_factor == 0.5);
+  kinematics.prescribe(state, 0.25);
+  CHECK(state.position.col(2) == Vec3(0.0625, 0, 1.875));
+}
+
+TEST_CASE("same bits for any number of threads", "[energy]") {
+  Model model = chain(30000, 50, 0.4, 1, Vec3(1, 0.2, -0.3));
+  hold(model, 0, 1);
+  Energy energy(model);
+  const State state = bent(energy, 0);
+  set_threads(1);
+  energy.evaluate(state);
+  const Vector g = energy.gradient();
+  const SparseMatrix H = energy.hessian();
+  const double e = energy.last_terms().total();
+  set_threads(2);
+  energy.evaluate(state);
+  CHECK(e == energy.last_terms().total());
+  CHECK(g == energy.gradient());
+  CHECK(std::equal(H.valuePtr(), H.valuePtr() + H.nonZeros(), energy.hessian().valuePtr()));
+}

@@ -1,0 +1,72 @@
+#include "results/progress.hpp"
+
+#include "catch.hpp"
+#include "results/columns.hpp"
+#include "results/sample.hpp"
+#include "scratch_directory.hpp"
+
+#include <algorithm>
+
+using namespace elamin;
+
+namespace {
+
+/// What is shown of a path of 1000 steps with an event at step 500.
+std::string shown(Progress::Style style) {
+  ScratchDirectory scratch;
+  const std::string file = scratch / "out";
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  REQUIRE(out != nullptr);
+  {
+    const Model m = sample_model();
+    Progress progress(out, style, 0, 1);
+    for (int i = 0; i <= 1000; ++i) progress.show(sample_point(m, i, i / 1000.0, i == 500 ? "branch:1" : ""));
+  }
+  std::fclose(out);
+  return text_of(file);
+}
+
+}  // namespace
+
+TEST_CASE("a line of progress has step, load factor, energy, residual and stability", "[progress]") {
+  const Model m = sample_model();
+  PathPoint p = sample_point(m, 17, 0.125);
+  CHECK(progress_line(p).find("step   17  load factor 0.125 ") == 0);
+  CHECK(progress_line(p).find("residual 3e-14  stable") != std::string::npos);
+  CHECK(progress_line(p).size() < 80);
+  p.stability.stable = false, p.label = "limit:1";
+  CHECK(progress_line(p).find("critical  limit:1") != std::string::npos);
+  p.stability.negative = 2;
+  CHECK(progress_line(p).find("unstable (2)  limit:1") != std::string::npos);
+}
+
+TEST_CASE("progress is quiet, sparse in a file, and one line on a terminal", "[progress]") {
+  CHECK(shown(Progress::Style::silent).empty());
+  const std::string plain = shown(Progress::Style::plain);
+  const auto lines = std::count(plain.begin(), plain.end(), '\n');
+  CHECK(lines >= 11);                                       // the first and every tenth
+  CHECK(lines <= 40);                                       // more only if this takes many seconds
+  CHECK(plain.find("branch:1") != std::string::npos);
+  CHECK(plain.find('\r') == std::string::npos);
+  const std::string terminal = shown(Progress::Style::terminal);
+  CHECK(std::count(terminal.begin(), terminal.end(), '\n') == 1);      // the event stays
+  CHECK(terminal.find("branch:1\x1b[K\n") != std::string::npos);
+  ScratchDirectory scratch;
+  std::FILE* out = std::fopen((scratch / "out").c_str(), "w");
+  CHECK(Progress::style_for(out, true) == Progress::Style::silent);
+  CHECK(Progress::style_for(out, false) == Progress::Style::plain);
+  std::fclose(out);
+}
+
+TEST_CASE("the closing table lists the events", "[progress]") {
+  const Model m = sample_model();
+  Table events{event_columns({}), {}};
+  CHECK(closing_table(events) == "No events on the path.\n");
+  PathPoint p = sample_point(m, 2, 0.123456789012, "branch:1");
+  p.multiplicity = 2;
+  events.rows.push_back(event_row(p, {}));
+  const std::string text = closing_table(events);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2);
+  CHECK(text.find("branch:1") != std::string::npos);
+  CHECK(text.find("0.123456789 ") != std::string::npos);
+}

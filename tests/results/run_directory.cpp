@@ -1,0 +1,148 @@
+#include "results/run_directory.hpp"
+
+#include "catch.hpp"
+#include "core/error.hpp"
+#include "problem/lammps_data.hpp"
+#include "results/sample.hpp"
+#include "scratch_directory.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+using namespace elamin;
+using nlohmann::json;
+
+namespace {
+
+Problem sample_problem() {
+  Problem problem;
+  problem.file = "p.toml", problem.title = "a chain";
+  problem.observe = {observe("mid_x", "two", Quantity::displacement, Component::x, Reduce::max)};
+  return problem;
+}
+
+long lines_of(const std::string& file) {
+  const std::string text = text_of(file);
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+}  // namespace
+
+TEST_CASE("a run leaves its rows, states, log and summary", "[run_directory]") {
+  ScratchDirectory scratch;
+  const Model m = sample_model();
+  const Problem problem = sample_problem();
+  const Field forces = Field::Zero(3, 5);
+  RunDirectory run(scratch / "deep/run", problem, m, "title = \"a chain\"\n");
+  CHECK(text_of(scratch / "deep/run/resolved.toml") == "title = \"a chain\"\n");
+  CHECK(lines_of(scratch / "deep/run/path.csv") == 1);
+  run.add(sample_point(m, 0, 0, "initial"), forces);
+  run.add(sample_point(m, 1, 0.5), forces);
+  PathPoint event = sample_point(m, 2, 0.6, "branch:1");
+  event.multiplicity = 2, event.report.residual = std::nan("");
+  run.add(event, forces);
+  CHECK(lines_of(scratch / "deep/run/path.csv") == 4);           // there before the run ends
+  CHECK(lines_of(scratch / "deep/run/events.csv") == 2);
+  CHECK(text_of(scratch / "deep/run/events.csv").find("\nbranch:1,0.59999999999999998,2,2,0,") != std::string::npos);
+  CHECK(!std::filesystem::exists(scratch / "deep/run/summary.json"));
+  run.add(sample_point(m, 3, 1, "final"), forces);
+  for (const char* name : {"initial", "branch-1", "final"})
+    CHECK(std::filesystem::exists(scratch / ("deep/run/states/" + std::string(name) + ".data")));
+  CHECK(run.state_file("branch:1") == scratch / "deep/run/states/branch-1.data");
+  CHECK(read_lammps_data(run.state_file("branch:1")).position == event.state.position);
+  CHECK(text_of(run.state_file("branch:1")).find("a chain; branch:1; load factor 0.59999999999999998\n") == 0);
+
+  Summary summary;
+  summary.title = problem.title, summary.status = status_name(Status::converged),
+  summary.message = "reached the load factor 1\xff";
+  summary.input = "p.toml", summary.input_sha256 = std::string(64, 'a');
+  summary.times = {{"total", 1.5}, {"solve", std::nan("")}};
+  summary.tolerances = {{"residual", 1e-10}};
+  run.finish(summary);
+  const std::string text = text_of(scratch / "deep/run/summary.json");
+  CHECK(text.find("nan") == std::string::npos);
+  const json j = json::parse(text);
+  CHECK(j["status"] == "done");
+  CHECK(j["message"].get<std::string>().find("reached the load factor 1") == 0);
+  CHECK(j["points"] == 4);
+  REQUIRE(j["events"].size() == 1);
+  CHECK(j["events"][0]["label"] == "branch:1");
+  CHECK(j["events"][0]["lambda"] == 0.6);
+  CHECK(j["events"][0]["multiplicity"] == 2);
+  CHECK(j["events"][0]["residual"].is_null());
+  CHECK(j["events"][0]["mid_x"].get<double>() == Approx(0.6).epsilon(1e-15));
+  CHECK(j["final"]["lambda"] == 1.0);
+  CHECK(j["final"]["stable"] == true);
+  CHECK(j["final"]["energy"].get<double>() == sample_point(m, 3, 1).energy.total());      // all 17 digits
+  for (const std::string& column : run.record().path().columns) CHECK(j["final"].contains(column));
+  CHECK(j["times"]["total"] == 1.5);
+  CHECK(j["times"]["solve"].is_null());
+  CHECK(j["tolerances"]["residual"] == 1e-10);
+  CHECK(j["version"] == version());
+  CHECK(j["input_sha256"] == std::string(64, 'a'));
+
+  run.log("one line");
+  run.log("another");
+  const std::string log = text_of(scratch / "deep/run/log.txt");
+  CHECK(lines_of(scratch / "deep/run/log.txt") == 2);
+  CHECK(log.find("20") == 0);                                    // begins with the date
+  CHECK(log.find(" one line\n20") != std::string::npos);
+  CHECK(log.find(" another\n") != std::string::npos);
+}
+
+TEST_CASE("a run that found nothing still has a summary", "[run_directory]") {
+  ScratchDirectory scratch;
+  const Model m = sample_model();
+  const Problem problem = sample_problem();
+  RunDirectory run(scratch / "run", problem, m, "");
+  Summary summary;
+  summary.status = status_name(Status::not_converged);
+  run.finish(summary);
+  const json j = json::parse(text_of(scratch / "run/summary.json"));
+  CHECK(j["status"] == "not_converged");
+  CHECK(j["final"].is_null());
+  CHECK(j["events"].empty());
+  CHECK(j["events"].is_array());
+  CHECK(status_name(Status::interrupted) == "interrupted");
+}
+
+TEST_CASE("a second run in the same directory leaves nothing of the first, and nothing else is touched",
+          "[run_directory]") {
+  ScratchDirectory scratch;
+  const Model m = sample_model();
+  const Problem problem = sample_problem();
+  std::filesystem::create_directories(scratch / "run/states");
+  scratch.file("run/states/mine.data", "not of a run");
+  {
+    RunDirectory run(scratch / "run", problem, m, "");
+    CHECK(std::filesystem::exists(scratch / "run/states/mine.data"));
+    run.add(sample_point(m, 0, 0, "limit:1"), Field::Zero(3, 5));
+    run.finish({});
+  }
+  scratch.file("run/notes.txt", "mine");
+  RunDirectory run(scratch / "run", problem, m, "");
+  CHECK(!std::filesystem::exists(scratch / "run/states/limit-1.data"));
+  CHECK(!std::filesystem::exists(scratch / "run/summary.json"));
+  CHECK(lines_of(scratch / "run/path.csv") == 1);
+  CHECK(lines_of(scratch / "run/events.csv") == 1);
+  CHECK(text_of(scratch / "run/notes.txt") == "mine");
+}
+
+TEST_CASE("a directory that cannot be made is a sentence, and a wrong observable makes none", "[run_directory]") {
+  ScratchDirectory scratch;
+  const Model m = sample_model();
+  Problem problem = sample_problem();
+  scratch.file("taken", "a file");
+  try {
+    RunDirectory(scratch / "taken", problem, m, "");
+    FAIL("no error");
+  } catch (const InputError& e) {
+    CHECK(std::string(e.what()).find("taken: cannot be created: ") != std::string::npos);
+  }
+  problem.observe[0].group = "nobody";
+  CHECK_THROWS_AS(RunDirectory(scratch / "run", problem, m, ""), InputError);
+  CHECK(!std::filesystem::exists(scratch / "run"));
+}

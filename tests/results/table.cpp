@@ -1,0 +1,119 @@
+#include "results/table.hpp"
+
+#include "catch.hpp"
+#include "core/error.hpp"
+#include "results/columns.hpp"
+#include "results/sample.hpp"
+#include "results/sweep_table.hpp"
+#include "scratch_directory.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <thread>
+
+using namespace elamin;
+
+TEST_CASE("cells of a CSV file", "[table]") {
+  CHECK(csv_text({}) == "");
+  CHECK(csv_text(true) == "true");
+  CHECK(csv_text(false) == "false");
+  CHECK(csv_text(-3) == "-3");
+  CHECK(csv_text(std::string("branch:1")) == "branch:1");
+  CHECK(csv_text(std::string("a,b")) == "\"a,b\"");
+  CHECK(csv_text(std::string("say \"x\"\n")) == "\"say \"\"x\"\"\n\"");
+  CHECK(csv_text(std::nan("")) == "");
+  CHECK(csv_text(std::numeric_limits<double>::infinity()) == "");
+  for (const double x : {0.1, 1.0 / 3, -1e-300, 5e-324, 1.7976931348623157e308})
+    CHECK(std::strtod(csv_text(x).c_str(), nullptr) == x);
+  CHECK(as_number(true) == 1.0);
+  CHECK(as_number(2) == 2.0);
+  CHECK(as_number(0.5) == 0.5);
+  CHECK(!as_number(std::nan("")));
+  CHECK(!as_number(std::string("1")));
+  CHECK(!as_number({}));
+}
+
+TEST_CASE("a CSV file has every row as soon as it is added", "[table]") {
+  ScratchDirectory scratch;
+  CsvFile csv(scratch / "a.csv", {"x", "a,b"});
+  CHECK(text_of(scratch / "a.csv") == "x,\"a,b\"\n");
+  csv.add({1, 0.5});
+  CHECK(text_of(scratch / "a.csv") == "x,\"a,b\"\n1,0.5\n");
+  csv.add({Cell{}, true});
+  CHECK(text_of(scratch / "a.csv") == "x,\"a,b\"\n1,0.5\n,true\n");
+  CHECK_THROWS_AS(csv.add({1}), std::logic_error);
+  CHECK_THROWS_AS(CsvFile(scratch / "none/a.csv", {"x"}), InputError);
+  if (std::ifstream("/dev/full")) CHECK_THROWS_AS(CsvFile("/dev/full", {"x"}), InputError);
+}
+
+TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[table]") {
+  const Model m = sample_model();
+  const std::vector<std::string> names{"mid_x", "push"};
+  Table path{path_columns(names), {}}, events{event_columns(names), {}};
+  CHECK(path.columns == std::vector<std::string>{"step", "label", "branch", "lambda", "energy", "bond", "angle",
+                                                 "external", "residual", "iterations", "negative", "stable", "mid_x",
+                                                 "push"});
+  CHECK(events.columns == std::vector<std::string>{"label", "lambda", "multiplicity", "step", "branch", "energy",
+                                                   "bond", "angle", "external", "residual", "iterations", "negative",
+                                                   "stable", "mid_x", "push"});
+  PathPoint p = sample_point(m, 3, 0.25, "branch:1");
+  p.branch = 1, p.multiplicity = 2, p.stability.negative = 5, p.stability.stable = false, p.report.iterations = 8;
+  path.rows.push_back(path_row(p, {0.75, -2}));
+  events.rows.push_back(event_row(p, {0.75, -2}));
+  const auto cell = [](const Table& t, const std::string& name) {
+    return t.rows.at(0).at(column_index(t.columns, name));
+  };
+  for (const Table* t : {&path, &events}) {
+    REQUIRE(t->rows[0].size() == t->columns.size());
+    CHECK(cell(*t, "step") == Cell(3));
+    CHECK(cell(*t, "label") == Cell(std::string("branch:1")));
+    CHECK(cell(*t, "branch") == Cell(1));
+    CHECK(cell(*t, "lambda") == Cell(0.25));
+    CHECK(cell(*t, "energy") == Cell(p.energy.total()));
+    CHECK(cell(*t, "bond") == Cell(p.energy.bond));
+    CHECK(cell(*t, "angle") == Cell(p.energy.angle));
+    CHECK(cell(*t, "external") == Cell(p.energy.external));
+    CHECK(cell(*t, "residual") == Cell(3e-14));
+    CHECK(cell(*t, "iterations") == Cell(8));
+    CHECK(cell(*t, "negative") == Cell(5));
+    CHECK(cell(*t, "stable") == Cell(false));
+    CHECK(cell(*t, "mid_x") == Cell(0.75));
+    CHECK(cell(*t, "push") == Cell(-2.0));
+  }
+  CHECK(cell(events, "multiplicity") == Cell(2));
+  CHECK(column_index(path.columns, "multiplicity") == -1);
+
+  const auto columns = sweep_columns({"beam.column.particles"}, names);
+  const Row row = sweep_row({14}, "done", path, events);
+  REQUIRE(row.size() == columns.size());
+  CHECK(row[column_index(columns, "beam.column.particles")] == Cell(14));
+  CHECK(row[column_index(columns, "status")] == Cell(std::string("done")));
+  CHECK(row[column_index(columns, "branch:1")] == Cell(0.25));
+  CHECK(row[column_index(columns, "limit:1")] == Cell());
+  CHECK(row[column_index(columns, "push")] == Cell(-2.0));
+  CHECK(sweep_row({14}, "not_converged", {path.columns, {}}, {events.columns, {}}).size() == columns.size());
+  CHECK(is_event("limit:2"));
+  CHECK(!is_event("final"));
+}
+
+TEST_CASE("rows of a sweep stand in the order of its runs", "[table]") {
+  ScratchDirectory scratch;
+  std::string expected = "run\n";
+  {
+    SweepTable sweep(scratch / "sweep.csv", {"run"});
+    sweep.add(1, {1});
+    CHECK(text_of(scratch / "sweep.csv") == "run\n");
+    sweep.add(0, {0});
+    CHECK(text_of(scratch / "sweep.csv") == "run\n0\n1\n");
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        for (int i = 49 - t; i >= 2; i -= 4) sweep.add(i, {i});
+      });
+    for (auto& t : threads) t.join();
+    sweep.add(60, {60});                          // run 50 never ends: what is known is kept
+  }
+  for (int i = 0; i < 50; ++i) expected += std::to_string(i) + "\n";
+  CHECK(text_of(scratch / "sweep.csv") == expected + "60\n");
+}
