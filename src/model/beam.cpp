@@ -77,7 +77,8 @@ void add_beams(Model& model, const std::vector<StraightBeam>& beams) {
     model.diameter.resize(end, beam.diameter);
     model.density.resize(end, beam.density);
 
-    const int bond_type = static_cast<int>(model.bond_types.size()), angle_type = static_cast<int>(model.angle_types.size());
+    const int bond_type = static_cast<int>(model.bond_types.size()),
+              angle_type = static_cast<int>(model.angle_types.size());
     model.bond_types.push_back(beam.bond);
     model.angle_types.push_back(beam.angle);
     for (int i = first; i + 1 < end; ++i) model.bonds.push_back({bond_type, {i, i + 1}});

@@ -97,7 +97,8 @@ class Builder {
     for (const BeamTable& b : p_.beams) total += b.particles;
     if (total > most_particles) {
       if (total - model_.particles() <= most_particles)   // else said when the file was read
-        mistakes_.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", total, most_particles));
+        mistakes_.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", total,
+                                  most_particles));
       return false;
     }
     if (total * room > memory()) {
@@ -122,7 +123,8 @@ class Builder {
     if (table.from)
       b.from.hi = *table.from, b.to.hi = *table.to;
     else
-      std::tie(b.from, b.to) = std::tuple_cat(ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter), intervals));
+      std::tie(b.from, b.to) =
+          std::tuple_cat(ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter), intervals));
     const double spacing = (distance(b.from, b.to) / Exact{static_cast<double>(intervals), 0}).value();
     if (!std::isfinite(spacing)) {
       mistakes_.add(table.place, "its length is beyond what numbers can hold");
@@ -131,13 +133,15 @@ class Builder {
     // Neighbours must be told apart by doubles, or every length is rounding.
     const double farthest = std::max(b.from.hi.cwiseAbs().maxCoeff(), b.to.hi.cwiseAbs().maxCoeff());
     if (spacing <= 1e-12 * farthest) {
-      mistakes_.add(table.place, fmt::format("its spacing, {}, is lost beside its coordinates, {}; place it nearer to the origin",
-                                             spacing, farthest));
+      mistakes_.add(table.place,
+                    fmt::format("its spacing, {}, is lost beside its coordinates, {}; place it nearer to the origin",
+                                spacing, farthest));
       return std::nullopt;
     }
     b.bond.rest_length = table.rest_length.value_or(spacing);
     b.bond.stiffness = table.bond_stiffness.value_or(bond_stiffness(table.section, E, thickness, b.bond.rest_length));
-    b.angle.stiffness = table.angle_stiffness.value_or(angle_stiffness(table.section, E, thickness, b.bond.rest_length));
+    b.angle.stiffness =
+        table.angle_stiffness.value_or(angle_stiffness(table.section, E, thickness, b.bond.rest_length));
     for (const auto& [name, value] : {std::pair("bond", b.bond.stiffness), {"angle", b.angle.stiffness}})
       if (!std::isnormal(value)) {
         mistakes_.add(table.place, fmt::format("its {} stiffness, {}, is beyond what numbers can hold", name, value));
@@ -152,7 +156,8 @@ class Builder {
     if (data->id != model_.id) {
       mistakes_.add(p_.path.place, "start",
                     data->id.size() != model_.id.size()
-                        ? fmt::format("holds {} particles, the problem {}; it must be a state of this problem", data->id.size(), model_.id.size())
+                        ? fmt::format("holds {} particles, the problem {}; it must be a state of this problem",
+                                      data->id.size(), model_.id.size())
                         : "holds particles with other ids; it must be a state of this problem");
       return;
     }

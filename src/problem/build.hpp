@@ -6,10 +6,10 @@
 
 namespace elamin {
 
-/// Builds the model. Particles, in this order: those of the LAMMPS data file with their own ids and types, then beam after
-/// beam, with new ids, types and molecules counting on. Groups: "all", the structures, "type1", … of the data file, then
-/// the named ones. Model::start is the reference configuration at load factor path.from; Model::restart is path.start.
-/// Throws InputError with all mistakes.
+/// Builds the model. Particles, in this order: those of the LAMMPS data file with their own ids and types, then beam
+/// after beam, with new ids, types and molecules counting on. Groups: "all", the structures, "type1", … of the data
+/// file, then the named ones. Model::start is the reference configuration at load factor path.from; Model::restart is
+/// path.start. Throws InputError with all mistakes.
 Model build_model(const Problem& problem);
 
 /// Builds and forgets the model: adds to the mistakes what build_model would throw, leaving out broken tables and what

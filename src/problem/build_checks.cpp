@@ -49,16 +49,19 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
       const bool allowed = of_file && problem.study == StudyType::energy;
       if (!allowed && told.insert({structure[i], structure[j]}).second) {
         const Vec3 x = model.start.position.col(i);
-        mistakes.add(place_of(problem, second),
-                     fmt::format("particle {} is in the same place as particle {} of \"{}\", [{}, {}, {}]; particles must lie apart",
-                                 model.id[j], model.id[i], first.name, x[0], x[1], x[2]));
+        mistakes.add(
+            place_of(problem, second),
+            fmt::format(
+                "particle {} is in the same place as particle {} of \"{}\", [{}, {}, {}]; particles must lie apart",
+                model.id[j], model.id[i], first.name, x[0], x[1], x[2]));
       }
       if (told.size() > 20) return;
       break;   // on to the next of the list, so that a heap of many in one place takes no longer
     }
 }
 
-void check_plane(const Problem& problem, const Model& model, const Field& position, const TablePlace& whose, Mistakes& mistakes) {
+void check_plane(const Problem& problem, const Model& model, const Field& position, const TablePlace& whose,
+                 Mistakes& mistakes) {
   if (!model.plane_normal || position.cols() == 0) return;
   const int c = *model.plane_normal;
   const auto coordinate = position.row(c);
@@ -67,7 +70,8 @@ void check_plane(const Problem& problem, const Model& model, const Field& positi
   const double off = (coordinate.array() - level).abs().maxCoeff(&i);
   if (off > allowed)
     mistakes.add(whose, fmt::format("particle {} is not in the plane \"{}\" of particle {}: {} is {} instead of {}",
-                                    model.id[static_cast<std::size_t>(i)], problem.plane, model.id[0], "xyz"[c], coordinate[i], level));
+                                    model.id[static_cast<std::size_t>(i)], problem.plane, model.id[0], "xyz"[c],
+                                    coordinate[i], level));
 }
 
 void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
@@ -90,8 +94,9 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
   for (int i = 0; i < model.particles(); ++i) {
     if (held[find(i)] || told[structure[i]]++) continue;
     const Structure& s = model.structures[structure[i]];
-    const std::string part = s.kind == "beam" ? "none of its particles is held by a support"
-                                              : fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
+    const std::string part =
+        s.kind == "beam" ? "none of its particles is held by a support"
+                         : fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
     mistakes.add(place_of(problem, s), part + "; an equilibrium needs a [[support]]");
   }
 }

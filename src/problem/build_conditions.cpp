@@ -17,15 +17,19 @@ void stay_in_plane(const Problem& problem, const Model& model, const TablePlace&
                    Mistakes& mistakes) {
   if (!model.plane_normal || v[*model.plane_normal] == 0) return;
   const char normal = "xyz"[*model.plane_normal];
-  mistakes.add(place, key, fmt::format("leads out of the plane \"{}\": its {} component is {}; it must be 0", problem.plane, normal,
-                                       v[*model.plane_normal]));
+  mistakes.add(place, key,
+               fmt::format("leads out of the plane \"{}\": its {} component is {}; it must be 0", problem.plane, normal,
+                           v[*model.plane_normal]));
 }
 
 /// Which support holds each coordinate of each particle; two that hold one alike are fine.
 class Holders {
  public:
   Holders(const Problem& problem, const Model& model, Mistakes& mistakes)
-      : problem_(problem), model_(model), mistakes_(mistakes), holder_(3 * static_cast<std::size_t>(model.particles()), -1) {}
+      : problem_(problem),
+        model_(model),
+        mistakes_(mistakes),
+        holder_(3 * static_cast<std::size_t>(model.particles()), -1) {}
 
   void hold(int table, const Support& s) {
     for (const int i : s.particles)
@@ -45,11 +49,12 @@ class Holders {
     const double here = a.displacement[c], there = b.displacement[c];
     if (here == there && (here == 0 || a.constant == b.constant)) return;
     if (!told_.insert({table, earlier}).second) return;
-    const std::string what =
-        here != there ? fmt::format("{} here, {} there", here, there)
-                      : fmt::format("{} here, {} there", a.constant ? "constant" : "scaled", b.constant ? "constant" : "scaled");
-    mistakes_.add(a.place, fmt::format("prescribes {} of particle {} otherwise than {} ({}); one coordinate has one displacement",
-                                       "xyz"[c], model_.id[particle], line_of(b.place), what));
+    const std::string what = here != there ? fmt::format("{} here, {} there", here, there)
+                                           : fmt::format("{} here, {} there", a.constant ? "constant" : "scaled",
+                                                         b.constant ? "constant" : "scaled");
+    mistakes_.add(
+        a.place, fmt::format("prescribes {} of particle {} otherwise than {} ({}); one coordinate has one displacement",
+                             "xyz"[c], model_.id[particle], line_of(b.place), what));
   }
 
   const Problem& problem_;
@@ -68,10 +73,12 @@ void need_density(const Problem& problem, const Model& model, const std::vector<
     while (i >= s->first + s->count) ++s;
     if (!told.insert(s->name).second) continue;
     if (s->kind == "lammps")
-      mistakes.add(problem.lammps->place, "data", fmt::format("particle {} has no mass, which {} needs", model.id[i], line_of(by)));
+      mistakes.add(problem.lammps->place, "data",
+                   fmt::format("particle {} has no mass, which {} needs", model.id[i], line_of(by)));
     for (const BeamTable& b : problem.beams)
       if (b.name == s->name)
-        mistakes.add(b.place, "density", fmt::format("is missing; it must be a positive number, {} needs it", line_of(by)));
+        mistakes.add(b.place, "density",
+                     fmt::format("is missing; it must be a positive number, {} needs it", line_of(by)));
   }
 }
 
@@ -101,7 +108,8 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
     const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
     if (!particles) continue;
     const Vec3 force = table.force ? *table.force : *table.total_force / static_cast<double>(particles->size());
-    stay_in_plane(problem, model, table.place, table.force ? "force" : "total_force", table.force ? force : *table.total_force, mistakes);
+    stay_in_plane(problem, model, table.place, table.force ? "force" : "total_force",
+                  table.force ? force : *table.total_force, mistakes);
     model.loads.push_back({table.group, *particles, force, table.constant});
   }
   std::set<std::string> told;

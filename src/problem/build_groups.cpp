@@ -54,7 +54,8 @@ const std::vector<int>* Groups::find(const TablePlace& table, const char* key, c
     std::vector<std::string> types;
     for (const std::string& known : order_)
       if (is_type_group(known)) types.push_back(known);
-    mistakes_.add(table, key, quoted(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
+    mistakes_.add(table, key,
+                  quoted(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
   }
   return nullptr;
 }
@@ -74,7 +75,8 @@ std::optional<std::vector<int>> Groups::chosen(const GroupTable& table, const st
   for (const auto& [key, count] : {std::pair("first", table.first), {"last", table.last}, {"middle", table.middle}}) {
     if (!count) continue;
     if (*count > size) {
-      mistakes_.add(table.place, key, fmt::format("must be at most {}, the particles of \"{}\", is {}", size, table.of, *count));
+      mistakes_.add(table.place, key,
+                    fmt::format("must be at most {}, the particles of \"{}\", is {}", size, table.of, *count));
       return std::nullopt;
     }
     // The middle n of N; where one side must have one more left over, it is the end: the lower ones are taken.
@@ -87,10 +89,12 @@ std::optional<std::vector<int>> Groups::chosen(const GroupTable& table, const st
   std::vector<int> particles;
   for (const int i : from) {
     const Vec3 x = model_.start.position.col(i);
-    if ((x.array() >= table.inside->lo.array()).all() && (x.array() <= table.inside->hi.array()).all()) particles.push_back(i);
+    if ((x.array() >= table.inside->lo.array()).all() && (x.array() <= table.inside->hi.array()).all())
+      particles.push_back(i);
   }
   if (particles.empty()) {
-    mistakes_.add(table.place, "inside", fmt::format("holds no particle of \"{}\"; a group has at least one", table.of));
+    mistakes_.add(table.place, "inside",
+                  fmt::format("holds no particle of \"{}\"; a group has at least one", table.of));
     return std::nullopt;
   }
   return particles;

@@ -11,7 +11,8 @@
 
 namespace elamin {
 
-/// All groups by name. One whose particles are not known, because a table it comes from is broken, is there but empty-handed.
+/// All groups by name. One whose particles are not known, because a table it comes from is broken, is there but
+/// empty-handed.
 class Groups {
  public:
   /// `whole`: no structure is broken, so that "all" is known.

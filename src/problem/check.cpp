@@ -1,5 +1,6 @@
 #include "problem/check.hpp"
 
+#include "problem/schema.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
@@ -12,14 +13,15 @@
 namespace elamin {
 
 const std::vector<std::string>& standing_columns() {
-  static const std::vector<std::string> columns{"step",     "label",    "branch",     "lambda",   "energy", "bond", "angle",
-                                                "external", "residual", "iterations", "negative", "stable",
-                                                "multiplicity", "status"};
+  static const std::vector<std::string> columns{"step",     "label",  "branch",       "lambda",   "energy",
+                                                "bond",     "angle",  "external",     "residual", "iterations",
+                                                "negative", "stable", "multiplicity", "status"};
   return columns;
 }
 
 bool is_type_group(const std::string& name) {
-  return name.size() > 4 && name.compare(0, 4, "type") == 0 && name.find_first_not_of("0123456789", 4) == std::string::npos;
+  return name.size() > 4 && name.compare(0, 4, "type") == 0 &&
+         name.find_first_not_of("0123456789", 4) == std::string::npos;
 }
 
 namespace {
@@ -41,8 +43,9 @@ class Check {
       beam(b);
       particles += b.particles;
     }
-    if (particles > 1e8)
-      mistakes_.add(fmt::format("the structures have {:.0f} particles together; at most 100000000 can be handled", particles));
+    if (particles > most_particles)
+      mistakes_.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", particles,
+                                most_particles));
     for (GroupTable& g : p_.groups) group(g);
     for (SupportTable& s : p_.supports) support(s);
     for (LoadTable& l : p_.loads) {
@@ -66,7 +69,8 @@ class Check {
   void new_name(TablePlace& place, const std::string& name) {
     if (name.empty()) return;
     if (name == "all" || name == "lammps" || is_type_group(name))
-      mistakes_.add(place, "name", quoted(name) + " is reserved; \"all\", \"lammps\" and \"type1\", \"type2\", … name themselves");
+      mistakes_.add(place, "name",
+                    quoted(name) + " is reserved; \"all\", \"lammps\" and \"type1\", \"type2\", … name themselves");
     else if (const auto [first, is_new] = names_.emplace(name, place); !is_new)
       mistakes_.add(place, "name", quoted(name) + " is taken by " + line_of(first->second) + "; names are unique");
   }
@@ -81,7 +85,8 @@ class Check {
       if (g.name == name)
         return mistakes_.add(place, key, quoted(name) + " comes further down; a group is made of those before it");
     if (p_.lammps) known.push_back("type1");
-    mistakes_.add(place, key, quoted(name) + " names no group; there are: " + listed(known) + did_you_mean(name, known));
+    mistakes_.add(place, key,
+                  quoted(name) + " names no group; there are: " + listed(known) + did_you_mean(name, known));
   }
 
   void beam(BeamTable& b) {
@@ -90,19 +95,25 @@ class Check {
     if (ends && middle) {
       mistakes_.add(b.place, "has from or to as well as center or axis; give from and to, or center, axis and spacing");
     } else if (ends) {
-      if (!written("from")) mistakes_.add(b.place, "from", "is missing beside to; it must be a list of three numbers [x, y, z]");
-      if (!written("to")) mistakes_.add(b.place, "to", "is missing beside from; it must be a list of three numbers [x, y, z]");
+      if (!written("from"))
+        mistakes_.add(b.place, "from", "is missing beside to; it must be a list of three numbers [x, y, z]");
+      if (!written("to"))
+        mistakes_.add(b.place, "to", "is missing beside from; it must be a list of three numbers [x, y, z]");
       if (written("spacing")) mistakes_.add(b.place, "spacing", "follows from from, to and particles; leave it out");
-      if (b.from && b.to && *b.from == *b.to) mistakes_.add(b.place, "to", "is the same point as from; a beam has a length");
+      if (b.from && b.to && *b.from == *b.to)
+        mistakes_.add(b.place, "to", "is the same point as from; a beam has a length");
     } else if (middle) {
-      if (!written("center")) mistakes_.add(b.place, "center", "is missing beside axis; it must be a list of three numbers [x, y, z]");
-      if (!written("axis")) mistakes_.add(b.place, "axis", "is missing beside center; it must be a list of three numbers [x, y, z]");
+      if (!written("center"))
+        mistakes_.add(b.place, "center", "is missing beside axis; it must be a list of three numbers [x, y, z]");
+      if (!written("axis"))
+        mistakes_.add(b.place, "axis", "is missing beside center; it must be a list of three numbers [x, y, z]");
       if (b.axis && b.axis->isZero(0)) mistakes_.add(b.place, "axis", "is zero; a direction has a length");
     } else {
       mistakes_.add(b.place, "its place is missing; give from and to, or center, axis and spacing");
     }
     if (!written("youngs_modulus") && !(written("bond_stiffness") && written("angle_stiffness")))
-      mistakes_.add(b.place, "youngs_modulus", "is missing; it must be a positive number, or give bond_stiffness and angle_stiffness");
+      mistakes_.add(b.place, "youngs_modulus",
+                    "is missing; it must be a positive number, or give bond_stiffness and angle_stiffness");
   }
 
   void group(GroupTable& g) {
@@ -116,7 +127,8 @@ class Check {
       for (int c = 0; c < 3; ++c)
         if (g.inside->lo[c] > g.inside->hi[c]) {
           g.place.broken = true;
-          mistakes_.add(g.inside->place, "hi", fmt::format("lies below lo along {}: {} < {}", "xyz"[c], g.inside->hi[c], g.inside->lo[c]));
+          mistakes_.add(g.inside->place, "hi",
+                        fmt::format("lies below lo along {}: {} < {}", "xyz"[c], g.inside->hi[c], g.inside->lo[c]));
         }
     if (g.ids && !g.place.broken) {
       std::set<int> seen;
@@ -134,7 +146,8 @@ class Check {
     const std::string& d = s.directions;
     std::set<char> letters(d.begin(), d.end());
     if (d.empty() || letters.size() != d.size() || d.find_first_not_of("xyz") != std::string::npos)
-      return mistakes_.add(s.place, "directions", "must be one, two or three of the letters x, y and z, is " + quoted(d));
+      return mistakes_.add(s.place, "directions",
+                           "must be one, two or three of the letters x, y and z, is " + quoted(d));
     for (int c = 0; c < 3; ++c)
       if (s.displacement[c] != 0 && !letters.count("xyz"[c]))
         mistakes_.add(s.place, "displacement", fmt::format("moves along {}, which is not among the directions \"{}\"; "
@@ -144,10 +157,14 @@ class Check {
   void path() {
     PathTable& t = p_.path;
     if (t.place.broken) return;
-    if (t.from == t.to) mistakes_.add(t.place, "to", fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
-    if (t.start_lambda && t.start.empty()) mistakes_.add(t.place, "start_lambda", "is of no use without start, the state to start from");
+    if (t.from == t.to)
+      mistakes_.add(t.place, "to",
+                    fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
+    if (t.start_lambda && t.start.empty())
+      mistakes_.add(t.place, "start_lambda", "is of no use without start, the state to start from");
     if (t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
-      mistakes_.add(t.place, "start_lambda", fmt::format("is the load factor where the path ends, {}; a path leads from one to another", t.to));
+      mistakes_.add(t.place, "start_lambda",
+                    fmt::format("is the load factor where the path ends, {}; a path leads from one to another", t.to));
   }
 
   void observe(ObserveTable& o, std::set<std::string>& observables) {
@@ -155,7 +172,8 @@ class Check {
     if (o.name.empty()) return;
     const auto& columns = standing_columns();
     if (std::find(columns.begin(), columns.end(), o.name) != columns.end())
-      mistakes_.add(o.place, "name", quoted(o.name) + " is a column of the results already; taken are: " + listed(columns));
+      mistakes_.add(o.place, "name",
+                    quoted(o.name) + " is a column of the results already; taken are: " + listed(columns));
     else if (!observables.insert(o.name).second)
       mistakes_.add(o.place, "name", quoted(o.name) + " is the name of another [[observe]]; names are unique");
   }
@@ -177,21 +195,25 @@ class Check {
   std::string wrong_at(const std::string& at) const {
     if (at == "final" || (at == "initial" && p_.study == StudyType::path)) return "";
     if (p_.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + quoted(at);
-    const std::string allowed = "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", or "
-                                "\"lambda=0.5\", is " + quoted(at);
+    const std::string allowed =
+        "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", or \"lambda=0.5\", "
+        "is " + quoted(at);
     if (at.compare(0, 7, "lambda=") == 0) {
       double lambda = 0;
       const auto [end, error] = std::from_chars(at.data() + 7, at.data() + at.size(), lambda);
       if (error != std::errc() || end != at.data() + at.size() || !std::isfinite(lambda)) return allowed;
       const auto [lo, hi] = std::minmax(p_.path.from, p_.path.to);
-      if (lo < hi && (lambda < lo || lambda > hi)) return fmt::format("lies outside the path, whose load factors run from {} to {}", lo, hi);
+      if (lo < hi && (lambda < lo || lambda > hi))
+        return fmt::format("lies outside the path, whose load factors run from {} to {}", lo, hi);
       return "";
     }
     const std::size_t colon = at.find(':');
-    if (colon == std::string::npos) return allowed + did_you_mean(at, {"initial", "final", "branch:1", "limit:1", "contact:1"});
+    if (colon == std::string::npos)
+      return allowed + did_you_mean(at, {"initial", "final", "branch:1", "limit:1", "contact:1"});
     const std::string kind = at.substr(0, colon), number = at.substr(colon + 1);
     if (kind != "branch" && kind != "limit" && kind != "contact") return allowed;
-    if (number.empty() || number.size() > 9 || number[0] == '0' || number.find_first_not_of("0123456789") != std::string::npos)
+    if (number.empty() || number.size() > 9 || number[0] == '0' ||
+        number.find_first_not_of("0123456789") != std::string::npos)
       return allowed;
     const auto& located = p_.path.locate;
     if (!p_.path.place.broken && std::find(located.begin(), located.end(), kind) == located.end())

@@ -8,9 +8,9 @@
 
 namespace elamin {
 
-/// Adds to the mistakes what is wrong and marks its tables as broken; of a table that is broken already, tells only what
-/// its mistakes do not explain.
-/// `other_names`: of structures that were refused, so that their groups are not missed too.
+/// Adds to the mistakes what is wrong and marks its tables as broken; of a table that is broken already, tells only
+/// what its mistakes do not explain. `other_names`: of structures that were refused, so that their groups are not
+/// missed too.
 void check_problem(Problem& problem, const std::vector<std::string>& other_names, Mistakes& mistakes);
 
 /// Columns that the tables of every run have; an observable may not take one of these names.

@@ -45,9 +45,9 @@ Node convert(const toml::node& from) {
   return to;
 }
 
-/// What the parser must not see, found by going through the text outside strings and comments: a dotted key of more parts
-/// than any key has (it takes a level of the stack for each), and characters beyond ASCII (undefined in toml++ 3.3, and
-/// no TOML there). Returns the offset and what is wrong; npos: nothing.
+/// What the parser must not see, found by going through the text outside strings and comments: a dotted key of more
+/// parts than any key has (it takes a level of the stack for each), and characters beyond ASCII (undefined in toml++
+/// 3.3, and no TOML there). Returns the offset and what is wrong; npos: nothing.
 std::pair<std::size_t, const char*> unparsable(const std::string& text) {
   constexpr int most = 16;
   int parts = 1;
@@ -60,7 +60,7 @@ std::pair<std::size_t, const char*> unparsable(const std::string& text) {
       const std::string quote(text.compare(i, 3, std::string(3, c)) == 0 ? 3 : 1, c);
       for (i += quote.size(); i < text.size() && text.compare(i, quote.size(), quote) != 0; ++i) {
         if (c == '"' && text[i] == '\\') ++i;
-        if (i < text.size() && text[i] == '\n' && quote.size() == 1) break;   // an error of the text; the parser says so
+        if (i < text.size() && text[i] == '\n' && quote.size() == 1) break;  // an error of the text; the parser says so
       }
       i += quote.size() - 1;
       for (int more = 0; more < 2 && quote.size() == 3 && i + 1 < text.size() && text[i + 1] == c; ++more) ++i;
@@ -126,7 +126,8 @@ const Node* find(const Entries& entries, const std::string& key) { return find(c
 
 bool is_tables(const Node& node) {
   const auto* list = std::get_if<List>(&node.value);
-  return list && std::all_of(list->begin(), list->end(), [](const Node& n) { return std::holds_alternative<Entries>(n.value); });
+  return list && std::all_of(list->begin(), list->end(),
+                             [](const Node& n) { return std::holds_alternative<Entries>(n.value); });
 }
 
 std::string shown(const Node& node) {

@@ -46,7 +46,8 @@ class Mistakes {
   void raise() const {
     if (!any()) return;
     std::vector<Mistake> all = list_;
-    if (left_out_ > 0) all.push_back({file_, 0, 0, {}, "has " + std::to_string(left_out_) + " more mistakes than are told here"});
+    if (left_out_ > 0)
+      all.push_back({file_, 0, 0, {}, "has " + std::to_string(left_out_) + " more mistakes than are told here"});
     throw InputError(std::move(all));
   }
 

@@ -63,7 +63,8 @@ Problem read_problem(const std::string& file, const std::vector<Setting>& settin
   for (const Setting& setting : settings) apply(setting, document, mistakes);
   Problem problem = read_tables(document, mistakes).problem;
   if (mistakes.any()) {
-    check_model(problem, !structure_refused(document), mistakes);   // what is whole may hold more mistakes, and all are told at once
+    // What is whole may hold more mistakes, and all are told at once.
+    check_model(problem, !structure_refused(document), mistakes);
     mistakes.raise();
   }
   return problem;

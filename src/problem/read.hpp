@@ -8,8 +8,8 @@
 
 namespace elamin {
 
-/// Reads a problem file, changed by `settings` first, with every default in it. Its names and relations are checked; its
-/// geometry is by build_model. Throws InputError with all mistakes, each with its place, and those that build_model
+/// Reads a problem file, changed by `settings` first, with every default in it. Its names and relations are checked;
+/// its geometry is by build_model. Throws InputError with all mistakes, each with its place, and those that build_model
 /// finds in what is whole.
 Problem read_problem(const std::string& file, const std::vector<Setting>& settings = {});
 

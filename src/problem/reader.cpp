@@ -99,7 +99,8 @@ bool Reader::read(const char* key, const Node& node, double& value, Range limits
 bool Reader::read(const char* key, const Node& node, std::string& value, Range limits) {
   const auto* text = std::get_if<std::string>(&node.value);
   if (!text) return wrong(key, node, wanted(value, limits)), false;
-  if (text->find('\0') != std::string::npos) return mistake(node.place, inside(key), "must not hold the character 0"), false;
+  if (text->find('\0') != std::string::npos)
+    return mistake(node.place, inside(key), "must not hold the character 0"), false;
   value = *text;
   return true;
 }
@@ -145,7 +146,8 @@ void Reader::file(const char* key, std::string& value) {
   std::error_code error;
   const auto path = std::filesystem::absolute(std::filesystem::path(folder_) / value, error).lexically_normal();
   if (!std::filesystem::exists(path, error))
-    mistake(node->place, inside(key), "there is no file " + elamin::quoted(value) + "; it is sought from the folder of this file");
+    mistake(node->place, inside(key),
+            "there is no file " + elamin::quoted(value) + "; it is sought from the folder of this file");
   value = path.string();
 }
 
@@ -169,7 +171,8 @@ int Reader::one_of(const char* key, const Node& node, const std::vector<std::str
   return -1;
 }
 
-void Reader::some_of(const char* key, const Node& node, const std::vector<std::string>& known, std::vector<std::string>& list) {
+void Reader::some_of(const char* key, const Node& node, const std::vector<std::string>& known,
+                     std::vector<std::string>& list) {
   const auto* nodes = std::get_if<List>(&node.value);
   if (!nodes) return wrong(key, node, "a list of the words " + quoted_choice(known));
   list.clear();

@@ -18,7 +18,8 @@ namespace elamin {
 class Reader {
  public:
   static constexpr bool reading = true;
-  Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder, Mistakes& mistakes);
+  Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder,
+         Mistakes& mistakes);
 
   bool has(const char* key) const { return elamin::find(entries_, key) != nullptr; }
 
@@ -54,7 +55,8 @@ class Reader {
     missing(key, quoted_choice(texts(words)));
     return false;
   }
-  template <std::size_t n> void words(const char* key, std::vector<std::string>& list, const Word<const char*> (&known)[n]) {
+  template <std::size_t n>
+  void words(const char* key, std::vector<std::string>& list, const Word<const char*> (&known)[n]) {
     if (const Node* node = find(key)) some_of(key, *node, texts(known), list);
   }
 
@@ -117,7 +119,8 @@ class Reader {
   void missing(const char* key, const std::string& wanted);
   void wrong(const char* key, const Node&, const std::string& wanted);
   void mistake(Place at, const std::string& key, const std::string& what);
-  static std::string label(const Entries& entries, std::size_t index);   // of an element of [[…]]: its name, or its number
+  /// Of an element of [[…]]: its name, or its number.
+  static std::string label(const Entries& entries, std::size_t index);
   std::string inside(const std::string& key) const { return key_.empty() ? key : key_ + "." + key; }
   std::string kind_of(const std::string& key) const { return kind_.empty() ? key : kind_ + "." + key; }
 

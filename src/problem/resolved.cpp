@@ -28,10 +28,14 @@ class Writer {
       if (value == w.value) line(key, toml(std::string(w.text)));
     return true;
   }
-  template <class T, class W, std::size_t n> bool must_word(const char* key, const T& value, const Word<W> (&words)[n]) {
+  template <class T, class W, std::size_t n>
+  bool must_word(const char* key, const T& value, const Word<W> (&words)[n]) {
     return word(key, value, words);
   }
-  template <class Words> void words(const char* key, const std::vector<std::string>& list, const Words&) { line(key, toml(list)); }
+  template <class Words>
+  void words(const char* key, const std::vector<std::string>& list, const Words&) {
+    line(key, toml(list));
+  }
 
   template <class T> void table(const char* key, T& value) { descend("[" + inside(key) + "]", key, value); }
   template <class T> void table(const char* key, std::optional<T>& value) {

@@ -6,8 +6,8 @@
 
 namespace elamin {
 
-/// The problem as TOML with every default written out: a valid problem file, from any folder, that reads back to the same
-/// Problem, numbers to the last bit.
+/// The problem as TOML with every default written out: a valid problem file, from any folder, that reads back to the
+/// same Problem, numbers to the last bit.
 std::string resolved_toml(const Problem& problem);
 
 }  // namespace elamin

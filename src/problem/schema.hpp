@@ -1,6 +1,7 @@
 #pragma once
-// What a problem file may hold, said once: for every table its keys, with what they may be. `describe(io, table)` is read by
-// the Reader (TOML → structs), the Writer (structs → resolved.toml) and the Keys (which key there is, for --set).
+// What a problem file may hold, said once: for every table its keys, with what they may be. `describe(io, table)` is
+// read by the Reader (TOML → structs), the Writer (structs → resolved.toml) and the Keys (which key there is, for
+// --set).
 //
 // io.must(key, value, range)       the key has to be there        io.name(key, value)        a name of something new
 // io.may(key, value, range)        left as it is if absent        io.file(key, value)        a file; also may_file
@@ -47,14 +48,22 @@ struct Observed {
   bool operator==(const Observed&) const = default;
 };
 inline constexpr Word<Observed> observed_words[]{
-    {"position.x", {Quantity::position, Component::x}},         {"position.y", {Quantity::position, Component::y}},
-    {"position.z", {Quantity::position, Component::z}},         {"position.norm", {Quantity::position, Component::norm}},
-    {"displacement.x", {Quantity::displacement, Component::x}}, {"displacement.y", {Quantity::displacement, Component::y}},
-    {"displacement.z", {Quantity::displacement, Component::z}}, {"displacement.norm", {Quantity::displacement, Component::norm}},
-    {"reaction.x", {Quantity::reaction, Component::x}},         {"reaction.y", {Quantity::reaction, Component::y}},
-    {"reaction.z", {Quantity::reaction, Component::z}},         {"reaction.norm", {Quantity::reaction, Component::norm}},
-    {"velocity.x", {Quantity::velocity, Component::x}},         {"velocity.y", {Quantity::velocity, Component::y}},
-    {"velocity.z", {Quantity::velocity, Component::z}},         {"velocity.norm", {Quantity::velocity, Component::norm}}};
+    {"position.x", {Quantity::position, Component::x}},
+    {"position.y", {Quantity::position, Component::y}},
+    {"position.z", {Quantity::position, Component::z}},
+    {"position.norm", {Quantity::position, Component::norm}},
+    {"displacement.x", {Quantity::displacement, Component::x}},
+    {"displacement.y", {Quantity::displacement, Component::y}},
+    {"displacement.z", {Quantity::displacement, Component::z}},
+    {"displacement.norm", {Quantity::displacement, Component::norm}},
+    {"reaction.x", {Quantity::reaction, Component::x}},
+    {"reaction.y", {Quantity::reaction, Component::y}},
+    {"reaction.z", {Quantity::reaction, Component::z}},
+    {"reaction.norm", {Quantity::reaction, Component::norm}},
+    {"velocity.x", {Quantity::velocity, Component::x}},
+    {"velocity.y", {Quantity::velocity, Component::y}},
+    {"velocity.z", {Quantity::velocity, Component::z}},
+    {"velocity.norm", {Quantity::velocity, Component::norm}}};
 
 /// One [[sweep]]: the key and either the values or a range.
 struct Sweep {

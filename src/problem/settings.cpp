@@ -6,6 +6,8 @@
 #include "problem/text.hpp"
 #include "problem/unavailable.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace elamin {
@@ -58,7 +60,7 @@ class Walk {
       const std::string part = parts_[at_];
       const KeyTree* child = tree_->find(part);
       if (!child) return unknown(part);
-      canonical_ += (at_ ? "." : "") + part, kind_ += (at_ ? "." : "") + part;
+      for (std::string* path : {&canonical_, &kind_}) *path += fmt::format("{}{}", at_ ? "." : "", part);
       ++at_;
       if (child->kind == KeyTree::Kind::value) return value(part);
       if (at_ == parts_.size()) return refuse("is a table; name one of its keys: " + listed(child->names()));
@@ -78,7 +80,8 @@ class Walk {
   Node* unknown(const std::string& part) {
     const std::string refusal = unavailable(kind_.empty() ? part : kind_ + "." + part);
     if (!refusal.empty()) return refuse(refusal);
-    return refuse(quoted(part) + " is no key; allowed: " + listed(tree_->names()) + did_you_mean(part, tree_->names()));
+    return refuse(fmt::format("{} is no key; allowed: {}{}", quoted(part), listed(tree_->names()),
+                              did_you_mean(part, tree_->names())));
   }
   Node* value(const std::string& part) {
     Node* node = find(*entries_, part);
@@ -88,8 +91,9 @@ class Walk {
     auto* list = node ? std::get_if<List>(&node->value) : nullptr;
     const std::size_t number = index_of(parts_[at_]);
     if (!list || at_ + 1 < parts_.size() || number < 1 || number > list->size())
-      return refuse(list ? "has components 1 to " + std::to_string(list->size()) : quoted(part) + " is a value, not a table");
-    canonical_ += "." + std::to_string(number);
+      return refuse(list ? fmt::format("has components 1 to {}", list->size())
+                         : fmt::format("{} is a value, not a table", quoted(part)));
+    canonical_ += fmt::format(".{}", number);
     return &(*list)[number - 1];
   }
   bool table(const std::string& part) {
@@ -112,11 +116,11 @@ class Walk {
       names.push_back(name_of(list[i]).empty() ? std::to_string(i + 1) : name_of(list[i]));
       if (number == i + 1 || (number == 0 && names.back() == which)) {
         entries_ = &std::get<Entries>(list[i].value);
-        canonical_ += "." + std::to_string(i + 1);
+        canonical_ += fmt::format(".{}", i + 1);
         return true;
       }
     }
-    refuse("no [[" + part + "]] is " + quoted(which) + "; there are: " + listed(names) + did_you_mean(which, names));
+    refuse(fmt::format("no [[{}]] is {}; there are: {}{}", part, quoted(which), listed(names), did_you_mean(which, names)));
     return false;
   }
 

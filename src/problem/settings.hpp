@@ -9,8 +9,8 @@
 
 namespace elamin {
 
-/// A key and its new value. The key is dotted: `path.steps`, `beam.column.particles` (one of several tables by its name),
-/// `support.2.displacement` (or by its number, from 1), `support.2.displacement.3` (one component of a list).
+/// A key and its new value. The key is dotted: `path.steps`, `beam.column.particles` (one of several tables by its
+/// name), `support.2.displacement` (or by its number, from 1), `support.2.displacement.3` (one component of a list).
 /// The value is TOML; what is no TOML is a string.
 struct Setting {
   std::string key, value;

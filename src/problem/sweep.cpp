@@ -16,19 +16,25 @@ constexpr double most_runs = 100'000;
 
 /// first, first + step, … up to last (included if a step ends there to rounding); integers stay integers.
 std::vector<std::string> values_of_range(const Sweep& s, Mistakes& mistakes) {
-  if (s.range.size() != 3) return mistakes.add(s.place, "range", "must be a list of three numbers [first, last, step]"), std::vector<std::string>{};
+  if (s.range.size() != 3)
+    return mistakes.add(s.place, "range", "must be a list of three numbers [first, last, step]"),
+           std::vector<std::string>{};
   const double first = s.range[0], last = s.range[1], step = s.range[2];
   const double count = std::floor((last - first) / step + 1e-9) + 1;
   if (step == 0 || !(count >= 1)) {
-    mistakes.add(s.place, "range", fmt::format("leads from {} to {} by steps of {}, which never arrives; the step must point from first to last",
-                                               first, last, step));
+    mistakes.add(
+        s.place, "range",
+        fmt::format("leads from {} to {} by steps of {}, which never arrives; the step must point from first to last",
+                    first, last, step));
     return {};
   }
   if (!(count <= most_runs)) {
-    mistakes.add(s.place, "range", fmt::format("has {:.0f} values; at most {:.0f} runs can be asked for", count, most_runs));
+    mistakes.add(s.place, "range",
+                 fmt::format("has {:.0f} values; at most {:.0f} runs can be asked for", count, most_runs));
     return {};
   }
-  const bool integers = first == std::trunc(first) && step == std::trunc(step) && std::abs(first) < 1e15 && std::abs(last) < 1e15;
+  const bool integers =
+      first == std::trunc(first) && step == std::trunc(step) && std::abs(first) < 1e15 && std::abs(last) < 1e15;
   std::vector<std::string> values;
   for (int i = 0; i < count; ++i) {
     const double x = first + i * step;
@@ -68,11 +74,14 @@ std::vector<Bundle> bundled(std::vector<Sweep>& sweeps, const Document& document
     if (mistakes.list().size() > before) continue;
     const std::string key = canonical_key(s.key, document);
     if (const auto [first, is_new] = keys.emplace(key, &s); !is_new)
-      mistakes.add(s.place, "key", fmt::format("\"{}\" is swept by {} of line {} already", s.key, first->second->place.key, first->second->place.line));
+      mistakes.add(s.place, "key",
+                   fmt::format("\"{}\" is swept by {} of line {} already", s.key, first->second->place.key,
+                               first->second->place.line));
     if (key.compare(0, 6, "sweep.") == 0) mistakes.add(s.place, "key", "a sweep cannot change a sweep");
     for (const Setting& setting : settings)
       if (canonical_key(setting.key, document) == key)
-        mistakes.add(Place{}, setting.key, fmt::format("is swept by line {} of the file; set {}.values instead", s.place.line, s.place.key));
+        mistakes.add(Place{}, setting.key,
+                     fmt::format("is swept by line {} of the file; set {}.values instead", s.place.line, s.place.key));
 
     const auto [zip, is_new] = zips.emplace(s.zip, bundles.size());
     if (s.zip.empty() || is_new) {
@@ -81,8 +90,9 @@ std::vector<Bundle> bundled(std::vector<Sweep>& sweeps, const Document& document
     }
     Bundle& bundle = bundles[zip->second];
     if (s.values.size() != bundle.length)
-      mistakes.add(s.place, fmt::format("has {} values, {} of line {} has {}; sweeps with zip = \"{}\" go in step", s.values.size(),
-                                        bundle.sweeps[0]->place.key, bundle.sweeps[0]->place.line, bundle.length, s.zip));
+      mistakes.add(s.place, fmt::format("has {} values, {} of line {} has {}; sweeps with zip = \"{}\" go in step",
+                                        s.values.size(), bundle.sweeps[0]->place.key, bundle.sweeps[0]->place.line,
+                                        bundle.length, s.zip));
     bundle.sweeps.push_back(&s);
   }
   return bundles;
@@ -99,7 +109,8 @@ std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std:
 
   double count = 1;
   for (const Bundle& b : bundles) count *= static_cast<double>(b.length);
-  if (count > most_runs) of_sweeps.add(fmt::format("the sweeps ask for {:.0f} runs; at most {:.0f} can be", count, most_runs));
+  if (count > most_runs)
+    of_sweeps.add(fmt::format("the sweeps ask for {:.0f} runs; at most {:.0f} can be", count, most_runs));
   if (of_sweeps.any()) {
     try {
       read_problem(file, settings);
@@ -117,7 +128,8 @@ std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std:
         longer.push_back(run);
         for (const Sweep* s : bundle.sweeps) {
           const auto values = s->place.keys.find("values"), range = s->place.keys.find("range");
-          longer.back().push_back({s->key, s->values[i], values != s->place.keys.end() ? values->second : range->second});
+          longer.back().push_back(
+              {s->key, s->values[i], values != s->place.keys.end() ? values->second : range->second});
         }
       }
     runs = std::move(longer);

@@ -9,9 +9,9 @@
 
 namespace elamin {
 
-/// The settings of every run that the [[sweep]] tables of a file ask for, after `settings` have changed it: all combinations,
-/// the last sweep fastest; those with the same `zip` go in step. One empty list if there is no sweep. Throws InputError
-/// with all mistakes of the sweeps, and those of the problem beside them.
+/// The settings of every run that the [[sweep]] tables of a file ask for, after `settings` have changed it: all
+/// combinations, the last sweep fastest; those with the same `zip` go in step. One empty list if there is no sweep.
+/// Throws InputError with all mistakes of the sweeps, and those of the problem beside them.
 std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std::vector<Setting>& settings = {});
 
 /// One run, ready to go.
@@ -21,8 +21,8 @@ struct PreparedRun {
   Model model;
 };
 
-/// Every run of a file read and built, so that nothing runs before everything is right: one if there is no sweep. Throws
-/// InputError: a mistake of all runs is told once, one of some names the first of them.
+/// Every run of a file read and built, so that nothing runs before everything is right: one if there is no sweep.
+/// Throws InputError: a mistake of all runs is told once, one of some names the first of them.
 std::vector<PreparedRun> prepare_runs(const std::string& file, const std::vector<Setting>& settings = {});
 
 }  // namespace elamin

@@ -20,13 +20,14 @@ std::size_t length_of_text(const std::string& bytes) {
   std::size_t i = 0;
   while (i < bytes.size()) {
     const unsigned b = at(i);
-    const int more = b < 0x80 ? 0 : b >= 0xC2 && b < 0xE0 ? 1 : b >= 0xE0 && b < 0xF0 ? 2 : b >= 0xF0 && b < 0xF5 ? 3 : -1;
-    if (b == 0 || more < 0) return i;
+    if (b == 0 || (b >= 0x80 && b < 0xC2) || b > 0xF4) return i;
+    const int more = b < 0x80 ? 0 : b < 0xE0 ? 1 : b < 0xF0 ? 2 : 3;
     for (int k = 1; k <= more; ++k)
       if ((at(i + k) & 0xC0) != 0x80) return i;
     const unsigned next = at(i + 1);
     // Overlong forms, surrogates, and what lies beyond U+10FFFF.
-    if ((b == 0xE0 && next < 0xA0) || (b == 0xED && next > 0x9F) || (b == 0xF0 && next < 0x90) || (b == 0xF4 && next > 0x8F))
+    if ((b == 0xE0 && next < 0xA0) || (b == 0xED && next > 0x9F) || (b == 0xF0 && next < 0x90) ||
+        (b == 0xF4 && next > 0x8F))
       return i;
     i += 1 + more;
   }

@@ -4,8 +4,8 @@
 
 namespace elamin {
 
-/// The sentence that refuses a key ("sheet", "path.parameter") or a word of it ("path.method", "arc_length"); "" if this is
-/// not a matter of the version.
+/// The sentence that refuses a key ("sheet", "path.parameter") or a word of it ("path.method", "arc_length"); "" if
+/// this is not a matter of the version.
 std::string unavailable(const std::string& key, const std::string& word = "");
 
 }  // namespace elamin

@@ -51,7 +51,8 @@ TEST_CASE("An oblique beam is uniform and straight to 1e-30") {
 }
 
 TEST_CASE("A row about its centre has the asked length and direction") {
-  const Vec3 center(0.3, -2.0, 0.1), axis = GENERATE(Vec3(0, 0, 1), Vec3(0, 0, -7), Vec3(1, 2, -3), Vec3(1e-200, 3e-200, 0), Vec3(1e250, 1, 1e249));
+  const Vec3 center(0.3, -2.0, 0.1),
+      axis = GENERATE(Vec3(0, 0, 1), Vec3(0, 0, -7), Vec3(1, 2, -3), Vec3(1e-200, 3e-200, 0), Vec3(1e250, 1, 1e249));
   const double spacing = 1e-3;
   const int n = 77;
   const auto [from, to] = ends_of_row(center, axis, spacing, n);

@@ -1,5 +1,6 @@
-// Wrong files and what is said of them. Each file of bad/ begins with the sentences it must get, all of them and no other,
-// as comments `# expect: SENTENCE`, without the name of the file; a '*' at the end stands for words of the TOML library.
+// Wrong files and what is said of them. Each file of bad/ begins with the sentences it must get, all of them and no
+// other, as comments `# expect: SENTENCE`, without the name of the file; a '*' at the end stands for words of the TOML
+// library.
 #include "catch.hpp"
 
 #include "core/error.hpp"
@@ -79,7 +80,8 @@ TEST_CASE("Files that are no text at all") {
   CHECK(said("title = \"column\"\ntitle = \"S\xe4ule\"\n") == file + ":2:11: is not a text in UTF-8 from here on");
   CHECK(said("# \xc0\xaf\n") == file + ":1:3: is not a text in UTF-8 from here on");
   CHECK(said("# \xed\xa0\x80\n") == file + ":1:3: is not a text in UTF-8 from here on");
-  CHECK(said("title = \"Säule\" # Säule\nSäule = 1") == file + ":2:2: not TOML: outside of quotes there are only ASCII characters");
+  CHECK(said("title = \"Säule\" # Säule\nSäule = 1") ==
+        file + ":2:2: not TOML: outside of quotes there are only ASCII characters");
   CHECK(said("title = \"a\\u0000b\"\n[[beam]]").find(file + ":1:9: title: must not hold the character 0\n") == 0);
 }
 
@@ -110,26 +112,34 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   const auto said = [&](const std::string& key, const std::string& value) { return mistakes_of(file, {{key, value}}); };
   CHECK(mistakes_of(file) == "");
   CHECK(said("beam.column.particels", "3") ==
-        "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, section, particles, from, to, center, axis, "
+        "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, section, particles, from, to, "
+        "center, axis, "
         "spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, angle_stiffness, rest_length; "
         "did you mean \"particles\"?");
   CHECK(said("beam.colum.particles", "3") ==
         "--set: \"beam.colum.particles\": no [[beam]] is \"colum\"; there are: column; did you mean \"column\"?");
   CHECK(said("beam.2.particles", "3") == "--set: \"beam.2.particles\": no [[beam]] is \"2\"; there are: column");
-  CHECK(said("beam.column", "3") == "--set: \"beam.column\": is a table; name one of its keys: name, section, particles, from, to, "
-                                    "center, axis, spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, "
-                                    "angle_stiffness, rest_length");
+  CHECK(said("beam.column", "3") ==
+        "--set: \"beam.column\": is a table; name one of its keys: name, section, particles, from, to, "
+        "center, axis, spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, "
+        "angle_stiffness, rest_length");
   CHECK(said("load.1.force", "[0, 0, 1]") == "--set: \"load.1.force\": there is no [[load]] in this file");
   CHECK(said("support.2.displacement.4", "1") == "--set: \"support.2.displacement.4\": has components 1 to 3");
   CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
-  CHECK(said("", "1") == "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, group, support, load, gravity, viscosity, "
-                         "study, path, solver, observe, expect, sweep");
-  CHECK(said("path.parameter", "1") == "--set: \"path.parameter\": not available in this version; the parameter is the load factor");
-  CHECK(said("path.steps", "many") == "--set: path.steps: must be an integer from 1 to 1000000, is the string \"many\"");
-  CHECK(said("path.steps", "1\nto = 2") == "--set: path.steps: must be an integer from 1 to 1000000, is the string \"1?to = 2\"");
+  CHECK(said("", "1") ==
+        "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, group, support, load, gravity, viscosity, "
+        "study, path, solver, observe, expect, sweep");
+  CHECK(said("path.parameter", "1") ==
+        "--set: \"path.parameter\": not available in this version; the parameter is the load factor");
+  CHECK(said("path.steps", "many") ==
+        "--set: path.steps: must be an integer from 1 to 1000000, is the string \"many\"");
+  CHECK(said("path.steps", "1\nto = 2") ==
+        "--set: path.steps: must be an integer from 1 to 1000000, is the string \"1?to = 2\"");
   CHECK(said("beam.column.diameter", "nan") == "--set: beam.column.diameter: must be a positive number, is nan");
   CHECK(said("title", "\xff") == "--set: title: is not a text in UTF-8");
-  CHECK(said("path.from", "1") == file + ":23:6: path.to: is the same load factor as from, 1; a path leads from one to another");
-  CHECK_THROWS_WITH(elamin::parse_setting("path.steps"), "--set: \"path.steps\": must be KEY=VALUE, such as path.steps=50");
+  CHECK(said("path.from", "1") ==
+        file + ":23:6: path.to: is the same load factor as from, 1; a path leads from one to another");
+  CHECK_THROWS_WITH(elamin::parse_setting("path.steps"),
+                    "--set: \"path.steps\": must be KEY=VALUE, such as path.steps=50");
   CHECK_THROWS_WITH(elamin::parse_setting("=5"), "--set: \"=5\": must be KEY=VALUE, such as path.steps=50");
 }

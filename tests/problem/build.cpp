@@ -13,8 +13,9 @@ namespace {
 const std::string good = ELAMIN_ROOT "/tests/problem/good/";
 
 std::string column(int particles) {
-  return "[[beam]]\nname = \"column\"\nparticles = " + std::to_string(particles) +
-         "\nfrom = [0, 0, 0]\nto = [0, 0, " + std::to_string(particles - 1) + "]\ndiameter = 1\nyoungs_modulus = 3\ndensity = 7\n"
+  return "[[beam]]\nname = \"column\"\nparticles = " + std::to_string(particles) + "\nfrom = [0, 0, 0]\nto = [0, 0, " +
+         std::to_string(particles - 1) +
+         "]\ndiameter = 1\nyoungs_modulus = 3\ndensity = 7\n"
          "[[support]]\ngroup = \"column\"\n";
 }
 
@@ -72,14 +73,18 @@ TEST_CASE("The state to start from stands beside the reference") {
   CHECK_FALSE(model_of(column(3)).restart);
 
   const ScratchDirectory scratch;
-  const std::string atoms = "A state\n\n2 atoms\n1 atom types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms # sphere\n\n1 1 1 1 0 0 0\n2 1 1 1 0 0 0.5\n";
+  const std::string atoms =
+      "A state\n\n2 atoms\n1 atom types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms # sphere\n\n1 1 1 1 0 0 "
+      "0\n2 1 1 1 0 0 0.5\n";
   scratch.file("s.data", atoms);
   const std::string file = scratch.file("p.toml", column(3) + "[path]\nstart = \"s.data\"");
   CHECK_THROWS_WITH(build_model(read_problem(file)),
                     file + ":12:9: path.start: holds 2 particles, the problem 3; it must be a state of this problem");
   const std::string plane = scratch.file("q.toml", "plane = \"xz\"\n" + column(2) + "[path]\nstart = \"s.data\"");
   CHECK(build_model(read_problem(plane)).restart->position(2, 1) == 0.5);
-  scratch.file("s.data", "A state\n\n2 atoms\n1 atom types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms # sphere\n\n1 1 1 1 0 0 0\n2 1 1 1 0 0.25 1\n");
+  scratch.file("s.data",
+               "A state\n\n2 atoms\n1 atom types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms # sphere\n\n1 1 "
+               "1 1 0 0 0\n2 1 1 1 0 0.25 1\n");
   CHECK_THROWS_WITH(build_model(read_problem(plane)),
                     plane + ":12:1: path: particle 2 is not in the plane \"xz\" of particle 1: y is 0.25 instead of 0");
 }
@@ -170,8 +175,10 @@ TEST_CASE("Supports, loads, weight and drag") {
 }
 
 TEST_CASE("Supports that agree may overlap, and an energy needs none") {
-  CHECK(model_of(column(4) + "displacement = [0, 0, 1]\n[[group]]\nname = \"end\"\nlast = 1\n[[support]]\ngroup = \"end\"\n"
-                             "displacement = [0, 0, 1]").supports.size() == 2);
+  CHECK(model_of(column(4) +
+                 "displacement = [0, 0, 1]\n[[group]]\nname = \"end\"\nlast = 1\n[[support]]\ngroup = \"end\"\n"
+                 "displacement = [0, 0, 1]")
+            .supports.size() == 2);
   CHECK(model_of(column(4) + "[[support]]\ngroup = \"all\"\nconstant = true").supports.size() == 2);
   std::string bare = column(4);
   bare.resize(bare.find("[[support]]"));
@@ -180,18 +187,28 @@ TEST_CASE("Supports that agree may overlap, and an energy needs none") {
 }
 
 TEST_CASE("Beams joined by nothing need a support each") {
-  std::string two = column(4) + "[[beam]]\nname = \"other\"\nparticles = 3\nfrom = [5, 0, 0]\nto = [5, 0, 3]\ndiameter = 1\nyoungs_modulus = 3\n";
+  std::string two =
+      column(4) +
+      "[[beam]]\nname = \"other\"\nparticles = 3\nfrom = [5, 0, 0]\nto = [5, 0, 3]\ndiameter = 1\nyoungs_modulus = 3\n";
   CHECK_THROWS_WITH(model_of(two), Catch::Contains("beam.other: none of its particles is held"));
-  CHECK(model_of(two + "[[group]]\nname = \"o\"\nof = \"other\"\nlast = 1\n[[support]]\ngroup = \"o\"\ndirections = \"x\"").supports.size() == 2);
+  CHECK(model_of(two +
+                 "[[group]]\nname = \"o\"\nof = \"other\"\nlast = 1\n[[support]]\ngroup = \"o\"\ndirections = \"x\"")
+            .supports.size() == 2);
 }
 
 TEST_CASE("A LAMMPS data file keeps its ids and types, and beams count on") {
   const ScratchDirectory scratch;
-  const std::string head = "A case\n\n3 atoms\n4 atom types\n1 bonds\n1 bond types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nBond Coeffs # harmonic\n\n1 5 1\n\n";
+  const std::string head =
+      "A case\n\n3 atoms\n4 atom types\n1 bonds\n1 bond types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nBond "
+      "Coeffs # harmonic\n\n1 5 1\n\n";
   const std::string tail = "\nBonds\n\n1 1 10 20\n";
-  scratch.file("c.data", head + "Atoms # hybrid sphere bond\n\n20 4 0 0 1 1 2 1\n10 2 0 0 0 1 2 1\n30 4 0 3 0 1 2 1\n" + tail);
-  const std::string beam = "[[beam]]\nname = \"b\"\nparticles = 2\nfrom = [9, 0, 0]\nto = [9, 0, 1]\ndiameter = 1\nyoungs_modulus = 3\n";
-  const auto model = [&](const std::string& rest) { return build_model(read_problem(scratch.file("p.toml", "[lammps]\ndata = \"c.data\"\n" + rest))); };
+  scratch.file("c.data",
+               head + "Atoms # hybrid sphere bond\n\n20 4 0 0 1 1 2 1\n10 2 0 0 0 1 2 1\n30 4 0 3 0 1 2 1\n" + tail);
+  const std::string beam =
+      "[[beam]]\nname = \"b\"\nparticles = 2\nfrom = [9, 0, 0]\nto = [9, 0, 1]\ndiameter = 1\nyoungs_modulus = 3\n";
+  const auto model = [&](const std::string& rest) {
+    return build_model(read_problem(scratch.file("p.toml", "[lammps]\ndata = \"c.data\"\n" + rest)));
+  };
   const Model m = model(beam + "[[group]]\nname = \"g\"\nof = \"type4\"\nids = [30]\n[[support]]\ngroup = \"all\"");
   CHECK(m.id == Ids{10, 20, 30, 31, 32});
   CHECK(m.type == Ids{2, 4, 4, 5, 5});
@@ -205,16 +222,23 @@ TEST_CASE("A LAMMPS data file keeps its ids and types, and beams count on") {
   CHECK(group(m, "g") == Ids{30});
 
   const std::string file = scratch / "p.toml";
-  CHECK_THROWS_WITH(model("[[support]]\ngroup = \"type3\""),
-                    file + ":4:9: support.1.group: \"type3\" names no group; the data file has: type2, type4; did you mean \"type2\"?");
+  CHECK_THROWS_WITH(
+      model("[[support]]\ngroup = \"type3\""),
+      file +
+          ":4:9: support.1.group: \"type3\" names no group; the data file has: type2, type4; did you mean \"type2\"?");
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"type2\""),
-                    file + ":1:1: lammps: particle 30 is connected to no particle that a support holds; an equilibrium needs a [[support]]");
+                    file +
+                        ":1:1: lammps: particle 30 is connected to no particle that a support holds; an equilibrium "
+                        "needs a [[support]]");
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"all\"\n[[group]]\nname = \"g\"\nids = [11]"),
                     file + ":7:7: group.g.ids: 11 is not in \"all\", whose ids lie from 10 to 30");
 
-  scratch.file("c.data", head + "Atoms # hybrid sphere bond\n\n20 4 0 0 0 1 2 1\n10 2 0 0 0 1 2 1\n30 4 0 3 0 1 2 1\n" + tail);
+  scratch.file("c.data",
+               head + "Atoms # hybrid sphere bond\n\n20 4 0 0 0 1 2 1\n10 2 0 0 0 1 2 1\n30 4 0 3 0 1 2 1\n" + tail);
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"all\""),
-                    file + ":1:1: lammps: particle 20 is in the same place as particle 10 of \"lammps\", [0, 0, 0]; particles must lie apart");
+                    file +
+                        ":1:1: lammps: particle 20 is in the same place as particle 10 of \"lammps\", [0, 0, 0]; "
+                        "particles must lie apart");
   CHECK(model("[study]\ntype = \"energy\"").particles() == 3);
   scratch.file("c.data", head + "Atoms # hybrid sphere bond\n\n20 4 0 0 x 1 2 1\n");
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"type2\""), Catch::Contains("c.data:"));

@@ -85,7 +85,8 @@ TEST_CASE("The study is a path where a path is asked for, and a reaction is summ
   CHECK(p.observe[1].reduce == Reduce::mean);
   CHECK(p.observe[1].component == Component::norm);
   CHECK(p.observe[1].quantity == Quantity::displacement);
-  CHECK(read_problem(scratch.file("q.toml", std::string(minimal) + "[path]\n[study]\ntype = \"energy\"")).study == StudyType::energy);
+  CHECK(read_problem(scratch.file("q.toml", std::string(minimal) + "[path]\n[study]\ntype = \"energy\"")).study ==
+        StudyType::energy);
 }
 
 TEST_CASE("The hash is SHA-256 of the bytes") {
@@ -116,7 +117,8 @@ TEST_CASE("The resolved problem holds every key") {
   std::vector<std::string> all;
   all_keys(tree, "", all);
   const ScratchDirectory scratch;
-  const Document document = read_document(scratch.file("r.toml", resolved_toml(read_problem(good + "everything.toml"))));
+  const Document document =
+      read_document(scratch.file("r.toml", resolved_toml(read_problem(good + "everything.toml"))));
   // A key is there if one of the tables of its name has it.
   const auto has = [](const auto& self, const Node& node, const std::string& key) -> bool {
     if (const auto* list = std::get_if<List>(&node.value)) {
@@ -141,7 +143,8 @@ TEST_CASE("The resolved problem holds every key") {
 
 TEST_CASE("Numbers survive being written and read, bit for bit") {
   std::mt19937_64 random(7);
-  std::vector<double> numbers{0.0, -0.0, 1.0, 0.1, 1e22, 1e23, 1e-10, -1e300, 1.7976931348623157e308, 2.2250738585072014e-308, 123456789};
+  std::vector<double> numbers{
+      0.0, -0.0, 1.0, 0.1, 1e22, 1e23, 1e-10, -1e300, 1.7976931348623157e308, 2.2250738585072014e-308, 123456789};
   while (numbers.size() < 3000)
     if (const double x = std::bit_cast<double>(random()); std::isnormal(x)) numbers.push_back(x);
   for (const double x : numbers) {
@@ -152,7 +155,8 @@ TEST_CASE("Numbers survive being written and read, bit for bit") {
 }
 
 TEST_CASE("Strings survive being written and read") {
-  for (const std::string text : {"", "plain", "\"quoted\" \\ back", "line\nbreak\ttab\r\x7f\x01", "ünïcode € 𝄞", "# no comment", "'''"}) {
+  for (const std::string text :
+       {"", "plain", "\"quoted\" \\ back", "line\nbreak\ttab\r\x7f\x01", "ünïcode € 𝄞", "# no comment", "'''"}) {
     const Node node = parse_value(to_toml(text), {});
     REQUIRE(std::holds_alternative<std::string>(node.value));
     CHECK(std::get<std::string>(node.value) == text);
@@ -191,7 +195,8 @@ TEST_CASE("Settings change keys, add those that are allowed, and reach into list
 TEST_CASE("A setting may make a table, and the last of two settings holds") {
   const ScratchDirectory scratch;
   const std::string file = scratch.file("p.toml", minimal);
-  const Problem p = read_problem(file, {{"path.to", "0.5"}, {"path.to", "0.25"}, {"study.type", "equilibrium"}, {"plane", "yz"}});
+  const Problem p =
+      read_problem(file, {{"path.to", "0.5"}, {"path.to", "0.25"}, {"study.type", "equilibrium"}, {"plane", "yz"}});
   CHECK(p.path.to == 0.25);
   CHECK(p.study == StudyType::equilibrium);
   CHECK(p.plane == "yz");
@@ -205,7 +210,8 @@ TEST_CASE("File names are sought from the folder of the problem file") {
   const ScratchDirectory scratch;
   std::filesystem::create_directories(scratch / "states");
   scratch.file("states/s.data", "");
-  const Problem p = read_problem(scratch.file("p.toml", std::string(minimal) + "[path]\nstart = \"./states/../states/s.data\""));
+  const Problem p =
+      read_problem(scratch.file("p.toml", std::string(minimal) + "[path]\nstart = \"./states/../states/s.data\""));
   CHECK(p.path.start == scratch / "states/s.data");
   CHECK(p.path.start_lambda == 0.0);
   CHECK(again(p) == p);

@@ -41,10 +41,13 @@ TEST_CASE("Without a sweep there is one run") {
 
 TEST_CASE("Values and ranges") {
   const std::string key = "[[sweep]]\nkey = \"beam.column.diameter\"\n";
-  CHECK(runs_of(key + "values = [1, 2.5, 1e-3]") == Texts{"beam.column.diameter = 1", "beam.column.diameter = 2.5", "beam.column.diameter = 0.001"});
-  CHECK(runs_of(key + "range = [14, 19, 2]") == Texts{"beam.column.diameter = 14", "beam.column.diameter = 16", "beam.column.diameter = 18"});
-  CHECK(runs_of(key + "range = [3, 1, -1]") == Texts{"beam.column.diameter = 3", "beam.column.diameter = 2", "beam.column.diameter = 1"});
-  const Texts tenths = runs_of(key + "range = [0.1, 0.5, 0.1]");   // 0.1 is no sum of halves: the end is in all the same
+  CHECK(runs_of(key + "values = [1, 2.5, 1e-3]") ==
+        Texts{"beam.column.diameter = 1", "beam.column.diameter = 2.5", "beam.column.diameter = 0.001"});
+  CHECK(runs_of(key + "range = [14, 19, 2]") ==
+        Texts{"beam.column.diameter = 14", "beam.column.diameter = 16", "beam.column.diameter = 18"});
+  CHECK(runs_of(key + "range = [3, 1, -1]") ==
+        Texts{"beam.column.diameter = 3", "beam.column.diameter = 2", "beam.column.diameter = 1"});
+  const Texts tenths = runs_of(key + "range = [0.1, 0.5, 0.1]");  // 0.1 is no sum of halves: the end is in all the same
   REQUIRE(tenths.size() == 5);
   CHECK(tenths[2] == "beam.column.diameter = 0.29999999999999999");
   CHECK(runs_of("[[sweep]]\nkey = \"path.when_unstable\"\nvalues = [\"jump\", \"stop\"]") ==
@@ -54,12 +57,15 @@ TEST_CASE("Values and ranges") {
 }
 
 TEST_CASE("Several sweeps: all combinations, or in step") {
-  const std::string a = "[[sweep]]\nkey = \"path.to\"\nvalues = [1, 2]\n", b = "[[sweep]]\nkey = \"path.steps\"\nvalues = [10, 20, 30]\n",
+  const std::string a = "[[sweep]]\nkey = \"path.to\"\nvalues = [1, 2]\n",
+                    b = "[[sweep]]\nkey = \"path.steps\"\nvalues = [10, 20, 30]\n",
                     c = "[[sweep]]\nkey = \"beam.column.diameter\"\nvalues = [3, 4]\n";
-  CHECK(runs_of(a + b) == Texts{"path.to = 1, path.steps = 10", "path.to = 1, path.steps = 20", "path.to = 1, path.steps = 30",
-                                "path.to = 2, path.steps = 10", "path.to = 2, path.steps = 20", "path.to = 2, path.steps = 30"});
+  CHECK(runs_of(a + b) == Texts{"path.to = 1, path.steps = 10", "path.to = 1, path.steps = 20",
+                                "path.to = 1, path.steps = 30", "path.to = 2, path.steps = 10",
+                                "path.to = 2, path.steps = 20", "path.to = 2, path.steps = 30"});
   const std::string zip = "zip = \"pair\"\n";
-  CHECK(runs_of(a + zip + c + zip) == Texts{"path.to = 1, beam.column.diameter = 3", "path.to = 2, beam.column.diameter = 4"});
+  CHECK(runs_of(a + zip + c + zip) ==
+        Texts{"path.to = 1, beam.column.diameter = 3", "path.to = 2, beam.column.diameter = 4"});
   CHECK(runs_of(a + zip + b + c + zip).size() == 6);
 }
 
@@ -73,8 +79,9 @@ TEST_CASE("Settings change the sweep, but not a key that is swept") {
 
 TEST_CASE("Every run is prepared with its own settings") {
   const ScratchDirectory scratch;
-  const auto runs = prepare_runs(scratch.file("p.toml", std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [4, 6, 1]"),
-                                 {{"title", "swept"}});
+  const auto runs = prepare_runs(
+      scratch.file("p.toml", std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [4, 6, 1]"),
+      {{"title", "swept"}});
   REQUIRE(runs.size() == 3);
   for (int i = 0; i < 3; ++i) {
     CHECK(runs[i].problem.beams[0].particles == 4 + i);
@@ -94,14 +101,21 @@ TEST_CASE("A mistake of all runs is told once, and one of some names the first")
     }
     return "";
   };
-  const std::string file = scratch / "p.toml", sweep = "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [2, 36, 1]\n";
+  const std::string file = scratch / "p.toml",
+                    sweep = "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [2, 36, 1]\n";
   CHECK(said(column + sweep + "[[gravity]]\nacceleration = [0, 0, 1]") ==
         file + ":2:1: beam.column.density: is missing; it must be a positive number, gravity.1 of line 14 needs it");
   CHECK(said(column + sweep + "[[group]]\nname = \"g\"\nmiddle = 5") ==
-        file + ":16:10: group.g.middle: must be at most 2, the particles of \"all\", is 5 (in the run with beam.column.particles = 2; in 3 runs)");
+        file +
+            ":16:10: group.g.middle: must be at most 2, the particles of \"all\", is 5 (in the run with "
+            "beam.column.particles = 2; in 3 runs)");
   CHECK(said(column + sweep + "[[group]]\nname = \"g\"\nmiddle = 3") ==
-        file + ":16:10: group.g.middle: must be at most 2, the particles of \"all\", is 3 (in the run with beam.column.particles = 2)");
-  CHECK(said(std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [3, \"x\"]") ==
-        file + ":13:10: beam.column.particles: must be an integer from 2 to 100000000, is the string \"x\" (in the run with "
-               "beam.column.particles = \"x\")");
+        file +
+            ":16:10: group.g.middle: must be at most 2, the particles of \"all\", is 3 (in the run with "
+            "beam.column.particles = 2)");
+  CHECK(
+      said(std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [3, \"x\"]") ==
+      file +
+          ":13:10: beam.column.particles: must be an integer from 2 to 100000000, is the string \"x\" (in the run with "
+          "beam.column.particles = \"x\")");
 }

@@ -6,7 +6,7 @@ say() { echo "elamin: $*" >&2; }
 
 # packages KIND…: their names, from the list of packages.
 packages() {
-  for kind; do sed -n "s/^$kind  *\([^ ]*\).*/\1/p" "$root/setup/packages"; done
+  for kind; do sed -n "s/^$kind  *\([^ ]*\).*/\1/p" "$root/.setup/packages"; done
 }
 
 # missing NAME…: those of them that are not installed.
@@ -21,7 +21,7 @@ apt() { DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=600 
 # install_packages KIND…: installs the missing ones as root; anyone else is told what to type.
 install_packages() {
   if ! command -v dpkg-query >/dev/null; then
-    say "this is not Debian: install what $root/setup/packages lists by hand"
+    say "this is not Debian: install what $root/.setup/packages lists by hand"
     return
   fi
   absent=$(missing $(packages "$@") | tr '\n' ' ')

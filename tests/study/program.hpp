@@ -1,0 +1,37 @@
+#pragma once
+// Runs the program and keeps what it says.
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+struct Answer {
+  int status = -1;
+  std::string text;        // standard output and error
+};
+
+/// Runs `elamin ARGUMENTS` through the shell.
+inline Answer elamin_says(const std::string& arguments) {
+  Answer answer;
+  std::FILE* pipe = popen(("'" ELAMIN_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer;
+  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) answer.text.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return answer;
+}
+
+/// Rows of a CSV file without quoted cells, header first.
+inline std::vector<std::vector<std::string>> csv_rows(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream cells(line + ",");
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
