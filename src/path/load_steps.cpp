@@ -167,7 +167,8 @@ bool LoadSteps::jump(const Event& event, double target) {
   }
   newton_.energy().evaluate(jumped_from);
   const double before = newton_.energy().last_terms().total();
-  const Report report = newton_.minimise(state);
+  Report report = newton_.minimise(state, Pace::downhill);
+  if (report.status == Status::not_converged) report = newton_.minimise(state);
   if (!report.converged()) {
     current_.point.state = state, current_.point.report = report;
     return end(report.status, fmt::format("no minimum was found after {} at load factor {:.10g}: {}", event.at.point.label, at, report.why));

@@ -87,8 +87,12 @@ std::optional<Event> locate_crossing(Newton& newton, const Equilibrium& a, const
   const int before = a.point.stability.negative, after = b.point.stability.negative;
   const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
   const Eigen::MatrixXd known = persistent(a, b);
-  Sample lower{a.point.state.load_factor, eigenvalue(newton, a, index), a};
-  Sample upper{b.point.state.load_factor, eigenvalue(newton, b, index), b};
+  Equilibrium first = a, second = b;
+  first.zero_modes = second.zero_modes = known;
+  Sample lower{a.point.state.load_factor, eigenvalue(newton, first, index), first};
+  if (std::abs(lower.f) <= newton.factors().zero_level() && a.zero_modes.cols() > known.cols())   // a is the event itself
+    return finish(newton, first, EventKind::branch, index, newton.factors().zero_level(), known);
+  Sample upper{b.point.state.load_factor, eigenvalue(newton, second, index), second};
   if ((lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   const double resolution = 1e-14 * std::max(std::abs(lower.t), std::abs(upper.t));

@@ -15,6 +15,7 @@ namespace {
 constexpr double largest_turn = 0.3;          // of a bond in one step: rotations stay within the series' reach
 constexpr double armijo = 0.1;                // part of the predicted decrease that must come true
 constexpr int most_corrections = 6;
+constexpr int most_unseen = 12;
 constexpr double contraction = 0.7;           // corrections must shrink at least so, or the step is too long
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
@@ -25,6 +26,7 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 struct Newton::Step {
   Vector p, g, hp;             // hp = H p
   double energy, slope, curvature, energy_rounding;
+  Pace pace = Pace::long_steps;
   bool keep_direction = false; // corrections stay orthogonal to p: along a soft p they would overshoot
 };
 
@@ -54,7 +56,7 @@ bool Newton::attempt(const State& from, const Step& step, double alpha, State& t
     const double change = energy_.last_terms().total() - step.energy;
     if (!std::isfinite(change)) return false;
     if (hidden ? infinity_norm(energy_.gradient()) < 0.9 * before : change <= armijo * predicted) return true;
-    if (!step.keep_direction) return !hidden && change - energy_.unpredicted(to, from) <= armijo * predicted;
+    if (step.pace == Pace::long_steps) return !hidden && change - energy_.unpredicted(to, from) <= armijo * predicted;
     Vector correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
     if (step.keep_direction) correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
     const double size = correction.norm();
@@ -79,11 +81,12 @@ void Newton::polish(State& state, Report& report, const std::function<Vector(con
   }
 }
 
-Report Newton::minimise(State& state) {
+Report Newton::minimise(State& state, Pace pace) {
   const Stopwatch watch;
   Report report;
   const int factorizations_before = factors_.factorizations();
   double guess = 0;                                             // for the next shift
+  int unseen = 0;                                               // steps whose change of energy rounding hid
   const auto finish = [&](Status status, std::string why) {
     energy_.evaluate(state);
     report.energy = energy_.last_terms().total(), report.residual = residual();
@@ -133,7 +136,7 @@ Report Newton::minimise(State& state) {
       factors_.try_cholesky(guess);
     }
     Step step;
-    step.g = g;
+    step.g = g, step.pace = pace;
     step.p = -factors_.cholesky().solve(g);
     step.hp = -g - guess * step.p;
     step.energy = energy_.last_terms().total();
@@ -143,7 +146,13 @@ Report Newton::minimise(State& state) {
     const double distortion = energy_.distortion(state, step.p);
     double alpha = std::min(1.0, largest_turn / std::max(distortion, 1e-300));
     State next;
-    while (!attempt(state, step, alpha, next)) {
+    // Where rounding hides the energy's change and the model is convex, Newton's step itself is the best there is.
+    const bool hidden = std::abs(step.slope) <= step.energy_rounding && guess <= 100 * sigma && ++unseen <= most_unseen;
+    if (hidden) {
+      next = state;
+      energy_.kinematics().retract(next, step.p, alpha);
+    }
+    while (!hidden && !attempt(state, step, alpha, next)) {
       ++report.evaluations;
       alpha /= 2;
       if (alpha < 1e-12) {
@@ -153,7 +162,7 @@ Report Newton::minimise(State& state) {
     }
     moved = alpha * infinity_norm(step.p);
     previous = state;
-    linearised = true;
+    linearised = pace == Pace::long_steps;
     state = next;
   }
 }
@@ -172,7 +181,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.energy = energy_.last_terms().total();
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
   step.energy_rounding = 0;
-  step.keep_direction = true;
+  step.keep_direction = true, step.pace = Pace::downhill;
   if (!(step.curvature < 0)) return false;
   State best = state, next;
   double lowest = step.energy;

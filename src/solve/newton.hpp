@@ -11,6 +11,11 @@ struct NewtonOptions {
   int max_iterations = 200;
 };
 
+/// How minimise() goes. long_steps: as described at Newton, the fewest iterations. downhill: exact Hessian, the energy falls
+/// at every step, simplified Newton corrections bend a step back that stretched the structure; it stays in the valley that
+/// it starts in, which is what a fall from an unstable state wants.
+enum class Pace { long_steps, downhill };
+
 /// Newton's method. Both calls leave the state where they got to, prescribed coordinates as they are, and evaluate the
 /// energy with its exact Hessian there.
 ///
@@ -27,7 +32,7 @@ class Newton {
   /// Finds a minimum: converged means a small residual and no negative eigenvalue. A saddle is left along its negative
   /// curvature. Steps lower the energy (Armijo on what was predicted); where rounding hides the energy's change, they
   /// must lower the residual.
-  Report minimise(State& state);
+  Report minimise(State& state, Pace pace = Pace::long_steps);
 
   /// Finds the stationary point near the state, stable or not. Directions in the columns of `held` (orthonormal,
   /// dofs × m) keep their value: zero modes, or the critical modes at an event. `from`: the equilibrium that a predictor
