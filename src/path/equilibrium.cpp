@@ -16,7 +16,8 @@ Vector solve_projected(Factors& factors, const Eigen::MatrixXd& zero, Vector b) 
   };
   b = project(b);
   if (zero.cols() == 0 && factors.try_cholesky(0)) return factors.cholesky().solve(b);
-  if (!factors.try_pivoted(0)) factors.try_pivoted(factors.zero_level());
+  const double shift = zero.cols() > 0 ? 100 * factors.zero_level() : 0.0;
+  if (!factors.try_pivoted(shift)) factors.try_pivoted(shift + factors.zero_level());
   return project(factors.pivoted().solve(b));
 }
 

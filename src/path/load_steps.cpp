@@ -14,7 +14,7 @@ namespace {
 constexpr int finest = 20;                          // halvings of a step
 constexpr int seek_limit = 8;                       // halvings after which a limit point is looked for
 constexpr std::int64_t whole = std::int64_t(1) << finest;
-constexpr double beyond_event = 1e-2;               // of the way to the next step: where a jump is made
+constexpr double beyond_event = 0.1;                // of the way to the next step: where a jump is made
 
 // Load factors to hit, in order: the even steps and the stops asked for.
 std::vector<double> targets_of(const LoadStepOptions& o) {

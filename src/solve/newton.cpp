@@ -109,8 +109,8 @@ Report Newton::minimise(State& state, Pace pace) {
       const Inertia inertia = factors_.inertia();
       report.negative = inertia.negative;
       if (inertia.negative == 0) {
-        const double shift = factors_.make_positive(0) > 0 ? 100 * factors_.zero_level() : 0.0;
-        if (shift > 0) factors_.try_cholesky(shift);
+        // With a zero mode the exact factor would fill the steps with its rounding.
+        factors_.try_cholesky(inertia.zero > 0 ? 100 * factors_.zero_level() : 0.0);
         polish(state, report, [&](const Vector& g) { return factors_.cholesky().solve(g); });
         return finish(Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance));
       }
@@ -227,8 +227,9 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     if (!std::isfinite(energy_.last_terms().total()))
       return finish(Status::not_converged, "the energy is not finite here: particles of an angle coincide");
     record(report, moved, 0);
-    definite = factors_.try_cholesky(0);
-    if (!definite && !factors_.try_pivoted(0)) factors_.try_pivoted(factors_.zero_level());
+    const double shift = held.cols() > 0 ? 100 * factors_.zero_level() : 0.0;    // as above: held modes may be zero modes
+    definite = factors_.try_cholesky(shift);
+    if (!definite && !factors_.try_pivoted(shift)) factors_.try_pivoted(shift + factors_.zero_level());
     if (report.residual <= options_.tolerance) {
       polish(state, report, solve);
       return finish(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
