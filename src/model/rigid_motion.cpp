@@ -123,6 +123,7 @@ std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& sta
       }
     for (const Twist& t : null_space(rows)) {
       RigidMotion motion;
+      motion.particle = part.particles.front();
       motion.velocity = Field::Zero(3, model.particles());
       for (const int p : part.particles) motion.velocity.col(p) = velocity(t, p);
       if (motion.velocity.cwiseAbs().maxCoeff() < 1e-6) continue;  // moves nothing: a row about its own line

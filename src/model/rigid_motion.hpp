@@ -8,6 +8,7 @@ namespace elamin {
 struct RigidMotion {
   std::string name;               // "translation of 'column' along x", "rotation of 'column' about z through (0, 0, 0)"
   bool translation = false;
+  int particle = 0;               // the first one of the part that moves
   Field velocity;                 // 3 × particles, zero outside of the structure
 };
 

@@ -1,5 +1,7 @@
 #include "problem/build_checks.hpp"
 
+#include "model/rigid_motion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,29 +78,31 @@ void check_plane(const Problem& problem, const Model& model, const Field& positi
 
 void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
   if (problem.study == StudyType::energy) return;
-  std::vector<int> root(model.particles());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  const auto join = [&](int i, int j) { root[find(i)] = find(j); };
-  for (const Bond& b : model.bonds) join(b.particles[0], b.particles[1]);
-  for (const Angle& a : model.angles) join(a.particles[0], a.particles[1]), join(a.particles[1], a.particles[2]);
-
-  std::vector<bool> held(model.particles());
+  const std::vector<int> part = connected_parts(model), structure = structure_of(model);
+  std::vector<bool> held(model.particles());                 // by part
   for (const Support& s : model.supports)
-    for (const int i : s.particles) held[find(i)] = true;
-  const std::vector<int> structure = structure_of(model);
+    for (const int i : s.particles) held[part[i]] = true;
   std::vector<int> told(model.structures.size());
   for (int i = 0; i < model.particles(); ++i) {
-    if (held[find(i)] || told[structure[i]]++) continue;
+    if (held[part[i]] || told[structure[i]]++) continue;
     const Structure& s = model.structures[structure[i]];
-    const std::string part =
+    const std::string loose =
         s.kind == "beam" ? "none of its particles is held by a support"
                          : fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
-    mistakes.add(place_of(problem, s), part + "; an equilibrium needs a [[support]]");
+    mistakes.add(place_of(problem, s), loose + "; an equilibrium needs a [[support]]");
   }
+  // What is held may still move as a whole. A translation is never an equilibrium's business; a rotation is if something
+  // acts on it, as a weight on a pendulum does, or if the state comes from a file, as a buckled column's does.
+  const bool loaded = !problem.loads.empty() || !problem.gravity.empty() || !problem.path.start.empty();
+  std::vector<std::string> names(model.structures.size());
+  for (const RigidMotion& m : free_rigid_motions(model, model.start)) {
+    const int s = structure[m.particle];
+    const bool allowed = !m.translation && (loaded || model.structures[s].kind != "beam");
+    if (held[part[m.particle]] && !allowed) names[s] += (names[s].empty() ? "" : ", ") + m.name;
+  }
+  for (std::size_t s = 0; s < names.size(); ++s)
+    if (!names[s].empty())
+      mistakes.add(place_of(problem, model.structures[s]), "free to move as a whole: " + names[s] + "; hold it with a [[support]]");
 }
 
 }  // namespace elamin
