@@ -30,7 +30,7 @@ double critical(const nlohmann::json& c, int k) {
 }  // namespace
 
 TEST_CASE("critical loads of straight chains, first loss of stability", "[path][reference]") {
-  for (const auto& c : reference("exact/chain_critical.json")["cases"])
+  for (const nlohmann::json& c : nlohmann::json(reference("exact/chain_critical.json")["cases"]))
     for (const bool plane : {true, false}) {
       const Model model = column(c, plane, Vec3::UnitZ());
       Energy energy(model);
@@ -48,7 +48,7 @@ TEST_CASE("critical loads of straight chains, first loss of stability", "[path][
 }
 
 TEST_CASE("critical loads of an oblique chain in space", "[path][reference]") {
-  for (const auto& c : reference("exact/chain_critical.json")["cases"]) {
+  for (const nlohmann::json& c : nlohmann::json(reference("exact/chain_critical.json")["cases"])) {
     if (c["section"] != "generic") continue;
     const Model model = column(c, false, Vec3(1, -2, 0.7));
     Energy energy(model);
@@ -66,13 +66,14 @@ TEST_CASE("critical loads of an oblique chain in space", "[path][reference]") {
 }
 
 TEST_CASE("the first four critical loads, following the straight branch", "[path][reference]") {
-  for (const auto& c : reference("exact/chain_critical.json")["cases"])
+  for (const nlohmann::json& c : nlohmann::json(reference("exact/chain_critical.json")["cases"]))
     for (const bool plane : {true, false}) {
       if (static_cast<int>(c["N_free_particles"]) > 40) continue;
       const Model model = column(c, plane, Vec3::UnitZ());
       Energy energy(model);
       Newton newton(energy);
-      const int known = static_cast<int>(c["mu"].size());
+      // As many transverse modes in a plane as free particles, whatever the closed form lists beyond.
+      const int known = std::min(static_cast<int>(c["mu"].size()), static_cast<int>(c["N_free_particles"]));
       LoadSteps path(newton, model.start, {.from = 0, .to = 1.02 * critical(c, known - 1), .steps = 10, .when_unstable = WhenUnstable::follow, .start = {}, .stops = {}});
       INFO(c["ends"] << " " << c["section"] << " N = " << c["N_free_particles"] << (plane ? " 2D" : " 3D"));
       int found = 0;
