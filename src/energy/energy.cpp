@@ -105,6 +105,11 @@ double Energy::distortion(const State& state, const Vector& step) const {
   return largest;
 }
 
+double Energy::relative(const Vector& force) const {
+  const double largest = force.size() ? force.cwiseAbs().maxCoeff() : 0.0;
+  return largest == 0 ? 0.0 : largest / std::max(force_scale_, force_floor_);
+}
+
 Field Energy::forces(const State& state) {
   evaluate(state, false);
   return -site_gradient_;

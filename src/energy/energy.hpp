@@ -43,6 +43,8 @@ class Energy {
   double force_scale() const { return force_scale_; }
   /// Rounding's own force: ε times the largest stiffness times bond length; forces below it are zero. [force]
   double force_floor() const { return force_floor_; }
+  /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
+  double relative(const Vector& force) const;
 
   /// −∂U/∂x of all particles, loads included, held or not: 3 × particles [force]. At a held coordinate of an
   /// equilibrium it is minus the reaction.

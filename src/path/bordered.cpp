@@ -30,7 +30,7 @@ Equilibrium ArcStep::equilibrium(Newton& newton, double s) const {
   double last = std::numeric_limits<double>::infinity();
   for (; report.iterations < most; ++report.iterations) {
     energy_.evaluate(state);
-    report.residual = project(energy_.gradient()).cwiseAbs().maxCoeff() / std::max(energy_.force_scale(), energy_.force_floor());
+    report.residual = energy_.relative(project(energy_.gradient()));
     // Block elimination: Δx = a + Δλ b,  H a = −g,  H b = −∂g/∂λ. What it loses close to a singular H, the next
     // iteration mends, as residuals are exact.
     if (!factors.try_pivoted(0)) factors.try_pivoted(factors.zero_level());
@@ -54,12 +54,10 @@ Equilibrium ArcStep::equilibrium(Newton& newton, double s) const {
     result.point.state = state;
     return result;
   }
-  const int iterations = report.iterations;
   energy_.evaluate(state);
   Report done = report;
-  done.iterations = iterations;
   done.energy = energy_.last_terms().total();
-  done.residual = project(energy_.gradient()).cwiseAbs().maxCoeff() / std::max(energy_.force_scale(), energy_.force_floor());
+  done.residual = energy_.relative(project(energy_.gradient()));
   return assess(newton, state, done);
 }
 

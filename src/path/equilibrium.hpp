@@ -18,9 +18,8 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report);
 /// Converged only if the corrector moved less than the predictor did, so that it stays on the branch.
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor);
 
-/// The directions in which an equilibrium is about to lose its stability or has lost it: eigenvectors of the `count`
-/// lowest eigenvalues above `skip`, turned so that the choice within a multiple eigenvalue does not depend on rounding:
-/// the first one follows x as much as it can, else y, else z, and each has a positive sum or leading entry.
+/// Orthonormal modes of a multiple eigenvalue (dofs × count), turned so that their choice does not depend on rounding: the
+/// first one follows x as much as the span can, else y, else z, and each has a positive sum or leading entry.
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes);
 
 }  // namespace elamin

@@ -32,11 +32,7 @@ struct Newton::Step {
 
 Newton::Newton(Energy& energy, NewtonOptions options) : energy_(energy), options_(options), factors_(energy) {}
 
-double Newton::residual() const {
-  const double scale = std::max(energy_.force_scale(), energy_.force_floor());
-  const double largest = infinity_norm(energy_.gradient());
-  return largest == 0 ? 0.0 : largest / scale;
-}
+double Newton::residual() const { return energy_.relative(energy_.gradient()); }
 
 void Newton::record(Report& report, double step, double shift) const {
   report.energy = energy_.last_terms().total();

@@ -25,8 +25,7 @@ Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
   const State state = starting_state(problem, newton.energy());
   newton.energy().evaluate(state);
   Equilibrium e = assess(newton, state, {});
-  const double scale = std::max(newton.energy().force_scale(), newton.energy().force_floor());
-  e.point.report.residual = newton.energy().dofs() ? newton.energy().gradient().cwiseAbs().maxCoeff() / std::max(scale, 1e-300) : 0;
+  e.point.report.residual = newton.energy().relative(newton.energy().gradient());
   e.point.report.status = Status::converged;
   sink.point(e.point, true);
   return {Status::converged, "energies and forces of the state in the file"};
