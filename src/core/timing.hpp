@@ -13,4 +13,17 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// Adds the seconds of its own life to a total.
+class Timed {
+ public:
+  explicit Timed(double& total) : total_(total) {}
+  ~Timed() { total_ += watch_.seconds(); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& total_;
+  Stopwatch watch_;
+};
+
 }  // namespace elamin

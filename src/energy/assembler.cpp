@@ -30,7 +30,7 @@ Assembler::Assembler(const Kinematics& kinematics, const Groups& groups) : kinem
     g += std::int64_t(group->elements()) * group->gradient_size();
     h += std::int64_t(group->elements()) * group->hessian_size();
   }
-  values_.resize(v), gradients_.resize(g), hessians_.resize(h);
+  values_.resize(v), sums_.resize(groups_.size()), gradients_.resize(g), hessians_.resize(h);
   build_pattern();
   build_gathers();
 }
@@ -89,64 +89,78 @@ void Assembler::build_gathers() {
     const int* last = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[at.column + 1];
     return std::lower_bound(first, last, at.row) - hessian_.innerIndexPtr();
   };
+  // The place in hessian_ of every entry of the buffer, found once; −1: a prescribed dof is in it.
+  std::vector<std::int64_t> target(hessians_.size(), -1);
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const ElementGroup& group = *groups_[k];
+    parallel_for(group.elements(), grain, [&](std::int64_t e) {
+      std::int64_t place = hessian_offset_[k] + e * group.hessian_size();
+      for (int r = 0; r < group.gradient_size(); ++r)
+        for (int c = 0; c <= r; ++c, ++place)
+          if (const Entry at = entry(group, static_cast<int>(e), r, c); at.column >= 0) target[place] = nonzero(at);
+    });
+  }
   std::vector<std::int64_t>& start = nonzero_gather_.start;
   start.assign(hessian_.nonZeros() + 1, 0);
-  for (const auto& group : groups_)
-    for_each_entry(*group, [&](int e, int r, int c) {
-      if (const Entry at = entry(*group, e, r, c); at.column >= 0) ++start[nonzero(at) + 1];
-    });
+  for (const std::int64_t t : target)
+    if (t >= 0) ++start[t + 1];
   for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
   nonzero_gather_.index.resize(start.back());
   next.assign(start.begin(), start.end() - 1);
-  for (std::size_t k = 0; k < groups_.size(); ++k)
+  for (std::size_t place = 0; place < target.size(); ++place)
+    if (target[place] >= 0) nonzero_gather_.index[next[target[place]]++] = static_cast<std::int64_t>(place);
+
+  if (!kinematics_.driven()) return;
+  for (std::size_t k = 0; k < groups_.size(); ++k)              // one dof free, the other driven: it feeds ∂g/∂λ
     for_each_entry(*groups_[k], [&](int e, int r, int c) {
-      const std::int64_t place =
-          hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c);
       const Entry at = entry(*groups_[k], e, r, c);
-      if (at.column >= 0) {
-        nonzero_gather_.index[next[nonzero(at)]++] = place;
-      } else if (at.row >= 0) {         // one dof free, the other prescribed: it feeds ∂g/∂λ
-        const int site_r = groups_[k]->stencil(e)[r / 3], site_c = groups_[k]->stencil(e)[c / 3];
-        const double rate = kinematics_.dof(site_r, r % 3) < 0 ? kinematics_.drive(site_r)[r % 3] : kinematics_.drive(site_c)[c % 3];
-        if (rate != 0) drives_.push_back({at.row, place, rate});
-      }
+      if (at.column >= 0 || at.row < 0) return;
+      const int site_r = groups_[k]->stencil(e)[r / 3], site_c = groups_[k]->stencil(e)[c / 3];
+      const double rate = kinematics_.dof(site_r, r % 3) < 0 ? kinematics_.drive(site_r)[r % 3] : kinematics_.drive(site_c)[c % 3];
+      if (rate != 0)
+        drives_.push_back({at.row, hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c), rate});
     });
 }
 
-double Assembler::sum_values(std::size_t k) const {
+namespace {
+
+// Sum with compensation; +inf if a value is not finite.
+double sum_of(const double* value, int count) {
   ExactSum sum;
   bool finite = true;
-  for (int e = 0; e < groups_[k]->elements(); ++e) {
-    const double v = values_[value_offset_[k] + e];
-    finite = finite && std::isfinite(v);
-    sum.add(v);
+  for (int e = 0; e < count; ++e) {
+    finite = finite && std::isfinite(value[e]);
+    sum.add(value[e]);
   }
   return finite ? sum.value() : std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> Assembler::values(const State& state) {
-  std::vector<double> sums;
-  for (std::size_t k = 0; k < groups_.size(); ++k) {
-    groups_[k]->values(state, values_.data() + value_offset_[k]);
-    sums.push_back(sum_values(k));
-  }
-  return sums;
+}  // namespace
+
+void Assembler::sum_values() {
+  for (std::size_t k = 0; k < groups_.size(); ++k)
+    sums_[k] = sum_of(values_.data() + value_offset_[k], groups_[k]->elements());
 }
 
-std::vector<double> Assembler::evaluate(const State& state, bool with_hessian, const State* from) {
-  std::vector<double> sums;
-  for (std::size_t k = 0; k < groups_.size(); ++k) {
+const std::vector<double>& Assembler::values(const State& state) {
+  for (std::size_t k = 0; k < groups_.size(); ++k) groups_[k]->values(state, values_.data() + value_offset_[k]);
+  sum_values();
+  return sums_;
+}
+
+const std::vector<double>& Assembler::evaluate(const State& state, bool with_hessian, const State* from) {
+  for (std::size_t k = 0; k < groups_.size(); ++k)
     groups_[k]->derivatives(state, from, values_.data() + value_offset_[k], gradients_.data() + gradient_offset_[k],
                             with_hessian ? hessians_.data() + hessian_offset_[k] : nullptr);
-    sums.push_back(sum_values(k));
-  }
-  return sums;
+  sum_values();
+  return sums_;
 }
 
 double Assembler::unpredicted(const State& state, const State& from) {
   double sum = 0;
   for (std::size_t k = 0; k < groups_.size(); ++k)
-    if (groups_[k]->unpredicted(state, from, values_.data() + value_offset_[k])) sum += sum_values(k);
+    if (groups_[k]->unpredicted(state, from, values_.data() + value_offset_[k]))
+      sum += sum_of(values_.data() + value_offset_[k], groups_[k]->elements());
   return sum;
 }
 
@@ -171,16 +185,27 @@ const SparseMatrix& Assembler::hessian() {
   return hessian_;
 }
 
-void Assembler::add_drive(Vector& out) const {
+void Assembler::add_drive(const State& state, Vector& out) const {
   for (const Drive& d : drives_) out[d.dof] += hessians_[d.place] * d.rate;
+  for (const auto& group : groups_) {
+    if (!group->moves()) continue;
+    std::vector<double> rate(std::size_t(group->elements()) * group->gradient_size());
+    group->load_rates(state, rate.data());
+    for (int e = 0; e < group->elements(); ++e)
+      for (int i = 0; i < group->gradient_size(); ++i)
+        if (const int dof = kinematics_.dof(group->stencil(e)[i / 3], i % 3); dof >= 0)
+          out[dof] += rate[std::size_t(e) * group->gradient_size() + i];
+  }
 }
 
 namespace {
 
-// The part of v that an element sees: differences to its first site (energies do not change under translation).
+// The part of v that an element sees: differences to its first site (energies do not change under translation), or v
+// itself where there is one site only.
 void relative_motion(const Field& v, std::span<const int> stencil, double* out) {
+  const bool alone = stencil.size() == 1;
   for (std::size_t i = 0; i < stencil.size(); ++i)
-    for (int c = 0; c < 3; ++c) out[3 * i + c] = v(c, stencil[i]) - v(c, stencil[0]);
+    for (int c = 0; c < 3; ++c) out[3 * i + c] = v(c, stencil[i]) - (alone ? 0.0 : v(c, stencil[0]));
 }
 
 constexpr int most_local = 12;
@@ -220,7 +245,7 @@ double Assembler::quadratic_form(const Field& v) const {
       packed_product(hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size(), local,
                      group.gradient_size(), product);
       double q = 0;
-      for (int i = 3; i < group.gradient_size(); ++i) q += local[i] * product[i];
+      for (int i = group.sites() == 1 ? 0 : 3; i < group.gradient_size(); ++i) q += local[i] * product[i];
       sum.add(q);
     }
   }

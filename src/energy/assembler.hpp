@@ -21,9 +21,9 @@ class Assembler {
   Assembler(const Kinematics& kinematics, const Groups& groups);
 
   /// Energy of each group, summed in stored order with compensation; +inf where a law is outside its domain.
-  std::vector<double> values(const State& state);
-  /// Fills the element buffers; the calls below read them.
-  std::vector<double> evaluate(const State& state, bool with_hessian, const State* from);
+  const std::vector<double>& values(const State& state);
+  /// The same; fills the element buffers, which the calls below read.
+  const std::vector<double>& evaluate(const State& state, bool with_hessian, const State* from);
   /// Sum over the laws that predict their force from `from` of the energy they did not predict.
   double unpredicted(const State& state, const State& from);
   /// ∂U/∂x of all sites, 3 × sites, from the last evaluation.
@@ -31,8 +31,11 @@ class Assembler {
   /// ∂²U/∂q∂q, lower triangle, pattern fixed; from the last evaluation with Hessian.
   const SparseMatrix& hessian();
   const SparseMatrix& pattern() const { return hessian_; }
-  /// ∂²U/∂q∂λ through the driven sites, added to `out` (dofs); from the last evaluation with Hessian.
-  void add_drive(Vector& out) const;
+  /// The same, for whoever puts something on its diagonal until the next evaluation.
+  SparseMatrix& hessian_values() { return hessian_; }
+  /// ∂²U/∂q∂λ through the driven sites and the groups that move by themselves, added to `out` (dofs); from the last
+  /// evaluation with Hessian, which was at `state`.
+  void add_drive(const State& state, Vector& out) const;
   /// H v for a field v that is zero at prescribed coordinates (3 × sites), element by element on differences of v, so
   /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
   void multiply(const Field& v, Field& out);
@@ -42,7 +45,7 @@ class Assembler {
   double largest_element_force() const;
 
  private:
-  double sum_values(std::size_t group) const;
+  void sum_values();
   void gather(const std::vector<double>& buffer, Field& out) const;
   void build_pattern();
   void build_gathers();
@@ -50,7 +53,7 @@ class Assembler {
   const Kinematics& kinematics_;
   const Groups& groups_;
   std::vector<std::int64_t> value_offset_, gradient_offset_, hessian_offset_;   // of each group in the buffers
-  std::vector<double> values_, gradients_, hessians_, products_;
+  std::vector<double> values_, sums_, gradients_, hessians_, products_;
   GatherList site_gather_;              // per site: places of its 3 components in gradients_
   GatherList nonzero_gather_;           // per non-zero: places in hessians_
   struct Drive { int dof; std::int64_t place; double rate; };

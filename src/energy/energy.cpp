@@ -1,54 +1,108 @@
 #include "energy/energy.hpp"
 
-#include "laws/cosine_angle.hpp"
-#include "laws/harmonic_bond.hpp"
+#include "energy/groups.hpp"
+#include "energy/touches.hpp"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <limits>
 
 namespace elamin {
 
 namespace {
 
-std::unique_ptr<ElementGroup> bond_group(const Model& model) {
-  std::vector<HarmonicBond> laws;
-  for (const BondType& t : model.bond_types) laws.push_back({t.stiffness, t.rest_length});
-  std::vector<int> kind;
-  std::vector<std::array<int, 2>> stencils;
-  for (const Bond& b : model.bonds) kind.push_back(b.type), stencils.push_back(b.particles);
-  return std::make_unique<LawGroup<HarmonicBond>>(std::move(laws), std::move(kind), std::move(stencils));
+enum Place { bonds, angles, contacts, cohesion, walls, places };   // in the list of groups
+
+// The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, turn or overlap of order one.
+double stiffest(const Model& model) {
+  double most = 0;
+  const auto length = [&](int i, int j) { return (model.start.at(j) - model.start.at(i)).hi.norm(); };
+  for (const Bond& b : model.bonds)
+    most = std::max(most, 2 * model.bond_types[b.type].stiffness * length(b.particles[0], b.particles[1]));
+  for (const Angle& a : model.angles)
+    if (const double l = length(a.particles[0], a.particles[1]); l > 0)
+      most = std::max(most, model.angle_types[a.type].stiffness / l);
+  const auto contact = [&](double modulus, const std::vector<int>& particles) {
+    for (const int p : particles) most = std::max(most, modulus * model.diameter[p] * model.diameter[p]);
+  };
+  for (const PairContact& c : model.contacts)
+    for (const auto& side : c.particles) contact(c.effective_modulus, side);
+  for (const Wall& w : model.walls) contact(w.effective_modulus, w.particles);
+  for (const PairContact& c : model.contacts)
+    if (c.law == PairContact::Law::lj) most = std::max(most, c.epsilon / c.sigma);
+  return most;
 }
 
-std::unique_ptr<ElementGroup> angle_group(const Model& model) {
-  std::vector<CosineAngle> laws;
-  for (const AngleType& t : model.angle_types) laws.push_back({t.stiffness});
-  std::vector<int> kind;
-  std::vector<std::array<int, 3>> stencils;
-  for (const Angle& a : model.angles) kind.push_back(a.type), stencils.push_back(a.particles);
-  return std::make_unique<LawGroup<CosineAngle>>(std::move(laws), std::move(kind), std::move(stencils));
+// Diagonal of the box around all particles and the finite corners of walls.
+double extent(const Model& model) {
+  Eigen::AlignedBox3d box;
+  for (int p = 0; p < model.particles(); ++p)
+    for (const double r : {-model.diameter[p] / 2, model.diameter[p] / 2})
+      box.extend(Vec3(model.start.position.col(p) + Vec3::Constant(r)));
+  for (const Wall& w : model.walls) {
+    const Region& r = w.region;
+    if (r.shape == Shape::block) box.extend(r.lo), box.extend(r.hi);
+    else if (r.shape == Shape::plane) box.extend(Vec3(model.start.position.col(0) - r.normal * r.normal.dot(model.start.position.col(0) - r.center)));
+    else box.extend(Vec3(r.center - Vec3::Constant(r.radius))), box.extend(Vec3(r.center + Vec3::Constant(r.radius)));
+  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+// The free dofs of particles that no bond and no angle holds.
+std::vector<int> loose_dofs(const Model& model, const Kinematics& kinematics) {
+  std::vector<bool> glued(model.particles());
+  for (const Bond& b : model.bonds)
+    for (const int p : b.particles) glued[p] = true;
+  for (const Angle& a : model.angles)
+    for (const int p : a.particles) glued[p] = true;
+  std::vector<int> loose;
+  for (int d = 0; d < kinematics.dofs(); ++d)
+    if (!glued[kinematics.site_of(d)]) loose.push_back(d);
+  return loose;
+}
+
+bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
 }
 
 }  // namespace
 
 Energy::Energy(const Model& model)
-    : model_(model), kinematics_(model), constant_load_(Field::Zero(3, model.particles())),
+    : model_(model), kinematics_(model), neighbours_(model), constant_load_(Field::Zero(3, model.particles())),
       scaled_load_(Field::Zero(3, model.particles())) {
-  groups_.push_back(bond_group(model));
-  groups_.push_back(angle_group(model));
-  assembler_ = std::make_unique<Assembler>(kinematics_, groups_);
   for (const Load& l : model.loads)
     for (const int p : l.particles) (l.constant ? constant_load_ : scaled_load_).col(p) += l.force;
   for (const Gravity& g : model.gravity)
     for (const int p : g.particles) (g.constant ? constant_load_ : scaled_load_).col(p) += model.mass(p) * g.acceleration;
-  double stiffest = 0;                                        // of 2K r₀
-  for (const Bond& b : model.bonds) {
-    const double length = (model.start.at(b.particles[1]) - model.start.at(b.particles[0])).hi.norm();
-    stiffest = std::max(stiffest, 2 * model.bond_types[b.type].stiffness * length);
-  }
-  for (const Angle& a : model.angles) {
-    const double length = (model.start.at(a.particles[1]) - model.start.at(a.particles[0])).hi.norm();
-    if (length > 0) stiffest = std::max(stiffest, model.angle_types[a.type].stiffness / length);
-  }
-  force_floor_ = epsilon * stiffest;
+  force_floor_ = epsilon * stiffest(model);
+  loose_ = loose_dofs(model, kinematics_);
+  idle_.reserve(loose_.size());
+  const bool meets = !model.contacts.empty() || !model.walls.empty();
+  longest_step_ = meets ? extent(model) : std::numeric_limits<double>::infinity();
+  groups_.resize(places);
+  groups_[bonds] = bond_group(model), groups_[angles] = angle_group(model), groups_[walls] = wall_group(model);
+  neighbours_.refresh(model.restart.value_or(model.start));
+  assemble_groups();
+}
+
+// The groups of pairs and the assembler for the candidates of contact that there are now.
+void Energy::assemble_groups() {
+  const std::unique_ptr<Assembler> before = std::move(assembler_);
+  groups_[contacts] = contact_group(model_, neighbours_), groups_[cohesion] = cohesion_group(model_, neighbours_);
+  assembler_ = std::make_unique<Assembler>(kinematics_, groups_);
+  if (!before || !same_pattern(before->pattern(), assembler_->pattern())) ++pattern_version_;
+}
+
+void Energy::cover(const State& state) {
+  if (!neighbours_.covers(state) && neighbours_.refresh(state)) assemble_groups();
+}
+
+EnergyTerms Energy::terms_of(const std::vector<double>& sums, const State& state) const {
+  return {.bond = sums[bonds], .angle = sums[angles], .contact = sums[contacts], .wall = sums[walls],
+          .cohesion = sums[cohesion], .external = external(state)};
 }
 
 double Energy::external(const State& state) const {
@@ -60,15 +114,38 @@ double Energy::external(const State& state) const {
 }
 
 EnergyTerms Energy::terms(const State& state) {
-  const std::vector<double> sums = assembler_->values(state);
-  return {sums[0], sums[1], external(state)};
+  cover(state);
+  return terms_of(assembler_->values(state), state);
 }
 
 void Energy::evaluate(const State& state, bool with_hessian, const State* from) {
-  const std::vector<double> sums = assembler_->evaluate(state, with_hessian, from);
-  terms_ = {sums[0], sums[1], external(state)};
+  cover(state);
+  terms_ = terms_of(assembler_->evaluate(state, with_hessian, from), state);
   finish_gradient(state);
-  if (with_hessian) hessian_ = &assembler_->hessian();
+  if (!with_hessian) return;
+  assembler_->hessian();
+  evaluated_ = state;
+  anchor_idle();
+}
+
+void Energy::anchor_idle() {
+  idle_.clear();
+  if (loose_.empty()) return;
+  SparseMatrix& h = assembler_->hessian_values();
+  Vector& stiffness = row_sums_;
+  stiffness.setZero(dofs());
+  for (int j = 0; j < h.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(h, j); it; ++it) {
+      stiffness[j] += std::abs(it.value());
+      if (it.row() != j) stiffness[it.row()] += std::abs(it.value());
+    }
+  const double largest = stiffness.size() ? stiffness.maxCoeff() : 0.0;
+  for (const int d : loose_)
+    if (stiffness[d] == 0) {
+      const double fall = std::abs(gradient_[d]) / (2 * model_.diameter[kinematics_.site_of(d)]);
+      h.valuePtr()[h.outerIndexPtr()[d]] = fall > 0 ? std::max(fall, 1e-12 * largest) : largest > 0 ? largest : 1.0;
+      idle_.push_back(d);
+    }
 }
 
 void Energy::finish_gradient(const State& state) {
@@ -79,12 +156,12 @@ void Energy::finish_gradient(const State& state) {
     site_gradient_.col(p) -= load;
     force_scale_ = std::max(force_scale_, load.norm());
   }
-  gradient_ = kinematics_.restrict(site_gradient_);
+  kinematics_.restrict(site_gradient_, gradient_);
 }
 
 Vector Energy::load_derivative() const {
   Vector d = -kinematics_.restrict(scaled_load_);
-  assembler_->add_drive(d);
+  assembler_->add_drive(evaluated_, d);
   return d;
 }
 
@@ -105,9 +182,45 @@ double Energy::distortion(const State& state, const Vector& step) const {
   return largest;
 }
 
+double Energy::movement(const Vector& step) const {
+  const Field s = kinematics_.extend(step);
+  double largest = 0;
+  for (int p = 0; p < model_.particles(); ++p)
+    if (model_.diameter[p] > 0) largest = std::max(largest, s.col(p).norm() / model_.diameter[p]);
+  return largest;
+}
+
+std::string Energy::name_of(int particle) const {
+  std::string name = "particle " + std::to_string(model_.id[particle]);
+  for (const Structure& s : model_.structures)
+    if (particle >= s.first && particle < s.first + s.count) name += " of '" + s.name + "'";
+  return name;
+}
+
+std::string Energy::escaped(const State& state, double extents) const {
+  const double far = extents * longest_step_;
+  for (int p = 0; p < model_.particles(); ++p)
+    if ((state.position.col(p) - model_.start.position.col(p)).cwiseAbs().maxCoeff() > far) return name_of(p);
+  return "";
+}
+
+std::string Energy::falling() const {
+  for (const int d : idle_)
+    if (gradient_[d] != 0) return name_of(kinematics_.site_of(d));
+  return "";
+}
+
 double Energy::relative(const Vector& force) const {
   const double largest = force.size() ? force.cwiseAbs().maxCoeff() : 0.0;
   return largest == 0 ? 0.0 : largest / std::max(force_scale_, force_floor_);
+}
+
+std::vector<Touch> Energy::touches(const State& state, double within) {
+  return find_touches(model_, neighbours_.rules(), state, within);
+}
+
+double Energy::gap(int particle, int other, int wall, const State& state) const {
+  return wall < 0 ? pair_gap(model_, particle, other, state) : wall_gap(model_, particle, wall, state);
 }
 
 Field Energy::forces(const State& state) {

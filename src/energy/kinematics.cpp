@@ -45,11 +45,16 @@ void Kinematics::retract(State& state, const Vector& step, double scale) const {
     }
 }
 
-Vector Kinematics::restrict(const Field& field) const {
-  Vector v(dofs());
+void Kinematics::restrict(const Field& field, Vector& out) const {
+  out.resize(dofs());
   for (int p = 0; p < sites(); ++p)
     for (int c = 0; c < 3; ++c)
-      if (dof_(c, p) >= 0) v[dof_(c, p)] = field(c, p);
+      if (dof_(c, p) >= 0) out[dof_(c, p)] = field(c, p);
+}
+
+Vector Kinematics::restrict(const Field& field) const {
+  Vector v;
+  restrict(field, v);
   return v;
 }
 

@@ -26,6 +26,7 @@ class Kinematics {
   void retract(State& state, const Vector& step, double scale = 1) const;
   /// The free dofs of a field (3 × sites) as a vector, and back with zeros at prescribed coordinates.
   Vector restrict(const Field& field) const;
+  void restrict(const Field& field, Vector& out) const;
   Field extend(const Vector& v) const;
 
  private:

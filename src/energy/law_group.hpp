@@ -27,6 +27,11 @@ class ElementGroup {
   /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
   virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
 
+  /// Whether the energy depends on the load factor by itself, not through the sites: a moving wall. Then load_rates
+  /// gives ∂(∇U)/∂λ of every element (3·sites each).
+  virtual bool moves() const { return false; }
+  virtual void load_rates(const State&, double*) const {}
+
   int gradient_size() const { return 3 * sites(); }
   int hessian_size() const { return 3 * sites() * (3 * sites() + 1) / 2; }
   /// Place of the entry (row ≥ column) in an element's packed Hessian.

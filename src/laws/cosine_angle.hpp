@@ -1,48 +1,83 @@
 #pragma once
+#include "laws/exact_geometry.hpp"
 #include "laws/law.hpp"
+#include "laws/section.hpp"
 
 #include <limits>
 
 namespace elamin {
 
-/// Cosine angle  U = B (1 + cos θ), θ the angle at site 1 between sites 0 and 2; at rest straight, θ = π.
-/// With u = x₁ − x₀, w = x₂ − x₁, a = u/|u|, b = w/|w| and the turn φ = π − θ:  U = B (1 − a·b) = B (1 − cos φ).
+/// Cosine angle  U = B (1 − cos(θ − θ₀)),  θ the angle at site 1 between sites 0 and 2, θ₀ the angle at rest.
+/// With u = x₁ − x₀, w = x₂ − x₁, a = u/|u|, b = w/|w|, the turn φ = π − θ (cos φ = a·b, sin φ = |a × b|, 0 ≤ φ ≤ π) and
+/// the turn at rest φ₀ = π − θ₀:  U = B (1 − cos(φ − φ₀)) = B (1 − cos φ cos φ₀ − sin φ sin φ₀).
+/// B [energy], θ₀ [rad].  U = +inf where two sites meet, without derivatives.
+///
+/// Straight at rest, θ₀ = π:  U = B (1 + cos θ) = B (1 − a·b), smooth.
 ///   ∂U/∂u = −B b⊥/|u|,   b⊥ = b − (a·b) a = n × a,      n = a × b
 ///   ∂U/∂w = −B a⊥/|w|,   a⊥ = a − (a·b) b = b × n
 ///   ∂²U/∂u∂u = B/|u|² [ (a·b)(I − a aᵀ) + a b⊥ᵀ + b⊥ aᵀ ],   ∂²U/∂w∂w the same with a ↔ b, u ↔ w
 ///   ∂²U/∂u∂w = −B/(|u||w|) (I − a aᵀ)(I − b bᵀ)
-/// and ∇₀ = −∂/∂u, ∇₁ = ∂/∂u − ∂/∂w, ∇₂ = ∂/∂w.  B [energy].  Smooth but where two sites meet: U = +inf there.
 /// Near the straight angle n = u × (w − u)/(|u||w|), near the folded one n = u × (w + u)/(|u||w|): the second difference
 /// and the closing side are formed exactly, so forces and energies keep their digits for any small turn or opening.
-/// Source: Guerra 2021, eq. (9).
+///
+/// Any other angle at rest, with S = sin(φ − φ₀), C = cos(φ − φ₀), m = n/|n|, p = m × a, q = b × m:
+///   ∂U/∂u = −B S p/|u|,   ∂U/∂w = −B S q/|w|
+///   ∂²U/∂u∂u = B/|u|² [ C p pᵀ + S (a pᵀ + p aᵀ) + S cot φ m mᵀ ],   ∂²U/∂w∂w the same with b, q
+///   ∂²U/∂u∂w = B/(|u||w|) [ C p qᵀ − S/sin φ m mᵀ ]
+/// S is formed as (|u × w| cos φ₀ − u·w sin φ₀)/(|u||w|) with about 30 digits and 1 − C as S²/(1 + C): both keep theirs
+/// however near the angle is to rest. The turn has no sign, so U has a conical point where the sites are in line, φ = 0
+/// or π: no direction to turn in, no force; the part with sin φ drops out of the derivatives there, they stay finite.
+/// ∇₀ = −∂/∂u, ∇₁ = ∂/∂u − ∂/∂w, ∇₂ = ∂/∂w in both cases.
+/// Source: Guerra 2021, eq. (9); LAMMPS, angle_style cosine and cosine/shift (its coefficient is Umin = 2B).
 struct CosineAngle {
   static constexpr int sites = 3;
   double B;
 
+  /// B [energy], rest = θ₀ [rad], exactly `pi`: straight.
+  explicit CosineAngle(double stiffness, double rest = pi)
+      : B(stiffness), straight_(rest == pi), cos_rest_(std::cos(pi - rest)), sin_rest_(std::sin(pi - rest)) {}
+
   double value(const Points<3>& x) const {
-    const Turn t(x);
-    return t.defined ? B * t.versine() : std::numeric_limits<double>::infinity();
+    const Turn t(x, *this);
+    return t.defined ? B * t.versine : std::numeric_limits<double>::infinity();
   }
 
   Local<3> derivatives(const Points<3>& x) const {
     Local<3> U;
-    const Turn t(x);
+    const Turn t(x, *this);
     if (!t.defined) {
       U.value = std::numeric_limits<double>::infinity();
       return U;
     }
-    U.value = B * t.versine();
-    const Vec3 a_perp = t.b.cross(t.n), b_perp = t.n.cross(t.a);
-    const Vec3 g_u = -B / t.length_u * b_perp, g_w = -B / t.length_w * a_perp;
+    U.value = B * t.versine;
+    const double Bu = B / t.length_u, Bw = B / t.length_w;
+    Vec3 g_u, g_w;
+    Mat3 uu, ww, uw;
+    if (t.inclined) {
+      const Vec3 m = t.n / t.sine, p = m.cross(t.a), q = t.b.cross(m);
+      g_u = -Bu * t.S * p, g_w = -Bw * t.S * q;
+      const Mat3 pp = p * p.transpose(), qq = q * q.transpose(), pq = p * q.transpose(), mm = m * m.transpose();
+      const Mat3 ap = t.a * p.transpose(), bq = t.b * q.transpose();
+      const double across = t.S / t.sine;
+      uu = Bu / t.length_u * (t.C * pp + t.S * (ap + ap.transpose()) + across * t.cosine * mm);
+      ww = Bw / t.length_w * (t.C * qq + t.S * (bq + bq.transpose()) + across * t.cosine * mm);
+      uw = Bu / t.length_w * (t.C * pq - across * mm);
+    } else {
+      const Vec3 a_perp = t.b.cross(t.n), b_perp = t.n.cross(t.a);
+      g_u = -Bu * b_perp, g_w = -Bw * a_perp;
+      const Mat3 A = Mat3::Identity() - t.a * t.a.transpose(), C = Mat3::Identity() - t.b * t.b.transpose();
+      const Mat3 ab = t.a * b_perp.transpose(), ba = t.b * a_perp.transpose();
+      uu = B / (t.length_u * t.length_u) * (t.cosine * A + (ab + ab.transpose()));
+      ww = B / (t.length_w * t.length_w) * (t.cosine * C + (ba + ba.transpose()));
+      uw = -B / (t.length_u * t.length_w) * (A * C);
+      if (!straight_) {                                  // in line: n = 0, and of U only −B cos φ cos φ₀ is smooth
+        g_u.setZero(), g_w.setZero();
+        uu *= cos_rest_, ww *= cos_rest_, uw *= cos_rest_;
+      }
+    }
     U.force_part(0) = -g_u;
     U.force_part(1) = g_u - g_w;
     U.force_part(2) = g_w;
-
-    const Mat3 A = Mat3::Identity() - t.a * t.a.transpose(), C = Mat3::Identity() - t.b * t.b.transpose();
-    const Mat3 ab = t.a * b_perp.transpose(), ba = t.b * a_perp.transpose();
-    const Mat3 uu = B / (t.length_u * t.length_u) * (t.cosine * A + (ab + ab.transpose()));
-    const Mat3 ww = B / (t.length_w * t.length_w) * (t.cosine * C + (ba + ba.transpose()));
-    const Mat3 uw = -B / (t.length_u * t.length_w) * (A * C);
     U.block(0, 0) = uu;
     U.block(0, 1) = uw - uu;
     U.block(0, 2) = -uw;
@@ -56,23 +91,44 @@ struct CosineAngle {
   }
 
  private:
+  bool straight_;
+  double cos_rest_, sin_rest_;                           // of φ₀
+
   struct Turn {
     bool defined = false;
+    bool inclined = false;                               // not straight at rest, and the sites not in line
     double length_u = 0, length_w = 0, cosine = 0;       // cosine = a·b = cos φ = −cos θ
+    double sine = 0, S = 0, C = 0;                       // sin φ, sin(φ − φ₀), cos(φ − φ₀); where inclined
+    double versine = 0;                                  // 1 − cos(φ − φ₀)
     Vec3 a, b, n;                                        // n = a × b, |n| = sin φ
 
-    explicit Turn(const Points<3>& x) {
+    Turn(const Points<3>& x, const CosineAngle& law) {
       const ExactVector u = x.edge(0, 1), w = x.edge(1, 2);
       length_u = u.hi.norm(), length_w = w.hi.norm();
       if (!(length_u > 0 && length_w > 0)) return;
       defined = true;
       a = u.hi / length_u, b = w.hi / length_w;
       cosine = a.dot(b);
+      law.straight_ ? from_straight(u, w) : from_rest(u, w, law.cos_rest_, law.sin_rest_);
+    }
+
+    /// 1 − cos φ = sin²φ/(1 + cos φ), without cancellation.
+    void from_straight(const ExactVector& u, const ExactVector& w) {
       const ExactVector small = cosine > 0 ? w - u : w + u;
       n = a.cross((small.hi + small.lo) / length_w);
+      versine = cosine > 0 ? n.squaredNorm() / (1 + cosine) : 1 - cosine;
     }
-    /// 1 − cos φ = sin²φ/(1 + cos φ), without cancellation.
-    double versine() const { return cosine > 0 ? n.squaredNorm() / (1 + cosine) : 1 - cosine; }
+
+    void from_rest(const ExactVector& u, const ExactVector& w, double cos_rest, double sin_rest) {
+      const ExactVector normal = cross(u, w);
+      const Exact across = length(normal), along = dot(u, w);
+      const double product = length_u * length_w;
+      n = normal.hi / product, sine = across.value() / product;
+      inclined = sine > 0;
+      S = (across * Exact{cos_rest} - along * Exact{sin_rest}).value() / product;
+      C = cosine * cos_rest + sine * sin_rest;
+      versine = C > 0 ? S * S / (1 + C) : 1 - C;
+    }
   };
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 // A structure made of glued particles: what there is, how it is held and loaded. No mathematics, no input.
+#include "laws/region.hpp"
 #include "model/state.hpp"
 
 #include <array>
@@ -10,7 +11,8 @@
 namespace elamin {
 
 struct BondType { double stiffness, rest_length; };   // U = K (r − r₀)²: K [energy/length²], r₀ [length]
-struct AngleType { double stiffness; };               // U = B (1 + cos θ): B [energy]
+/// U = B (1 − cos(θ − θ₀)): B [energy], θ₀ [rad]; θ₀ = π, straight, is LAMMPS's cosine, others its cosine/shift.
+struct AngleType { double stiffness, rest = 3.14159265358979323846; };
 struct Bond { int type; std::array<int, 2> particles; };    // particles by index from 0
 struct Angle { int type; std::array<int, 3> particles; };   // the middle one second
 
@@ -45,6 +47,30 @@ struct Gravity {
   bool constant = true;
 };
 
+/// What two particles feel of each other that are not glued: Hertz's contact or Lennard-Jones's cohesion.
+/// Where two tables of one law speak of a pair, the later one holds, as with LAMMPS's pair_coeff; different laws add.
+struct PairContact {
+  enum class Law { hertz, lj };
+  std::array<std::string, 2> between;           // names of the groups
+  std::array<std::vector<int>, 2> particles;    // theirs; a pair has one of each, equal groups: any two
+  Law law = Law::hertz;
+  double effective_modulus = 0;                 // hertz: E_eff; 0: no contact
+  double epsilon = 0, sigma = 0, cutoff = 0;    // lj
+  std::optional<int> exclude_bonds;             // pairs this many bonds apart or nearer feel nothing; see Energy
+};
+
+/// A rigid surface that the particles of a group touch.
+struct Wall {
+  std::string name, group;
+  std::vector<int> particles;
+  Region region;                                // at load factor 0
+  bool inside = true;                           // the particles are inside of the region; else outside
+  double effective_modulus = 0;                 // E_eff
+  bool curved = false;                          // effective radius with the wall's curvature; else the particle's radius
+  Vec3 displacement = Vec3::Zero();             // of the wall at load factor 1 [length]
+  double radius_change = 0;                     // of its radius (of a cone: of both) at load factor 1 [length]
+};
+
 /// Drag −γ v: no energy; matters in dynamics and in the forces of a moving state.
 struct Viscosity {
   std::vector<int> particles;
@@ -53,10 +79,10 @@ struct Viscosity {
 
 /// A set of particles that was built as one thing, for messages and `check`.
 struct Structure {
-  std::string name, kind;                       // kind: "beam", "lammps", …
+  std::string name, kind;                       // kind: "beam", "loop", "sheet", "grains", "lammps"
   int first = 0, count = 0;                     // its particles
   double youngs_modulus = 0;                    // 0: not known
-  int bond_type = -1, angle_type = -1;          // of a beam
+  int bond_type = -1, angle_type = -1;          // its first ones, or none
 };
 
 struct Model {
@@ -73,6 +99,8 @@ struct Model {
   std::vector<Structure> structures;
   std::vector<Group> groups;                    // structures' own, "all", then the named ones
   std::vector<Support> supports;
+  std::vector<PairContact> contacts;
+  std::vector<Wall> walls;
   std::vector<Load> loads;
   std::vector<Gravity> gravity;
   std::vector<Viscosity> viscosity;

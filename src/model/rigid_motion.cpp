@@ -50,24 +50,44 @@ struct Part {
   std::string name;
 };
 
-std::vector<Part> parts_of(const Model& model) {
-  const std::vector<int> of = connected_parts(model);
+using Pairs = std::vector<std::array<int, 2>>;
+
+// A part is named after its structure if it is all of it, else after its first particle; `more`: it touches what is named.
+std::vector<Part> parts_of(const Model& model, const Pairs& also) {
+  const std::vector<int> of = connected_parts(model, also), glued = also.empty() ? of : connected_parts(model);
+  std::vector<int> bare(model.particles());                    // particles of what is glued
+  for (const int g : glued) ++bare[g];
   std::vector<Part> parts;
+  std::size_t s = 0;
   for (int p = 0; p < model.particles(); ++p) {
+    while (s < model.structures.size() && p >= model.structures[s].first + model.structures[s].count) ++s;
     if (of[p] == static_cast<int>(parts.size())) {
       parts.push_back({});
-      parts.back().name = fmt::format("particle {}", model.id.empty() ? p + 1 : model.id[p]);
-      for (const Structure& s : model.structures)
-        if (p >= s.first && p < s.first + s.count) parts.back().name = "'" + s.name + "'";
+      std::string& name = parts.back().name;
+      name = fmt::format("particle {}", model.id.empty() ? p + 1 : model.id[p]);
+      if (s < model.structures.size() && p >= model.structures[s].first) {
+        const Structure& structure = model.structures[s];
+        if (bare[glued[p]] >= structure.count) name = "'" + structure.name + "'";
+        else if (bare[glued[p]] > 1) name = fmt::format("the part of '{}' that has {}", structure.name, name);
+      }
     }
     parts[of[p]].particles.push_back(p);
   }
+  if (!also.empty())
+    for (Part& part : parts)
+      if (static_cast<int>(part.particles.size()) > bare[glued[part.particles.front()]]) part.name += " and what it touches";
   return parts;
 }
 
 }  // namespace
 
-std::vector<int> connected_parts(const Model& model) {
+Field RigidMotion::velocity_field(int count) const {
+  Field field = Field::Zero(3, count);
+  for (Eigen::Index k = 0; k < part_velocity.cols(); ++k) field.col(particles[k]) = part_velocity.col(k);
+  return field;
+}
+
+std::vector<int> connected_parts(const Model& model, const Pairs& also) {
   std::vector<int> root(model.particles());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int p) {
@@ -79,6 +99,7 @@ std::vector<int> connected_parts(const Model& model) {
     root[std::max(p, q)] = std::min(p, q);
   };
   for (const Bond& b : model.bonds) join(b.particles[0], b.particles[1]);
+  for (const auto& [p, q] : also) join(p, q);
   for (const Angle& a : model.angles) join(a.particles[0], a.particles[1]), join(a.particles[1], a.particles[2]);
   std::vector<int> part(model.particles()), number(model.particles(), -1);
   int parts = 0;
@@ -90,7 +111,7 @@ std::vector<int> connected_parts(const Model& model) {
   return part;
 }
 
-std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& state) {
+std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& state, const Pairs& also) {
   Eigen::Matrix<bool, 3, Eigen::Dynamic> held = Eigen::Matrix<bool, 3, Eigen::Dynamic>::Constant(3, model.particles(), false);
   if (model.plane_normal) held.row(*model.plane_normal).setConstant(true);
   for (const Support& s : model.supports)
@@ -98,7 +119,14 @@ std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& sta
       for (int c = 0; c < 3; ++c) held(c, p) = held(c, p) || s.held[c];
 
   std::vector<RigidMotion> motions;
-  for (const Part& part : parts_of(model)) {
+  for (const Part& part : parts_of(model, also)) {
+    if (part.particles.size() == 1) {                          // a free grain does not turn; there may be very many
+      const int p = part.particles.front();
+      for (int c = 0; c < 3; ++c)
+        if (!held(c, p))
+          motions.push_back({fmt::format("translation of {} along {}", part.name, "xyz"[c]), true, p, {p}, Vec3::Unit(c)});
+      continue;
+    }
     Vec3 mid = Vec3::Zero();
     for (const int p : part.particles) mid += state.position.col(p) / static_cast<double>(part.particles.size());
     double size = 0;
@@ -124,9 +152,11 @@ std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& sta
     for (const Twist& t : null_space(rows)) {
       RigidMotion motion;
       motion.particle = part.particles.front();
-      motion.velocity = Field::Zero(3, model.particles());
-      for (const int p : part.particles) motion.velocity.col(p) = velocity(t, p);
-      if (motion.velocity.cwiseAbs().maxCoeff() < 1e-6) continue;  // moves nothing: a row about its own line
+      motion.particles = part.particles;
+      Field& v = motion.part_velocity;
+      v.resize(3, static_cast<Eigen::Index>(part.particles.size()));
+      for (Eigen::Index k = 0; k < v.cols(); ++k) v.col(k) = velocity(t, part.particles[k]);
+      if (v.cwiseAbs().maxCoeff() < 1e-6) continue;  // moves nothing: a row about its own line
       const Vec3 turn = t.tail<3>() / size, shift = t.head<3>();
       motion.translation = t.tail<3>().norm() < 1e-6;
       if (motion.translation) {

@@ -2,6 +2,8 @@
 
 #include "model/rigid_motion.hpp"
 
+#include <Eigen/QR>
+
 #include <cmath>
 
 namespace elamin {
@@ -21,21 +23,87 @@ Vector solve_projected(Factors& factors, const Eigen::MatrixXd& zero, Vector b) 
   return project(factors.pivoted().solve(b));
 }
 
-// Names of the free rigid motions that lie in the span of the zero modes; true if they explain all of it.
-bool name_zero_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& zero, std::vector<std::string>& names) {
-  constexpr double close = 1e-3;
-  Eigen::MatrixXd rigid(zero.rows(), 0);
-  for (const RigidMotion& m : free_rigid_motions(energy.model(), state)) {
-    Vector v = energy.kinematics().restrict(m.velocity);
-    if (v.norm() == 0) continue;
-    v.normalize();
-    if ((v - zero * (zero.transpose() * v)).norm() > close) continue;
-    names.push_back(m.name);
-    v -= rigid * (rigid.transpose() * v);
-    rigid.conservativeResize(Eigen::NoChange, rigid.cols() + 1);
-    rigid.rightCols(1) = v.normalized();
+// A basis of the zero modes that have been explained, orthonormal, and their names.
+class Explained {
+ public:
+  Explained(const Energy& energy, const Eigen::MatrixXd& zero, std::vector<std::string>& names)
+      : energy_(energy), zero_(zero), names_(names), rigid_(zero.rows(), 0) {}
+
+  bool all() const { return rigid_.cols() == zero_.cols(); }
+
+  /// Takes the motions that lie in the span of the zero modes and are not explained yet.
+  void take(const std::vector<RigidMotion>& motions) {
+    for (const RigidMotion& m : motions) {
+      if (all()) return;
+      Vector v = energy_.kinematics().restrict(m.velocity_field(energy_.model().particles()));
+      if (v.norm() == 0) continue;
+      v.normalize();
+      if ((v - zero_ * (zero_.transpose() * v)).norm() > close) continue;
+      v -= rigid_ * (rigid_.transpose() * v);
+      if (v.norm() < close) continue;
+      names_.push_back(m.name);
+      rigid_.conservativeResize(Eigen::NoChange, rigid_.cols() + 1);
+      rigid_.rightCols(1) = v.normalized();
+    }
   }
-  return rigid.cols() == zero.cols();
+
+  /// Whether the rest are motions of the parts as rigid bodies against each other, which no force opposes.
+  void take_relative(const std::vector<RigidMotion>& motions) {
+    constexpr std::size_t most = 600;
+    if (all() || motions.empty() || motions.size() > most) return;
+    Eigen::MatrixXd span(zero_.rows(), static_cast<Eigen::Index>(motions.size()));
+    for (std::size_t k = 0; k < motions.size(); ++k)
+      span.col(static_cast<Eigen::Index>(k)) = energy_.kinematics().restrict(motions[k].velocity_field(energy_.model().particles()));
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(span);
+    for (Eigen::Index j = 0; j < zero_.cols(); ++j)
+      if ((span * qr.solve(zero_.col(j)) - zero_.col(j)).norm() > close) return;
+    names_.push_back("sliding or rolling of what is in contact (no force opposes it)");
+    rigid_ = zero_;
+  }
+
+ private:
+  static constexpr double close = 1e-3;
+  const Energy& energy_;
+  const Eigen::MatrixXd& zero_;
+  std::vector<std::string>& names_;
+  Eigen::MatrixXd rigid_;
+};
+
+// Names what the zero modes are: rigid motions of glued parts, of parts in contact together, of parts against each other.
+// True if they explain all of them.
+bool name_zero_modes(Energy& energy, const State& state, const Eigen::MatrixXd& zero, std::vector<std::string>& names) {
+  Explained explained(energy, zero, names);
+  const std::vector<RigidMotion> of_parts = free_rigid_motions(energy.model(), state);
+  explained.take(of_parts);
+  if (!explained.all() && !energy.model().contacts.empty()) {
+    std::vector<std::array<int, 2>> touching;
+    for (const Touch& t : energy.touches(state))
+      if (t.other >= 0) touching.push_back({t.particle, t.other});
+    explained.take(free_rigid_motions(energy.model(), state, touching));
+  }
+  explained.take_relative(of_parts);
+  return explained.all();
+}
+
+// Single particles that no stiffness holds: a grain that flies is named as such, one that slides on a plane by direction.
+void name_idle(const Energy& energy, std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
+  const Kinematics& kinematics = energy.kinematics();
+  std::size_t left_out = 0;
+  const std::vector<int>& idle = energy.idle();
+  for (std::size_t k = 0; k < idle.size();) {
+    const int p = kinematics.site_of(idle[k]);
+    std::string along;
+    for (; k < idle.size() && kinematics.site_of(idle[k]) == p; ++k)
+      along += (along.empty() ? "" : ", ") + std::string(1, "xyz"[kinematics.coordinate_of(idle[k])]);
+    int free = 0;
+    for (int c = 0; c < 3; ++c) free += kinematics.dof(p, c) >= 0;
+    const bool flies = 3 * free == static_cast<int>(along.size()) + 2;   // all its free directions: "x, y, z"
+    if (names.size() >= most) ++left_out;
+    else names.push_back((flies ? "rattler: particle " : "translation of particle ") + std::to_string(energy.model().id[p]) +
+                         (flies ? " touches nothing" : " along " + along));
+  }
+  if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more particles");
 }
 
 }  // namespace
@@ -49,7 +117,8 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   e.point.energy = energy.last_terms();
   const Inertia inertia = newton.factors().inertia();
   Stability& s = e.point.stability;
-  s.negative = inertia.negative, s.zero = inertia.zero;
+  s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
+  name_idle(energy, s.zero_modes);
   bool named = true;
   if (inertia.zero > 0) {
     const EigenPairs lowest = newton.factors().lowest(inertia.negative + inertia.zero);
@@ -67,20 +136,26 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   const Vector step = (load_factor - from.point.state.load_factor) * from.tangent;
   kinematics.prescribe(predicted, load_factor);
   kinematics.retract(predicted, step);
+  const auto fail = [&](const State& at, Report report, const std::string& why) {
+    report.status = Status::not_converged, report.why = why;
+    Equilibrium failed;
+    failed.point.state = at, failed.point.report = std::move(report);
+    return failed;
+  };
+  if (newton.energy().passage(from.point.state, predicted) < 1)
+    return fail(predicted, {}, "the step would carry something through something else");
   State state = predicted;
   Report report = newton.correct(state, from.zero_modes, &from.point.state);
-  if (report.converged()) {
-    const Field corrected = (state.position - predicted.position) + (state.tail - predicted.tail);
-    if (kinematics.restrict(corrected).norm() > step.norm()) {
-      report.status = Status::not_converged;
-      report.why = "the corrector went further than the predictor";
-    }
-  }
   if (!report.converged()) {
     Equilibrium failed;
     failed.point.state = state, failed.point.report = report;
     return failed;
   }
+  const Field corrected = (state.position - predicted.position) + (state.tail - predicted.tail);
+  if (kinematics.restrict(corrected).norm() > step.norm())
+    return fail(state, report, "the corrector went further than the predictor");
+  if (newton.energy().passage(from.point.state, state) < 1)
+    return fail(state, report, "the step would carry something through something else");
   return assess(newton, state, report);
 }
 

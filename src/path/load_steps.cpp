@@ -83,6 +83,7 @@ bool LoadSteps::begin() {
     current_ = assess(newton_, state, report);
   }
   current_.point.label = "initial";
+  closed_ = closed_contacts(newton_.energy(), current_.point.state);
   emit(current_.point);
   if (current_.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop)
     end(Status::converged, "the starting state is unstable");
@@ -99,7 +100,9 @@ bool LoadSteps::step() {
 
   Equilibrium candidate = continue_to(newton_, current_, target);
   std::optional<Event> event;
+  std::optional<ContactEvent> contact;
   bool accepted = candidate.point.report.converged();
+  if (accepted && options_.contacts && (contact = locate_contact(newton_, closed_, current_, candidate))) candidate = contact->at;
   if (accepted && candidate.point.stability.negative != current_.point.stability.negative) {
     event = locate_crossing(newton_, current_, candidate);
     accepted = event.has_value();
@@ -116,13 +119,26 @@ bool LoadSteps::step() {
     return true;
   }
   if (event) return lose_stability(*event, target);
+  if (contact) return meet(std::move(*contact));
 
-  candidate.point.branch = branch_;
   current_ = std::move(candidate);
+  closed_ = closed_contacts(newton_.energy(), current_.point.state);
   done_ = arrived;
   if (done_ == whole) ++interval_, interval_start_ = goal, done_ = 0;
   if (halvings_ > 0 && done_ % (2 * part) == 0) --halvings_;
   emit(current_.point);
+  return true;
+}
+
+// A contact made or lost: a point of the path, which goes on from there.
+bool LoadSteps::meet(ContactEvent event) {
+  current_ = std::move(event.at);
+  closed_ = std::move(event.after);
+  current_.point.label = fmt::format("contact:{}", ++contact_events_);
+  interval_start_ = current_.point.state.load_factor, done_ = 0;
+  if (interval_start_ == targets_[interval_]) ++interval_;
+  emit(current_.point);
+  current_.point.label.clear();
   return true;
 }
 
@@ -147,6 +163,7 @@ bool LoadSteps::lose_stability(const Event& located, double target) {
     return end(Status::not_converged, fmt::format("the branch is lost behind {}, load factor {:.10g}: {}", label, at, next.point.report.why));
   next.zero_modes = current_.zero_modes;
   current_ = next;
+  closed_ = closed_contacts(newton_.energy(), current_.point.state);
   interval_start_ = past, done_ = 0;
   return true;
 }
@@ -174,6 +191,7 @@ bool LoadSteps::jump(const Event& event, double target) {
     return end(report.status, fmt::format("no minimum was found after {} at load factor {:.10g}: {}", event.at.point.label, at, report.why));
   }
   current_ = assess(newton_, state, report);
+  closed_ = closed_contacts(newton_.energy(), state);
   ++branch_;
   notes_.push_back(fmt::format("jump at {}: load factor {:.10g}, energy {:.10g} to {:.10g} after {} iterations",
                                event.at.point.label, at, before, report.energy, report.iterations));

@@ -1,4 +1,5 @@
 #pragma once
+#include "path/contact_event.hpp"
 #include "path/locate.hpp"
 #include "path/options.hpp"
 
@@ -28,6 +29,7 @@ class LoadSteps {
  private:
   bool begin();
   bool step();
+  bool meet(ContactEvent event);
   bool lose_stability(const Event& event, double target);
   bool jump(const Event& event, double target);
   void emit(PathPoint point);
@@ -43,8 +45,9 @@ class LoadSteps {
   std::int64_t done_ = 0;                // of 2^finest parts of the interval
   int halvings_ = 0;
   Equilibrium current_;
+  ContactSet closed_;                    // contacts from current_ on
   bool begun_ = false, ended_ = false;
-  int steps_ = 0, branch_ = 0, branch_points_ = 0, limit_points_ = 0;
+  int steps_ = 0, branch_ = 0, branch_points_ = 0, limit_points_ = 0, contact_events_ = 0;
   std::deque<PathPoint> ready_;
   Status status_ = Status::converged;
   std::string why_;

@@ -1,44 +1,13 @@
 #include "path/locate.hpp"
 
 #include "path/bordered.hpp"
+#include "path/root.hpp"
 
 #include <cmath>
-#include <functional>
 
 namespace elamin {
 
 namespace {
-
-struct Sample {
-  double t, f;               // parameter; the eigenvalue that changes sign
-  Equilibrium e;
-};
-
-// Bracketed root finding by the Illinois variant of regula falsi with bisection where it is slow. Stops when the secant
-// through the bracket predicts a change below `resolution`, or the bracket is that small; returns the better end.
-// Nothing if an evaluation fails.
-std::optional<Sample> find_zero(Sample a, Sample b, double resolution, const std::function<std::optional<Sample>(double, const Sample&)>& evaluate) {
-  constexpr int most = 80;
-  double weight_a = a.f, weight_b = b.f;
-  for (int k = 0; k < most; ++k) {
-    const double width = b.t - a.t;
-    double t = a.t - weight_a * width / (weight_b - weight_a);
-    if (k % 4 == 3) t = (a.t + b.t) / 2;
-    const Sample& nearest = std::abs(t - a.t) < std::abs(t - b.t) ? a : b;
-    if (std::abs(width) <= 2 * resolution || std::abs(t - nearest.t) <= resolution / 4) break;
-    std::optional<Sample> c = evaluate(t, nearest);
-    if (!c) return {};
-    if ((c->f < 0) == (a.f < 0)) {
-      weight_b = (k % 4 == 3) ? b.f : weight_b / 2;
-      a = std::move(*c), weight_a = a.f;
-    } else {
-      weight_a = (k % 4 == 3) ? a.f : weight_a / 2;
-      b = std::move(*c), weight_b = b.f;
-    }
-    if (a.f == 0 || b.f == 0) break;
-  }
-  return std::abs(a.f) < std::abs(b.f) ? a : b;
-}
 
 // The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
 double eigenvalue(Newton& newton, const Equilibrium& e, int index) {

@@ -17,6 +17,7 @@ struct LoadStepOptions {
   WhenUnstable when_unstable = WhenUnstable::jump;
   std::optional<double> start;         // where on the way from `from` to `to` it starts; default `from`
   std::vector<double> stops;           // load factors that must be hit besides
+  bool contacts = true;                // locate where contacts are made and lost
 };
 
 }  // namespace elamin

@@ -1,6 +1,6 @@
 #include "problem/build_checks.hpp"
 
-#include "model/rigid_motion.hpp"
+#include "problem/build_structures.hpp"
 
 #include <fmt/format.h>
 
@@ -9,23 +9,6 @@
 #include <set>
 
 namespace elamin {
-namespace {
-
-/// Index of the structure of each particle.
-std::vector<int> structure_of(const Model& model) {
-  std::vector<int> of(model.particles());
-  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s)
-    std::fill_n(of.begin() + model.structures[s].first, model.structures[s].count, s);
-  return of;
-}
-
-const TablePlace& place_of(const Problem& problem, const Structure& s) {
-  for (const BeamTable& b : problem.beams)
-    if (s.kind == "beam" && b.name == s.name) return b.place;
-  return problem.lammps->place;
-}
-
-}  // namespace
 
 void check_distinct(const Problem& problem, const Model& model, Mistakes& mistakes) {
   // Sorted along a direction that no lattice is normal to, particles in one place are neighbours in the list.
@@ -38,7 +21,9 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
   const double extent = model.start.position.size() ? model.start.position.cwiseAbs().maxCoeff() : 0;
   const double rounding = 8 * epsilon * extent;   // of `along`
 
-  const std::vector<int> structure = structure_of(model);
+  std::vector<int> structure(model.particles());
+  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s)
+    std::fill_n(structure.begin() + model.structures[s].first, model.structures[s].count, s);
   std::set<std::pair<int, int>> told;
   for (std::size_t a = 0; a < order.size(); ++a)
     for (std::size_t b = a + 1; b < order.size(); ++b) {
@@ -74,35 +59,6 @@ void check_plane(const Problem& problem, const Model& model, const Field& positi
     mistakes.add(whose, fmt::format("particle {} is not in the plane \"{}\" of particle {}: {} is {} instead of {}",
                                     model.id[static_cast<std::size_t>(i)], problem.plane, model.id[0], "xyz"[c],
                                     coordinate[i], level));
-}
-
-void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
-  if (problem.study == StudyType::energy) return;
-  const std::vector<int> part = connected_parts(model), structure = structure_of(model);
-  std::vector<bool> held(model.particles());                 // by part
-  for (const Support& s : model.supports)
-    for (const int i : s.particles) held[part[i]] = true;
-  std::vector<int> told(model.structures.size());
-  for (int i = 0; i < model.particles(); ++i) {
-    if (held[part[i]] || told[structure[i]]++) continue;
-    const Structure& s = model.structures[structure[i]];
-    const std::string loose =
-        s.kind == "beam" ? "none of its particles is held by a support"
-                         : fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
-    mistakes.add(place_of(problem, s), loose + "; an equilibrium needs a [[support]]");
-  }
-  // What is held may still move as a whole. A translation is never an equilibrium's business; a rotation is if something
-  // acts on it, as a weight on a pendulum does, or if the state comes from a file, as a buckled column's does.
-  const bool loaded = !problem.loads.empty() || !problem.gravity.empty() || !problem.path.start.empty();
-  std::vector<std::string> names(model.structures.size());
-  for (const RigidMotion& m : free_rigid_motions(model, model.start)) {
-    const int s = structure[m.particle];
-    const bool allowed = !m.translation && (loaded || model.structures[s].kind != "beam");
-    if (held[part[m.particle]] && !allowed) names[s] += (names[s].empty() ? "" : ", ") + m.name;
-  }
-  for (std::size_t s = 0; s < names.size(); ++s)
-    if (!names[s].empty())
-      mistakes.add(place_of(problem, model.structures[s]), "free to move as a whole: " + names[s] + "; hold it with a [[support]]");
 }
 
 }  // namespace elamin

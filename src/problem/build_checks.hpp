@@ -14,7 +14,12 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
 void check_plane(const Problem& problem, const Model& model, const Field& position, const TablePlace& whose,
                  Mistakes& mistakes);
 
-/// Structures that are connected, through bonds and angles, to no held particle: they have no equilibrium of their own.
+/// What cannot be an equilibrium. Glued parts that neither a support nor, by its tables, a wall or a contact may hold
+/// are told once a structure; a single particle only if a force acts on it. Parts that only touch each other are fine
+/// as long as the forces on them cancel. What is held, and by supports only, may not move as a whole.
 void check_held(const Problem& problem, const Model& model, Mistakes& mistakes);
+
+/// A study of modes cannot have more of them than there are free coordinates.
+void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes);
 
 }  // namespace elamin

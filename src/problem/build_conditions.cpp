@@ -1,5 +1,8 @@
 #include "problem/build_conditions.hpp"
 
+#include "problem/build_structures.hpp"
+#include "problem/check_parts.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +10,6 @@
 
 namespace elamin {
 namespace {
-
-std::string line_of(const TablePlace& place) {
-  return place.line > 0 ? fmt::format("{} of line {}", place.key, place.line) : place.key;
-}
 
 /// A vector that has a component along the normal of the plane is a mistake.
 void stay_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
@@ -54,7 +53,7 @@ class Holders {
                                                          b.constant ? "constant" : "scaled");
     mistakes_.add(
         a.place, fmt::format("prescribes {} of particle {} otherwise than {} ({}); one coordinate has one displacement",
-                             "xyz"[c], model_.id[particle], line_of(b.place), what));
+                             "xyz"[c], model_.id[particle], named(b.place), what));
   }
 
   const Problem& problem_;
@@ -74,11 +73,10 @@ void need_density(const Problem& problem, const Model& model, const std::vector<
     if (!told.insert(s->name).second) continue;
     if (s->kind == "lammps")
       mistakes.add(problem.lammps->place, "data",
-                   fmt::format("particle {} has no mass, which {} needs", model.id[i], line_of(by)));
-    for (const BeamTable& b : problem.beams)
-      if (b.name == s->name)
-        mistakes.add(b.place, "density",
-                     fmt::format("is missing; it must be a positive number, {} needs it", line_of(by)));
+                   fmt::format("particle {} has no mass, which {} needs", model.id[i], named(by)));
+    else
+      mistakes.add(place_of(problem, *s), "density",
+                   fmt::format("is missing; it must be a positive number, {} needs it", named(by)));
   }
 }
 

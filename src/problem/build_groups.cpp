@@ -1,5 +1,6 @@
 #include "problem/build_groups.hpp"
 
+#include "problem/build_contacts.hpp"
 #include "problem/check.hpp"
 #include "problem/suggest.hpp"
 
@@ -87,11 +88,9 @@ std::optional<std::vector<int>> Groups::chosen(const GroupTable& table, const st
   if (!table.inside) return from;
 
   std::vector<int> particles;
-  for (const int i : from) {
-    const Vec3 x = model_.start.position.col(i);
-    if ((x.array() >= table.inside->lo.array()).all() && (x.array() <= table.inside->hi.array()).all())
-      particles.push_back(i);
-  }
+  const Region region = with_unit_normal(table.inside->region);
+  for (const int i : from)
+    if (region.contains(model_.start.at(i))) particles.push_back(i);
   if (particles.empty()) {
     mistakes_.add(table.place, "inside",
                   fmt::format("holds no particle of \"{}\"; a group has at least one", table.of));

@@ -16,6 +16,9 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
 /// Columns that the tables of every run have; an observable may not take one of these names.
 const std::vector<std::string>& standing_columns();
 
+/// Columns that a study of modes has besides: eigenvalue_1, …
+std::vector<std::string> eigenvalue_columns(int count);
+
 /// Whether a name is "type" and a number: the groups of a LAMMPS data file.
 bool is_type_group(const std::string& name);
 

@@ -115,11 +115,13 @@ LammpsData read_lammps_data(const std::string& file, const std::string& atom_sty
   if (rows.sound("Bond Coeffs"))
     for (const int i : by_type(lines, rows.bond_coefficients, "Bond Coeffs")) {
       const CoefficientRow r = i < 0 ? CoefficientRow{} : rows.bond_coefficients[i];
-      data.bond_types.push_back({r.stiffness, r.rest_length});
+      data.bond_types.push_back({r.stiffness, r.rest});
     }
   if (rows.sound("Angle Coeffs"))
-    for (const int i : by_type(lines, rows.angle_coefficients, "Angle Coeffs"))
-      data.angle_types.push_back({i < 0 ? 0 : rows.angle_coefficients[i].stiffness});
+    for (const int i : by_type(lines, rows.angle_coefficients, "Angle Coeffs")) {
+      data.angle_types.push_back(
+          i < 0 ? AngleType{0} : AngleType{rows.angle_coefficients[i].stiffness, rows.angle_coefficients[i].rest});
+    }
   if (rows.sound("Atoms")) {
     if (rows.atoms.empty())
       lines.mistake(rows.sections["Atoms"].line, 1, "Atoms", "there are none; at least one is needed");

@@ -30,9 +30,12 @@ struct LammpsData {
 /// then every sub-style's own in their order. `Atoms # hybrid` without sub-styles is taken for `hybrid sphere angle` if
 /// it has that many columns (8, or 11 with image flags). Image flags n move a particle by n box lengths.
 ///
-/// Sections: Atoms, Velocities, Masses, Bonds, Angles, Bond Coeffs (harmonic), Angle Coeffs (cosine), in any order.
-/// A sphere's mass follows from its diameter and density; the Masses then serve for nothing, as in LAMMPS.
-/// Angular velocities and charges are read and dropped: nothing here depends on them.
+/// Sections: Atoms, Velocities, Masses, Bonds, Angles, Bond Coeffs (harmonic), Angle Coeffs, in any order. Angle
+/// styles: cosine, K with U = K (1 + cos θ); cosine/shift, Umin and θ₀ in degrees with U = −Umin/2 (1 + cos(θ − θ₀)),
+/// of which the constant −Umin is left out: B = Umin/2. Without a comment behind the section's name it is cosine; lines
+/// may name their style, as those of a hybrid do. A sphere's mass follows from its diameter and density; the Masses
+/// then serve for nothing, as in LAMMPS. Angular velocities and charges are read and dropped: nothing here depends on
+/// them.
 ///
 /// Throws InputError with file, line and column of up to 20 mistakes; memory never grows beyond what the file holds.
 LammpsData read_lammps_data(const std::string& file, const std::string& atom_style = "");

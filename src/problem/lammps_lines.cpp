@@ -1,16 +1,14 @@
 #include "problem/lammps_lines.hpp"
 
 #include "problem/suggest.hpp"
+#include "problem/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 namespace elamin {
 namespace {
@@ -18,33 +16,10 @@ namespace {
 constexpr std::size_t most_mistakes = 20;
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
-bool control(char c) { return (static_cast<unsigned char>(c) < 32 && c != '\n' && !blank(c)) || c == 127; }
-
-std::string read_text(const std::string& file) {
-  const auto refuse = [&](const std::string& what) { throw InputError({Mistake{file, 0, 0, {}, what}}); };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) refuse("no such file; a LAMMPS data file is needed");
-  if (!std::filesystem::is_regular_file(status)) refuse("is not a file of text; a LAMMPS data file is needed");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(fmt::format("cannot be opened: {}", std::strerror(errno)));
-  std::string text;
-  std::vector<char> block(1 << 20);
-  try {
-    while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0) {
-      const std::string_view piece(block.data(), static_cast<std::size_t>(in.gcount()));
-      for (const char c : piece)
-        if (control(c)) refuse("is a binary file; a LAMMPS data file is text (write_data, not write_restart)");
-      text.append(piece);
-    }
-  } catch (const std::bad_alloc&) {
-    refuse("does not fit into the memory");
-  }
-  if (in.bad()) refuse("cannot be read to its end");
-  return text;
-}
 
 }  // namespace
+
+bool is_word(std::string_view word) { return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0; }
 
 std::string joined(const DataLine& line, std::size_t first) {
   std::string all;
@@ -52,7 +27,8 @@ std::string joined(const DataLine& line, std::size_t first) {
   return all;
 }
 
-LammpsLines::LammpsLines(std::string file) : file_(std::move(file)), text_(read_text(file_)) {
+LammpsLines::LammpsLines(std::string file)
+    : file_(std::move(file)), text_(read_data(file_, "LAMMPS data file", " (write_data, not write_restart)")) {
   position_ = text_.find('\n');
   position_ = position_ == std::string::npos ? text_.size() : position_ + 1;
   number_ = 1;
@@ -132,6 +108,22 @@ std::optional<int> LammpsLines::integer(const DataLine& line, std::size_t i, con
   else
     return static_cast<int>(value);
   return std::nullopt;
+}
+
+std::optional<double> LammpsLines::amount(const DataLine& line, std::size_t i, const std::string& key) {
+  const auto value = number(line, i, key);
+  if (!value || *value >= 0) return value;
+  mistake(line, i, key, fmt::format("{} is negative; 0 or more is allowed", line[i]));
+  return std::nullopt;
+}
+
+bool LammpsLines::has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& section,
+                           const std::string& meaning) {
+  if (std::find(sizes.begin(), sizes.end(), line.size()) != sizes.end()) return true;
+  std::string allowed;
+  for (const std::size_t n : sizes) allowed += (allowed.empty() ? "" : " or ") + std::to_string(n);
+  mistake(line, 0, section, fmt::format("{} columns, expected {}: {}", line.size(), allowed, meaning));
+  return false;
 }
 
 }  // namespace elamin

@@ -2,6 +2,7 @@
 // A LAMMPS data file as lines of words, and the mistakes found in it.
 #include "core/error.hpp"
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ struct DataLine {
 /// The words from `first` on with single blanks between them, as in "Bond Coeffs".
 std::string joined(const DataLine& line, std::size_t first = 0);
 
+/// Whether it begins with a letter, so that it is no number.
+bool is_word(std::string_view word);
+
 class LammpsLines {
  public:
   /// Reads the whole file. Throws InputError if it cannot be opened, is no regular file, or is not text.
@@ -41,6 +45,11 @@ class LammpsLines {
   /// Word i as a finite number, or as an integer within [lo, hi]; else notes a mistake.
   std::optional<double> number(const DataLine& line, std::size_t i, const std::string& key);
   std::optional<int> integer(const DataLine& line, std::size_t i, const std::string& key, int lo, int hi);
+  /// The same of a number that must not be negative.
+  std::optional<double> amount(const DataLine& line, std::size_t i, const std::string& key);
+  /// Whether a row of a section has one of these numbers of words; else notes a mistake, which tells what they mean.
+  bool has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& section,
+                const std::string& meaning);
 
  private:
   std::string file_, text_;

@@ -1,11 +1,11 @@
 #include "problem/lammps_rows.hpp"
 
+#include "problem/lammps_coefficients.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <optional>
 #include <set>
@@ -23,8 +23,6 @@ const std::set<std::string> absent{"dihedrals", "impropers", "ellipsoids", "line
 const std::set<std::string> unused{"dihedral types",        "improper types",           "extra bond per atom",
                                    "extra angle per atom",  "extra dihedral per atom",  "extra improper per atom",
                                    "extra special per atom"};
-
-bool is_word(std::string_view word) { return std::isalpha(static_cast<unsigned char>(word[0])) != 0; }
 
 /// A section's name is made of words only; a row has numbers.
 bool is_keyword(const DataLine& line) {
@@ -98,9 +96,9 @@ class Reader {
     } else if (section_ == "Atoms") {
       begin_atoms(line);
     } else if (section_ == "Bond Coeffs") {
-      check_style(line, "bond", "harmonic");
+      begin_coefficients(line, "bond");
     } else if (section_ == "Angle Coeffs") {
-      check_style(line, "angle", "cosine");
+      begin_coefficients(line, "angle");
     }
   }
 
@@ -113,10 +111,9 @@ class Reader {
     if (!columns_) refuse_section(line, why);
   }
 
-  void check_style(const DataLine& line, const std::string& kind, const std::string& known) {
-    if (line.comment.empty() || line.comment == known || line.comment == "hybrid") return;
-    refuse_section(line,
-                   fmt::format("{} style {} is not available; {} is", kind, quoted(std::string(line.comment)), known));
+  void begin_coefficients(const DataLine& line, const std::string& kind) {
+    coefficient_style_ = std::string(line.comment);
+    if (const std::string why = refused_style(kind, coefficient_style_); !why.empty()) refuse_section(line, why);
   }
 
   /// One mistake for the whole section: its rows are counted only.
@@ -139,29 +136,25 @@ class Reader {
     if (section_ == "Masses") return mass(line);
     if (section_ == "Bonds") return topology(line, 2, "bond types", rows_.bonds);
     if (section_ == "Angles") return topology(line, 3, "angle types", rows_.angles);
-    if (section_ == "Bond Coeffs") return coefficients(line, "harmonic", 2, "bond types", rows_.bond_coefficients);
-    return coefficients(line, "cosine", 1, "angle types", rows_.angle_coefficients);
+    if (section_ == "Bond Coeffs") return coefficients(line, "bond", rows_.bond_coefficients);
+    return coefficients(line, "angle", rows_.angle_coefficients);
   }
 
   bool has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& meaning) {
-    if (std::find(sizes.begin(), sizes.end(), line.size()) != sizes.end()) return true;
-    std::string allowed;
-    for (const std::size_t n : sizes) allowed += (allowed.empty() ? "" : " or ") + std::to_string(n);
-    lines_.mistake(line, 0, section_, fmt::format("{} columns, expected {}: {}", line.size(), allowed, meaning));
-    return false;
+    return lines_.has_size(line, sizes, section_, meaning);
+  }
+
+  int most_types(const std::string& count) const {
+    const bool known = rows_.counts.count(count) > 0 && rows_.count(count) >= 0;   // else that is the mistake to tell
+    return known ? rows_.count(count) : largest;
   }
 
   std::optional<int> type(const DataLine& line, std::size_t i, const std::string& count) {
-    const bool known = rows_.counts.count(count) > 0 && rows_.count(count) >= 0;   // else that is the mistake to tell
-    return lines_.integer(line, i, section_ + ": type", 1, known ? rows_.count(count) : largest);
+    return lines_.integer(line, i, section_ + ": type", 1, most_types(count));
   }
 
-  /// A number that must not be negative.
   std::optional<double> amount(const DataLine& line, std::size_t i, const std::string& what) {
-    const auto value = lines_.number(line, i, section_ + ": " + what);
-    if (!value || *value >= 0) return value;
-    lines_.mistake(line, i, section_ + ": " + what, fmt::format("{} is negative; 0 or more is allowed", line[i]));
-    return std::nullopt;
+    return lines_.amount(line, i, section_ + ": " + what);
   }
 
   bool atom(const DataLine& line) {
@@ -239,21 +232,10 @@ class Reader {
     return good;
   }
 
-  bool coefficients(const DataLine& line, const std::string& style, std::size_t n, const std::string& count,
-                    std::vector<CoefficientRow>& rows) {
-    const std::size_t first = line.size() > 1 && is_word(line[1]) ? 2 : 1;   // a hybrid's lines name the style
-    if (first == 2 && line[1] != style) {
-      lines_.mistake(line, 1, section_,
-                     fmt::format("style {} is not available; {} is", quoted(std::string(line[1])), style));
-      return false;
-    }
-    if (!has_size(line, {first + n}, n == 2 ? "type, K and r0 of style harmonic, U = K (r - r0)^2"
-                                            : "type and K of style cosine, U = K (1 + cos theta)")) return false;
-    const auto t = type(line, 0, count);
-    const auto K = amount(line, first, "K");
-    const auto r0 = n == 2 ? amount(line, first + 1, "r0") : std::optional<double>(0.0);
-    if (t && K && r0) rows.push_back({line.number, *t, *K, *r0});
-    return t && K && r0;
+  bool coefficients(const DataLine& line, const std::string& kind, std::vector<CoefficientRow>& rows) {
+    const auto row = coefficient_row(lines_, line, kind, coefficient_style_, most_types(kind + " types"));
+    if (row) rows.push_back(*row);
+    return row.has_value();
   }
 
   void check_counts() {
@@ -278,7 +260,7 @@ class Reader {
   }
 
   LammpsLines& lines_;
-  std::string style_, section_;
+  std::string style_, section_, coefficient_style_;
   bool known_ = false, skip_ = false;   // a section that is read; whose rows are only counted
   std::optional<std::vector<AtomColumn>> columns_;
   LammpsRows rows_;

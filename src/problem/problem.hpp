@@ -1,9 +1,11 @@
 #pragma once
 // A problem file as plain numbers: every table a struct, every default in it. What the file says, not what it means.
 #include "core/types.hpp"
+#include "laws/region.hpp"
 #include "laws/section.hpp"
 #include "path/options.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +25,13 @@ struct TablePlace : Place {
   bool operator==(const TablePlace&) const { return true; }
 };
 
+/// The rest angle of a structure's angles: "straight", "as_built", or degrees.
+struct Rest {
+  bool as_built = false;
+  double degrees = 180;
+  bool operator==(const Rest&) const = default;
+};
+
 struct BeamTable {
   TablePlace place;
   std::string name;
@@ -36,7 +45,87 @@ struct BeamTable {
   std::optional<double> youngs_modulus;         // needed unless both stiffnesses are given
   std::optional<double> density;
   std::optional<double> bond_stiffness, angle_stiffness, rest_length;
+  Rest rest;
   bool operator==(const BeamTable&) const = default;
+};
+
+struct LoopTable {
+  TablePlace place;
+  std::string name;
+  Section section = Section::cylinder;
+  int particles = 0;
+  Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
+  double radius = 0;                            // of the circle through the centres
+  double diameter = 0;
+  std::optional<double> thickness;              // default: the diameter
+  std::optional<double> youngs_modulus, density;
+  std::optional<double> bond_stiffness, angle_stiffness, rest_length;   // rest length: default the chord
+  Rest rest;
+  bool operator==(const LoopTable&) const = default;
+};
+
+enum class SheetShape { rectangle, circle, cylinder };
+
+struct SheetTable {
+  TablePlace place;
+  std::string name;
+  SheetShape shape = SheetShape::rectangle;
+  std::optional<std::array<double, 2>> size;    // rectangle
+  std::optional<double> radius, height;         // circle: radius; cylinder: both
+  Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
+  double lattice_angle = 0;                     // degrees
+  double spacing = 0;
+  std::optional<double> thickness, diameter;    // default: the spacing
+  std::optional<double> youngs_modulus, density;
+  std::optional<double> bond_stiffness, angle_stiffness, rest_length;   // rest length: default the spacing
+  Rest rest;
+  bool operator==(const SheetTable&) const = default;
+};
+
+struct GrainsTable {
+  TablePlace place;
+  std::string name;
+  std::optional<std::vector<Vec3>> positions;   // either these …
+  std::string file;                             // … or a CSV file: x,y,z, and a diameter if there is a fourth column
+  std::optional<double> diameter;               // needed unless the file has it
+  std::optional<double> density;
+  bool operator==(const GrainsTable&) const = default;
+};
+
+/// Bonds between the particles of two groups that are near each other, and angles over these bonds.
+struct ConnectTable {
+  TablePlace place;
+  std::array<std::string, 2> between;
+  double within = 0;
+  std::optional<int> bonds_per_particle;        // of the first group: its nearest ones only; default all
+  double bond_stiffness = 0;
+  std::optional<double> rest_length;            // default: the distance as built
+  std::optional<double> angle_stiffness;        // default: no angles
+  Rest rest{true, 180};                         // as built
+  bool operator==(const ConnectTable&) const = default;
+};
+
+struct ContactTable {
+  TablePlace place;
+  std::array<std::string, 2> between;
+  std::string law = "hertz";                    // or "lj"
+  std::vector<double> youngs_modulus, poissons_ratio;   // one number, or of unlike materials two
+  std::optional<double> effective_modulus;
+  std::optional<int> exclude_bonds;
+  std::optional<double> epsilon, sigma, cutoff;
+  bool operator==(const ContactTable&) const = default;
+};
+
+struct WallTable {
+  TablePlace place;
+  std::string name, group = "all";
+  Region region;
+  bool inside = true;
+  std::optional<double> youngs_modulus, poissons_ratio, effective_modulus;
+  bool curved = false;                          // effective_radius = "curved"
+  Vec3 displacement = Vec3::Zero();
+  double radius_change = 0;
+  bool operator==(const WallTable&) const = default;
 };
 
 struct LammpsTable {
@@ -51,9 +140,9 @@ struct GroupTable {
   std::string name, of = "all";
   std::optional<int> first, last, middle;
   std::optional<std::vector<int>> ids;
-  struct Inside {                               // shape "block"
+  struct Inside {                               // a region, as of a wall
     TablePlace place;
-    Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
+    Region region;
     bool operator==(const Inside&) const = default;
   };
   std::optional<Inside> inside;
@@ -91,7 +180,13 @@ struct ViscosityTable {
   bool operator==(const ViscosityTable&) const = default;
 };
 
-enum class StudyType { energy, equilibrium, path };
+enum class StudyType { energy, equilibrium, path, modes };
+
+struct ModesTable {
+  TablePlace place;
+  int count = 6;                                // lowest eigenpairs
+  bool operator==(const ModesTable&) const = default;
+};
 
 struct PathTable {
   TablePlace place;
@@ -114,16 +209,16 @@ struct SolverTable {
   bool operator==(const SolverTable&) const = default;
 };
 
-enum class Quantity { position, displacement, reaction, velocity };
+enum class Quantity { position, displacement, reaction, velocity, gap, contacts };
 enum class Component { x, y, z, norm };
 enum class Reduce { mean, sum, min, max };
 
 struct ObserveTable {
   TablePlace place;
-  std::string name, group;
+  std::string name, group;                      // the group may be a wall: its reaction, gap, contacts
   Quantity quantity = Quantity::position;
-  Component component = Component::x;
-  Reduce reduce = Reduce::mean;                 // sum for a reaction
+  Component component = Component::x;           // not of a gap and of contacts
+  Reduce reduce = Reduce::mean;                 // sum for a reaction and contacts, min for a gap
   bool operator==(const ObserveTable&) const = default;
 };
 
@@ -144,13 +239,20 @@ struct Problem {
   std::string plane;                            // "", "xy", "xz", "yz"
   std::optional<LammpsTable> lammps;
   std::vector<BeamTable> beams;
+  std::vector<LoopTable> loops;
+  std::vector<SheetTable> sheets;
+  std::vector<GrainsTable> grains;
+  std::vector<ConnectTable> connections;
   std::vector<GroupTable> groups;
   std::vector<SupportTable> supports;
   std::vector<LoadTable> loads;
   std::vector<GravityTable> gravity;
+  std::vector<ContactTable> contacts;
+  std::vector<WallTable> walls;
   std::vector<ViscosityTable> viscosity;
   StudyType study = StudyType::path;
   PathTable path;
+  ModesTable modes;
   SolverTable solver;
   std::vector<ObserveTable> observe;
   std::vector<ExpectTable> expect;

@@ -17,6 +17,12 @@ void complete(Problem& p) {
     if (!b.thickness) b.thickness = b.diameter;
     if (b.center && !b.spacing) b.spacing = b.diameter;
   }
+  for (LoopTable& l : p.loops)
+    if (!l.thickness) l.thickness = l.diameter;
+  for (SheetTable& s : p.sheets) {
+    if (!s.thickness) s.thickness = s.spacing;
+    if (!s.diameter) s.diameter = s.spacing;
+  }
   if (!p.path.start.empty() && !p.path.start_lambda) p.path.start_lambda = p.path.from;
 }
 
@@ -36,7 +42,8 @@ std::vector<std::string> names_in_unknown_tables(const Document& document) {
 bool structure_refused(const Document& document) {
   return std::any_of(document.root.begin(), document.root.end(), [](const Entry& e) {
     const bool is_table = std::holds_alternative<Entries>(e.node.value) || is_tables(e.node);
-    return (e.key == "beam" && !is_tables(e.node)) || (is_table && !has_table(e.key));
+    const bool structure = e.key == "beam" || e.key == "loop" || e.key == "sheet" || e.key == "grains";
+    return (structure && !is_tables(e.node)) || (is_table && !has_table(e.key));
   });
 }
 
@@ -51,8 +58,10 @@ ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
   file.problem.file = document.file;
   file.problem.sha256 = document.sha256;
   complete(file.problem);
-  if (file.problem.beams.empty() && !file.problem.lammps && !structure_refused(document))
-    mistakes.add("holds no structure; add a [[beam]] or a [lammps] data file");
+  const Problem& p = file.problem;
+  const bool empty = !p.lammps && p.beams.empty() && p.loops.empty() && p.sheets.empty() && p.grains.empty();
+  if (empty && !structure_refused(document))
+    mistakes.add("holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]] or a [lammps] data file");
   check_problem(file.problem, names_in_unknown_tables(document), mistakes);
   return file;
 }

@@ -131,6 +131,73 @@ bool Reader::read(const char* key, const Node& node, std::vector<double>& value,
   return good;
 }
 
+bool Reader::read(const char* key, const Node& node, std::vector<Vec3>& value, Range limits) {
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || list->empty()) return wrong(key, node, "a list of points [[x, y, z], …], at least one"), false;
+  bool good = true;
+  for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
+  return good;
+}
+
+bool Reader::read(const char* key, const Node& node, std::array<double, 2>& value, Range limits) {
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || list->size() != 2) return wrong(key, node, wanted(value, limits)), false;
+  const bool first = read(key, (*list)[0], value[0], limits), second = read(key, (*list)[1], value[1], limits);
+  return first && second;
+}
+
+bool Reader::read(const char* key, const Node& node, std::array<std::string, 2>& value, Range limits) {
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || list->size() != 2) return wrong(key, node, wanted(value, limits)), false;
+  const bool first = read(key, (*list)[0], value[0], limits), second = read(key, (*list)[1], value[1], limits);
+  return first && second;
+}
+
+bool Reader::read(const char* key, const Node& node, Rest& value, Range limits) {
+  const auto* text = std::get_if<std::string>(&node.value);
+  const bool number = std::holds_alternative<double>(node.value) || std::holds_alternative<std::int64_t>(node.value);
+  if (number) {
+    value.as_built = false;
+    return read(key, node, value.degrees, limits);
+  }
+  if (!text || (*text != "straight" && *text != "as_built"))
+    return wrong(key, node, "\"straight\", \"as_built\" or an angle in degrees"), false;
+  value = {*text == "as_built", 180};
+  return true;
+}
+
+void Reader::one_or_two(const char* key, std::vector<double>& values, Range limits) {
+  const Node* node = find(key);
+  if (!node) return;
+  const auto* list = std::get_if<List>(&node->value);
+  values.clear();
+  if (!list)
+    read(key, *node, values.emplace_back(), limits);
+  else if (list->size() == 2)
+    read(key, *node, values, limits);
+  else
+    wrong(key, *node, wanted(0.0, limits) + ", or a list of two, for unlike materials");
+}
+
+void Reader::center(const char* key, Vec3& value, int axis) {
+  const Node* node = find(key);
+  if (!node) return missing(key, "a list of two coordinates, without the one along the axis, or of three");
+  const auto* list = std::get_if<List>(&node->value);
+  if (!list || (list->size() != 2 && list->size() != 3))
+    return wrong(key, *node, "a list of two coordinates, without the one along the axis, or of three");
+  value = Vec3::Zero();
+  for (int c = 0, i = 0; c < 3; ++c)
+    if (c != axis || list->size() == 3) read(key, (*list)[i++], value[c], range::any);
+  value[axis] = 0;
+}
+
+void Reader::foreign(const char* key, const std::string& what) {
+  if (const Node* node = elamin::find(entries_, key)) {
+    find(key);
+    mistake(node->place, inside(key), "does not belong to " + what);
+  }
+}
+
 void Reader::name(const char* key, std::string& value) {
   must(key, value);
   const Node* node = find(key);

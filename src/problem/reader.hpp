@@ -36,6 +36,15 @@ class Reader {
     else
       missing(key, wanted(value, limits));
   }
+  template <class T> void must(const char* key, std::optional<T>& value, Range limits = {}) {
+    if (find(key))
+      may(key, value, limits);
+    else
+      missing(key, wanted(T{}, limits));
+  }
+  void one_or_two(const char* key, std::vector<double>& values, Range limits);
+  void center(const char* key, Vec3& value, int axis);
+  void foreign(const char* key, const std::string& what);
   void name(const char* key, std::string& value);
   void file(const char* key, std::string& value);
   void may_file(const char* key, std::string& value) {
@@ -102,11 +111,17 @@ class Reader {
   bool read(const char* key, const Node&, Vec3&, Range);
   bool read(const char* key, const Node&, std::vector<int>&, Range);
   bool read(const char* key, const Node&, std::vector<double>&, Range);
+  bool read(const char* key, const Node&, std::vector<Vec3>&, Range);
+  bool read(const char* key, const Node&, std::array<double, 2>&, Range);
+  bool read(const char* key, const Node&, std::array<std::string, 2>&, Range);
+  bool read(const char* key, const Node&, Rest&, Range);
   static std::string wanted(bool, Range) { return "true or false"; }
   static std::string wanted(int, Range);
   static std::string wanted(double, Range);
   static std::string wanted(const std::string&, Range) { return "a string"; }
   static std::string wanted(const Vec3&, Range) { return "a list of three numbers [x, y, z]"; }
+  static std::string wanted(const std::array<double, 2>&, Range) { return "a list of two positive numbers"; }
+  static std::string wanted(const std::array<std::string, 2>&, Range) { return "a list of the names of two groups"; }
 
   template <class W, std::size_t n> static std::vector<std::string> texts(const Word<W> (&words)[n]) {
     std::vector<std::string> all;

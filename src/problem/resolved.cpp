@@ -17,6 +17,14 @@ class Writer {
   template <class T> void may(const char* key, const std::optional<T>& value, Range = {}) {
     if (value) line(key, toml(*value));
   }
+  template <class T> void must(const char* key, const std::optional<T>& value, Range = {}) { may(key, value); }
+  void one_or_two(const char* key, const std::vector<double>& values, Range) {
+    if (!values.empty()) line(key, values.size() == 1 ? toml(values[0]) : toml(values));
+  }
+  void center(const char* key, const Vec3& value, int axis) {
+    line(key, toml(std::array{value[axis == 0 ? 1 : 0], value[axis == 2 ? 1 : 2]}));
+  }
+  void foreign(const char*, const std::string&) {}
   void name(const char* key, const std::string& value) { line(key, toml(value)); }
   void file(const char* key, const std::string& value) { line(key, toml(value)); }
   void may_file(const char* key, const std::string& value) {
@@ -60,6 +68,14 @@ class Writer {
   static std::string toml(double value) { return to_toml(value); }
   static std::string toml(const std::string& value) { return to_toml(value); }
   static std::string toml(const Vec3& v) { return "[" + toml(v.x()) + ", " + toml(v.y()) + ", " + toml(v.z()) + "]"; }
+  static std::string toml(const Rest& r) {
+    return r.as_built         ? toml(std::string("as_built"))
+           : r.degrees == 180 ? toml(std::string("straight"))
+                              : toml(r.degrees);
+  }
+  template <class T> static std::string toml(const std::array<T, 2>& pair) {
+    return "[" + toml(pair[0]) + ", " + toml(pair[1]) + "]";
+  }
   template <class T> static std::string toml(const std::vector<T>& list) {
     std::string text;
     for (const T& value : list) text += (text.empty() ? "" : ", ") + toml(value);

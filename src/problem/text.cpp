@@ -4,10 +4,12 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 namespace elamin {
 namespace {
@@ -66,6 +68,31 @@ std::string read_text(const std::string& file) {
     refuse(file, "is not a text in UTF-8 from here on", at.line, at.column);
   }
   return bytes;
+}
+
+std::string read_data(const std::string& file, const std::string& kind, const std::string& hint) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) refuse(file, "no such file; a " + kind + " is needed");
+  if (!std::filesystem::is_regular_file(status)) refuse(file, "is not a file of text; a " + kind + " is needed");
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(file, std::string("cannot be opened: ") + std::strerror(errno));
+  const auto control = [](unsigned char c) { return (c < 32 && (c < '\t' || c > '\r')) || c == 127; };
+  std::string text;
+  std::string block(1 << 20, '\0');
+  try {
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0) {
+      const std::string_view piece(block.data(), static_cast<std::size_t>(in.gcount()));
+      if (std::any_of(piece.begin(), piece.end(), control))
+        refuse(file, "is a binary file; a " + kind + " is text" + hint);
+      text.append(piece);
+    }
+  } catch (const std::bad_alloc&) {
+    refuse(file, "does not fit into the memory");
+  }
+  if (in.bad()) refuse(file, "cannot be read to its end");
+  return text;
 }
 
 Place place_in(const std::string& text, std::size_t offset) {

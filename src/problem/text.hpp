@@ -10,6 +10,11 @@ namespace elamin {
 /// read, is larger than 64 MB, or holds bytes that are no text (with the line and column of the first).
 std::string read_text(const std::string& file);
 
+/// The contents of a file of numbers, of any size. Throws InputError, which names the `kind` of file that is wanted, if
+/// it is not there, is no regular file, cannot be read, or holds control characters, as binary files do (and then the
+/// `hint` follows).
+std::string read_data(const std::string& file, const std::string& kind, const std::string& hint = "");
+
 /// Whether the bytes are well-formed UTF-8 without the character 0.
 bool is_text(const std::string& bytes);
 

@@ -5,7 +5,6 @@
 namespace elamin {
 namespace {
 
-constexpr const char* structures = "not available in this version; available structures: beam, lammps";
 constexpr const char* not_yet = "not available in this version";
 constexpr const char* needs_arc_length = "needs the arc-length method, which is not available in this version; use ";
 
@@ -15,32 +14,18 @@ struct Refusal {
 };
 
 const Refusal refusals[]{
-    {"loop", "", structures},
-    {"sheet", "", structures},
-    {"grains", "", structures},
-    {"body", "", structures},
-    {"contact", "", not_yet},
-    {"wall", "", not_yet},
-    {"connect", "", not_yet},
-    {"dynamics", "", std::string(not_yet) + "; available studies: energy, equilibrium, path"},
+    {"body", "", "not available in this version; available structures: beam, loop, sheet, grains, lammps"},
+    {"contact.law", "rounded", std::string("\"rounded\" is ") + not_yet + "; use \"hertz\" or \"lj\""},
+    {"dynamics", "", std::string(not_yet) + "; available studies: energy, equilibrium, path, modes"},
     {"support.velocity", "", std::string(not_yet) + "; it belongs to dynamics"},
     {"path.parameter", "", std::string(not_yet) + "; the parameter is the load factor"},
     {"path.branches", "*", std::string("switching branches ") + needs_arc_length + "0"},
     {"path.when_unstable", "follow", std::string("\"follow\" ") + needs_arc_length + "\"jump\" or \"stop\""},
     {"path.method", "arc_length", std::string("\"arc_length\" is ") + not_yet + "; use \"load_steps\""},
-    {"study.type", "modes", std::string("\"modes\" is ") + not_yet + "; use \"energy\", \"equilibrium\" or \"path\""},
     {"study.type", "dynamics",
-     std::string("\"dynamics\" is ") + not_yet + "; use \"energy\", \"equilibrium\" or \"path\""},
+     std::string("\"dynamics\" is ") + not_yet + "; use \"energy\", \"equilibrium\", \"path\" or \"modes\""},
     {"solver.method", "ipopt", std::string("\"ipopt\" is ") + not_yet + "; use \"newton\""},
     {"solver.method", "nlopt:*", std::string("NLopt is ") + not_yet + "; use \"newton\""},
-    {"observe.quantity", "gap*",
-     std::string("a gap is ") + not_yet + "; use a position, displacement, reaction or velocity"},
-    {"observe.quantity", "contacts",
-     std::string("contacts are ") + not_yet + "; use a position, displacement, reaction or velocity"},
-    {"group.inside.shape", "plane", std::string("\"plane\" is ") + not_yet + "; use \"block\""},
-    {"group.inside.shape", "cylinder", std::string("\"cylinder\" is ") + not_yet + "; use \"block\""},
-    {"group.inside.shape", "sphere", std::string("\"sphere\" is ") + not_yet + "; use \"block\""},
-    {"group.inside.shape", "cone", std::string("\"cone\" is ") + not_yet + "; use \"block\""},
 };
 
 bool matches(std::string_view pattern, std::string_view word) {

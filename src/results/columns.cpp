@@ -1,5 +1,7 @@
 #include "results/columns.hpp"
 
+#include "problem/check.hpp"
+
 #include <algorithm>
 
 namespace elamin {
@@ -7,13 +9,14 @@ namespace {
 
 /// What path.csv and events.csv have in common behind their first columns.
 void append_rest(Row& row, const PathPoint& p, const std::vector<double>& observables) {
-  row.insert(row.end(), {p.energy.total(), p.energy.bond, p.energy.angle, p.energy.external, p.report.residual,
-                         p.report.iterations, p.stability.negative, p.stability.stable});
+  row.insert(row.end(), {p.energy.total(), p.energy.bond, p.energy.angle, p.energy.contact, p.energy.wall, p.energy.cohesion,
+                         p.energy.external, p.report.residual, p.report.iterations, p.stability.negative,
+                         p.stability.stable});
   row.insert(row.end(), observables.begin(), observables.end());
 }
 
-const std::vector<std::string> rest{"energy",   "bond",       "angle",    "external",
-                                    "residual", "iterations", "negative", "stable"};
+const std::vector<std::string> rest{"energy",   "bond",     "angle",      "contact",  "wall",  "cohesion",
+                                    "external", "residual", "iterations", "negative", "stable"};
 
 std::vector<std::string> with_rest(std::vector<std::string> columns, const std::vector<std::string>& observables) {
   columns.insert(columns.end(), rest.begin(), rest.end());
@@ -24,6 +27,14 @@ std::vector<std::string> with_rest(std::vector<std::string> columns, const std::
 const std::vector<std::string> first_events{"branch:1", "limit:1", "contact:1"};
 
 }  // namespace
+
+std::vector<std::string> observable_columns(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const ObserveTable& o : problem.observe) names.push_back(o.name);
+  if (problem.study == StudyType::modes)
+    for (const std::string& name : eigenvalue_columns(problem.modes.count)) names.push_back(name);
+  return names;
+}
 
 std::vector<std::string> path_columns(const std::vector<std::string>& observables) {
   return with_rest({"step", "label", "branch", "lambda"}, observables);

@@ -1,6 +1,7 @@
 #pragma once
 // The columns of path.csv, events.csv and sweep.csv, and how a point of a path becomes a row of them.
 #include "path/point.hpp"
+#include "problem/problem.hpp"
 #include "results/table.hpp"
 
 #include <string>
@@ -8,8 +9,11 @@
 
 namespace elamin {
 
-/// step, label, branch, lambda, energy, bond, angle, external, residual, iterations, negative, stable, then the
-/// observables.
+/// The names of every [[observe]], and behind them eigenvalue_1 … eigenvalue_count of a study of modes.
+std::vector<std::string> observable_columns(const Problem& problem);
+
+/// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, external, residual, iterations, negative,
+/// stable, then the observables.
 std::vector<std::string> path_columns(const std::vector<std::string>& observables);
 Row path_row(const PathPoint& point, const std::vector<double>& observables);
 

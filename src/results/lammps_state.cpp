@@ -1,5 +1,6 @@
 #include "results/lammps_state.hpp"
 
+#include "laws/section.hpp"
 #include "results/text_file.hpp"
 
 #include <fmt/format.h>
@@ -38,6 +39,19 @@ Box box_around(const Field& x, const std::vector<double>& diameter) {
   return box;
 }
 
+bool all_straight(const Model& model) {
+  return std::all_of(model.angle_types.begin(), model.angle_types.end(), [](const AngleType& a) { return a.rest == pi; });
+}
+
+/// In degrees, exactly 180 for π, and so that degrees · (π/180) gives the same angle back where one of the doubles does.
+double degrees(double angle) {
+  if (angle == pi) return 180;
+  const double near = angle * (180 / pi);
+  for (const double d : {near, std::nextafter(near, 0.0), std::nextafter(near, 360.0)})
+    if (d * (pi / 180) == angle) return d;
+  return near;
+}
+
 int largest(const std::vector<int>& values) { return *std::max_element(values.begin(), values.end()); }
 
 }  // namespace
@@ -62,9 +76,13 @@ void write_state(const std::string& file, const Model& model, const State& state
       put("{} {:.17g} {:.17g}\n", k + 1, model.bond_types[k].stiffness, model.bond_types[k].rest_length);
   }
   if (!model.angle_types.empty()) {
-    put("\nAngle Coeffs # cosine\n\n");
-    for (std::size_t k = 0; k < model.angle_types.size(); ++k)
-      put("{} {:.17g}\n", k + 1, model.angle_types[k].stiffness);
+    const bool straight = all_straight(model);
+    put("\nAngle Coeffs # {}\n\n", straight ? "cosine" : "cosine/shift");
+    for (std::size_t k = 0; k < model.angle_types.size(); ++k) {
+      const AngleType& a = model.angle_types[k];
+      if (straight) put("{} {:.17g}\n", k + 1, a.stiffness);
+      else put("{} {:.17g} {:.17g}\n", k + 1, 2 * a.stiffness, degrees(a.rest));   // U_min = 2B, θ₀
+    }
   }
   put("\nAtoms # hybrid sphere angle\n\n");
   for (int i = 0; i < n; ++i)

@@ -7,7 +7,8 @@
 namespace elamin {
 
 /// Writes the state as a LAMMPS data file, atom style "hybrid sphere angle": positions with 17 digits (their tails are
-/// left out), bonds and angles with coefficients, velocities if the model has them, a box around everything.
+/// left out), bonds and angles with coefficients (angles as cosine; where one is not straight at rest all of them as
+/// cosine/shift, 2B and the rest angle in degrees), velocities if the model has them, a box around everything.
 /// read_lammps_data reads the same positions back to the last bit; LAMMPS and OVITO open it. LAMMPS wants densities
 /// above zero: a density that is not given is written as 1, and the title says so. Throws InputError if the file
 /// cannot be written.

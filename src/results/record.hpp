@@ -11,13 +11,16 @@ class Record {
   /// Both must outlive this. Throws InputError as Observables does.
   Record(const Problem& problem, const Model& model);
 
-  /// A point of the path; forces: −∂U/∂x of all particles with the loads, 3 × particles. An event (a label such as
-  /// "branch:1") stands in both tables.
-  void add(const PathPoint& point, const Field& forces);
+  /// A point of the path; forces: −∂U/∂x of all particles with the loads, 3 × particles; touches: see
+  /// Observables::evaluate; eigenvalues: of a study of modes. An event (a label such as "branch:1") stands in both tables.
+  void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
+           const std::vector<double>& eigenvalues = {});
 
   const Table& path() const { return path_; }
   const Table& events() const { return events_; }
-  const std::vector<std::string>& observables() const { return names_; }
+  /// Names of the last columns, see observable_columns.
+  const std::vector<std::string>& columns() const { return names_; }
+  const Observables& observables() const { return observables_; }
 
  private:
   Observables observables_;

@@ -23,16 +23,30 @@ std::string place(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
 }
 
+void remove_all_with(const char* extension, const std::string& directory) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::remove(file, error);
+}
+
+void create(const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
+}
+
 /// Creates the directory, or empties one of an earlier run of its results.
 std::string prepared(const std::string& directory, const std::string& resolved_toml) {
   const std::string states = place(directory, "states");
-  std::error_code error;
-  fs::create_directories(states, error);
-  if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
+  create(directory), create(states);
   if (fs::exists(place(directory, "resolved.toml"))) {
-    fs::remove(place(directory, "summary.json"), error);
-    for (const auto& entry : fs::directory_iterator(states, error))
-      if (entry.path().extension() == ".data") fs::remove(entry.path(), error);
+    std::error_code error;
+    for (const char* file : {"summary.json", "modes.csv"}) fs::remove(place(directory, file), error);
+    remove_all_with(".data", states);
+    remove_all_with(".csv", place(directory, "modes"));
+    fs::remove(place(directory, "modes"), error);                  // where nothing else is in it
   }
   write_text(place(directory, "resolved.toml"), resolved_toml);
   return directory;
@@ -48,16 +62,42 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
       title_(problem.title),
       log_(place(directory_, "log.txt"), std::ios::binary),
       path_(place(directory_, "path.csv"), record_.path().columns),
-      events_(place(directory_, "events.csv"), record_.events().columns) {}
+      events_(place(directory_, "events.csv"), record_.events().columns),
+      contacts_(place(directory_, "contacts.csv"),
+                {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {}
 
-void RunDirectory::add(const PathPoint& point, const Field& forces) {
-  record_.add(point, forces);
+void RunDirectory::add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
+                       const std::vector<double>& eigenvalues) {
+  record_.add(point, forces, touches, eigenvalues);
   path_.add(record_.path().rows.back());
   if (is_event(point.label)) events_.add(record_.events().rows.back());
-  if (!point.label.empty())
-    write_state(state_file(point.label), model_, point.state,
-                fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, point.label,
-                            point.state.load_factor));
+  if (!point.label.empty()) add_state(point.label, point.state, touches);
+}
+
+void RunDirectory::add_state(const std::string& label, const State& state, const std::vector<Touch>& touches) {
+  write_state(state_file(label), model_, state,
+              fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
+  for (const Touch& t : touches) {
+    if (!(t.gap < 0)) continue;
+    const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);
+    const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
+    contacts_.add({label, state.load_factor, model_.id[t.particle], second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
+  }
+}
+
+void RunDirectory::add_mode(const Mode& mode, const State& state) {
+  const std::string name = fmt::format("mode-{}", ++mode_), directory = place(directory_, "modes");
+  if (!modes_) {
+    create(directory);
+    modes_.emplace(place(directory_, "modes.csv"), std::vector<std::string>{"mode", "eigenvalue", "zero_mode"});
+  }
+  modes_->add({mode_, mode.eigenvalue, mode.zero_mode.empty() ? Cell{} : Cell(mode.zero_mode)});
+  CsvFile shape(place(directory, name + ".csv"), {"id", "ux", "uy", "uz"});
+  for (int i = 0; i < model_.particles(); ++i)
+    shape.add({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
+  write_state(state_file(name), model_, moved_along(mode, model_, state),
+              fmt::format("{}; {}, eigenvalue {:.17g}; load factor {:.17g}", title_.empty() ? "elamin" : title_, name,
+                          mode.eigenvalue, state.load_factor));
 }
 
 void RunDirectory::log(const std::string& line) {

@@ -1,5 +1,6 @@
 #pragma once
 // The directory that a run leaves behind.
+#include "results/mode.hpp"
 #include "results/record.hpp"
 #include "results/summary.hpp"
 
@@ -8,16 +9,28 @@
 
 namespace elamin {
 
-/// path.csv, events.csv, states/, log.txt, resolved.toml and summary.json of one run. Every row, state and line is on
-/// the disk as soon as it is added, so that an interrupted run keeps what it has.
+/// path.csv, events.csv, contacts.csv, states/, log.txt, resolved.toml and summary.json of one run, modes.csv and modes/ of
+/// a study of modes. Every row, state and line is on the disk as soon as it is added, so that an interrupted run keeps
+/// what it has.
 class RunDirectory {
  public:
   /// Creates the directory and writes resolved.toml. Results of an earlier run in it are removed (a directory is one if
   /// it holds a resolved.toml). problem and model must outlive this. Throws InputError if something cannot be written.
   RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml);
 
-  /// A row of path.csv, of events.csv if it is an event, a state if it has a label; forces: see Record::add.
-  void add(const PathPoint& point, const Field& forces);
+  /// A row of path.csv, of events.csv if it is an event, a state if it has a label; forces, touches, eigenvalues: see
+  /// Record::add.
+  void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
+           const std::vector<double>& eigenvalues = {});
+
+  /// states/LABEL.data, and every closed contact (gap < 0) as a row of contacts.csv: label, lambda, first (id of the
+  /// particle), second (id of the other one, or the wall's name), gap, force (its magnitude), fx, fy, fz (on the first),
+  /// x, y, z (of contact).
+  void add_state(const std::string& label, const State& state, const std::vector<Touch>& touches);
+
+  /// A row of modes.csv (mode, eigenvalue, zero_mode), modes/mode-K.csv (id, ux, uy, uz) and states/mode-K.data, the state
+  /// moved along the mode so that its largest displacement is a tenth of the smallest diameter. Modes count from 1.
+  void add_mode(const Mode& mode, const State& state);
 
   /// A line of log.txt, with the time.
   void log(const std::string& line);
@@ -36,7 +49,9 @@ class RunDirectory {
   const Model& model_;
   std::string directory_, title_;
   std::ofstream log_;
-  CsvFile path_, events_;
+  CsvFile path_, events_, contacts_;
+  std::optional<CsvFile> modes_;                      // made with the first mode
+  int mode_ = 0;
 };
 
 }  // namespace elamin

@@ -1,5 +1,7 @@
 #include "solve/cholesky.hpp"
 
+#include "core/timing.hpp"
+
 #include <cholmod.h>
 
 extern "C" void openblas_set_num_threads(int);
@@ -50,6 +52,7 @@ Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()) {}
 Cholesky::~Cholesky() = default;
 
 void Cholesky::analyze(const SparseMatrix& pattern) {
+  const Timed timed(seconds_);
   cholmod_->release();
   cholmod_sparse a = view(pattern);
   cholmod_->factor = cholmod_analyze(&a, &cholmod_->common);
@@ -58,6 +61,7 @@ void Cholesky::analyze(const SparseMatrix& pattern) {
 
 bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
   if (hessian.cols() == 0) return true;
+  const Timed timed(seconds_);
   cholmod_sparse a = view(hessian);
   double beta[2] = {shift, 0};
   const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, cholmod_->factor, &cholmod_->common);
@@ -67,6 +71,7 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
   if (b.rows() == 0) return b;
+  const Timed timed(seconds_);
   cholmod_dense rhs{};
   rhs.nrow = b.rows(), rhs.ncol = b.cols(), rhs.nzmax = b.size(), rhs.d = b.rows();
   rhs.x = const_cast<double*>(b.data()), rhs.xtype = CHOLMOD_REAL, rhs.dtype = CHOLMOD_DOUBLE;

@@ -21,10 +21,13 @@ class Cholesky {
   /// (H + shift·I)⁻¹ b.
   Vector solve(const Vector& b);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b);
+  /// Time spent in all calls so far.
+  double seconds() const { return seconds_; }
 
  private:
   struct Cholmod;
   std::unique_ptr<Cholmod> cholmod_;
+  double seconds_ = 0;
 };
 
 }  // namespace elamin

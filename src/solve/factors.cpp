@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace elamin {
 
@@ -27,16 +28,23 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& x) {
 
 }  // namespace
 
-Factors::Factors(Energy& energy) : energy_(energy) {
-  cholesky_.analyze(energy.pattern());
-}
+Factors::Factors(Energy& energy) : energy_(energy) {}
 
 PivotedFactor& Factors::pivoted() {
-  if (!pivoted_) {
-    pivoted_ = std::make_unique<PivotedFactor>();
-    pivoted_->analyze(energy_.pattern());
-  }
+  if (!pivoted_) pivoted_ = std::make_unique<PivotedFactor>();
   return *pivoted_;
+}
+
+bool Factors::try_cholesky(double shift) {
+  ++factorizations_;
+  if (std::exchange(cholesky_version_, energy_.pattern_version()) != energy_.pattern_version()) cholesky_.analyze(energy_.pattern());
+  return cholesky_.factorize(energy_.hessian(), shift);
+}
+
+bool Factors::try_pivoted(double shift) {
+  ++factorizations_;
+  if (std::exchange(pivoted_version_, energy_.pattern_version()) != energy_.pattern_version()) pivoted().analyze(energy_.pattern());
+  return pivoted().factorize(energy_.hessian(), shift);
 }
 
 double Factors::zero_level() const {
@@ -72,7 +80,7 @@ double Factors::make_positive(double guess) {
   return shift;
 }
 
-EigenPairs Factors::lowest(int count, double guess) {
+EigenPairs Factors::lowest(int count, double guess, double accuracy) {
   const int n = energy_.dofs();
   count = std::min(count, n);
   const int block = std::min(n, count + 4);
@@ -93,7 +101,7 @@ EigenPairs Factors::lowest(int count, double guess) {
     values = small.eigenvalues();
     x = x * small.eigenvectors();
     const double change = (values - before).head(count).cwiseAbs().maxCoeff();
-    if (k >= settle && change <= 1e-11 * std::max(std::abs(values[0]), std::abs(values[count - 1])) + zero_level() / 64) break;
+    if (k >= settle && change <= accuracy * std::max(std::abs(values[0]), std::abs(values[count - 1])) + zero_level() / 64) break;
     if (k == settle && values[0] < 0 && shift > -4 * values[0]) {   // the first shift was a guess: come closer
       shift = -1.5 * values[0];
       while (!try_cholesky(shift)) shift *= 2;

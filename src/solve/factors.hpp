@@ -18,7 +18,8 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;
 };
 
-/// Both factorisations of one energy's Hessian with their symbolic analyses. All calls speak of the Hessian of the
+/// Both factorisations of one energy's Hessian with their symbolic analyses, which are made anew only when contacts change
+/// its pattern. All calls speak of the Hessian of the
 /// energy's last evaluation.
 class Factors {
  public:
@@ -33,25 +34,23 @@ class Factors {
   double make_positive(double guess);
   /// The `count` lowest eigenpairs, by block inverse iteration with Rayleigh–Ritz on a few guard vectors more, which
   /// finds multiple eigenvalues as such; values are Rayleigh quotients formed element by element (Energy::quadratic_form).
-  /// `guess`: a shift that may make the Hessian positive definite, as of make_positive.
-  EigenPairs lowest(int count, double guess = 0);
+  /// `guess`: a shift that may make the Hessian positive definite, as of make_positive. `accuracy`: of the eigenvalues,
+  /// relative to the largest of them.
+  EigenPairs lowest(int count, double guess = 0, double accuracy = 1e-11);
 
   Cholesky& cholesky() { return cholesky_; }
   PivotedFactor& pivoted();
   int factorizations() const { return factorizations_; }
-  bool try_cholesky(double shift) {
-    ++factorizations_;
-    return cholesky_.factorize(energy_.hessian(), shift);
-  }
-  bool try_pivoted(double shift) {
-    ++factorizations_;
-    return pivoted().factorize(energy_.hessian(), shift);
-  }
+  /// Time spent in analyses, factorisations and solves so far.
+  double seconds() const { return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0); }
+  bool try_cholesky(double shift);
+  bool try_pivoted(double shift);
 
  private:
   Energy& energy_;
   Cholesky cholesky_;
   std::unique_ptr<PivotedFactor> pivoted_;       // made when first needed
+  int cholesky_version_ = -1, pivoted_version_ = -1;   // of the pattern that was analysed
   int factorizations_ = 0;
 };
 

@@ -17,6 +17,7 @@ constexpr double armijo = 0.1;                // part of the predicted decrease 
 constexpr int most_corrections = 6;
 constexpr int most_unseen = 12;
 constexpr double contraction = 0.7;           // corrections must shrink at least so, or the step is too long
+constexpr double lost = 100;                  // extents of the structure: what is that far away comes back no more
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -25,9 +26,18 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 // A step p = −M⁻¹g + (a direction of negative curvature), M = H + τI, with what the model predicts along it.
 struct Newton::Step {
   Vector p, g, hp;             // hp = H p
-  double energy, slope, curvature, energy_rounding;
-  Pace pace = Pace::long_steps;
+  double energy, slope, curvature;
+  double energy_rounding = 0;
   bool keep_direction = false; // corrections stay orthogonal to p: along a soft p they would overshoot
+  double predicted(double alpha) const { return alpha * slope + alpha * alpha / 2 * curvature; }
+  /// Rounding hides the change of energy that the step would make.
+  bool hidden(double alpha) const { return std::abs(predicted(alpha)) <= energy_rounding; }
+};
+
+// Why a run ends.
+struct Newton::Halt {
+  Status status;
+  std::string why;
 };
 
 Newton::Newton(Energy& energy, NewtonOptions options) : energy_(energy), options_(options), factors_(energy) {}
@@ -40,19 +50,74 @@ void Newton::record(Report& report, double step, double shift) const {
   report.history.push_back({report.energy, report.residual, step, shift});
 }
 
-bool Newton::attempt(const State& from, const Step& step, double alpha, State& to) {
+Report Newton::finish(const State& state, Report report, const Halt& halt) {
+  energy_.evaluate(state);
+  report.energy = energy_.last_terms().total(), report.residual = residual();
+  report.status = halt.status, report.why = halt.why;
+  return report;
+}
+
+std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& report) const {
+  if (!std::isfinite(energy_.last_terms().total()))
+    return Halt{Status::not_converged, "the energy is not finite here: particles coincide"};
+  if (interrupted()) return Halt{Status::interrupted, "interrupted"};
+  if (const std::string gone = energy_.escaped(state, lost); !gone.empty())
+    return Halt{Status::not_converged, gone + " moves away without end; hold it with a [[support]], or with a wall"};
+  if (report.iterations < options_.max_iterations) return {};
+  const std::string falls = energy_.falling();
+  return Halt{Status::not_converged, fmt::format("{} iterations were not enough; the residual is {:.2g}{}", options_.max_iterations,
+                                                 report.residual, falls.empty() ? "" : "; " + falls + " flies freely under a force")};
+}
+
+// The part of p that one step may take: turns within reach, nothing longer than the whole, nothing through anything.
+double Newton::largest_part(const State& state, const Vector& p) const {
+  constexpr double tiny = std::numeric_limits<double>::min();
+  const double part = std::min({1.0, largest_turn / std::max(energy_.distortion(state, p), tiny),
+                                energy_.longest_step() / std::max(infinity_norm(p), tiny)});
+  State to = state;
+  energy_.kinematics().retract(to, p, part);
+  return part * energy_.passage(state, to);
+}
+
+// The step with the factor of H + shift I at hand, from the last evaluation.
+Newton::Step Newton::newton_step(const Vector& g, double shift) {
+  Step step;
+  step.g = g;
+  step.p = -factors_.cholesky().solve(g);
+  step.hp = -g - shift * step.p;
+  step.energy = energy_.last_terms().total();
+  step.slope = g.dot(step.p), step.curvature = step.p.dot(step.hp);
+  step.energy_rounding = 16 * epsilon * energy_.last_terms().size();
+  return step;
+}
+
+bool Newton::take(const State& from, const Step& step, double alpha, Pace pace, State& to) {
   to = from;
   energy_.kinematics().retract(to, step.p, alpha);
-  const double predicted = alpha * step.slope + alpha * alpha / 2 * step.curvature;
-  const bool hidden = std::abs(predicted) <= step.energy_rounding;
-  const double before = infinity_norm(step.g);
+  return pace == Pace::downhill ? take_downhill(from, step, alpha, to) : take_long(from, step, alpha, to);
+}
+
+// A long step is good if the energy falls but for what was not predicted of it; where rounding hides the energy, if
+// the residual falls.
+bool Newton::take_long(const State& from, const Step& step, double alpha, State& to) {
+  energy_.evaluate(to, false);
+  const double change = energy_.last_terms().total() - step.energy;
+  if (!std::isfinite(change)) return false;
+  if (step.hidden(alpha)) return infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g);
+  const double wanted = armijo * step.predicted(alpha);
+  return change <= wanted || change - energy_.unpredicted(to, from) <= wanted;
+}
+
+// Downhill the energy itself must fall; simplified Newton corrections bend a step back that stretched the structure.
+bool Newton::take_downhill(const State& from, const Step& step, double alpha, State& to) {
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= most_corrections; ++k) {
+  for (int k = 0;; ++k) {
     energy_.evaluate(to, false);
     const double change = energy_.last_terms().total() - step.energy;
     if (!std::isfinite(change)) return false;
-    if (hidden ? infinity_norm(energy_.gradient()) < 0.9 * before : change <= armijo * predicted) return true;
-    if (step.pace == Pace::long_steps) return !hidden && change - energy_.unpredicted(to, from) <= armijo * predicted;
+    const bool falls = step.hidden(alpha) ? infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g)
+                                          : change <= armijo * step.predicted(alpha);
+    if (falls) return k == 0 || energy_.passage(from, to) == 1;
     Vector correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
     if (step.keep_direction) correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
     const double size = correction.norm();
@@ -60,7 +125,6 @@ bool Newton::attempt(const State& from, const Step& step, double alpha, State& t
     last = size;
     energy_.kinematics().retract(to, correction);
   }
-  return false;
 }
 
 // The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual.
@@ -77,28 +141,46 @@ void Newton::polish(State& state, Report& report, const std::function<Vector(con
   }
 }
 
+// Leaves a factor of H + τI, positive definite, and returns τ. Where H is indefinite τ is of the size of its lowest
+// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`).
+double Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool& left) {
+  left = false;
+  double shift = factors_.make_positive(guess / 4);
+  const double sigma = factors_.zero_level();
+  if (shift > sigma) {
+    const EigenPairs lowest = settled ? factors_.lowest(1, shift) : factors_.lowest(1, shift, 0.1);
+    if (settled || std::abs(lowest.vectors.col(0).dot(g)) <= 1e-6 * g.norm()) {
+      left = leave_saddle(state, lowest.vectors.col(0));
+      if (left) return std::abs(lowest.values[0]);
+      energy_.evaluate(state);
+    }
+    shift = -2 * lowest.values[0];
+    while (!factors_.try_cholesky(shift)) shift *= 2;
+  } else if (shift > 0) {                                       // a zero mode: rounding alone would fill the step with it
+    shift = 100 * sigma;
+    factors_.try_cholesky(shift);
+  }
+  return shift;
+}
+
 Report Newton::minimise(State& state, Pace pace) {
   const Stopwatch watch;
   Report report;
   const int factorizations_before = factors_.factorizations();
-  double guess = 0;                                             // for the next shift
-  int unseen = 0;                                               // steps whose change of energy rounding hid
-  const auto finish = [&](Status status, std::string why) {
-    energy_.evaluate(state);
-    report.energy = energy_.last_terms().total(), report.residual = residual();
-    report.status = status, report.why = std::move(why);
+  const double factor_seconds_before = factors_.seconds();
+  const auto end = [&](Status status, std::string why) {
     report.factorizations = factors_.factorizations() - factorizations_before;
-    report.seconds = watch.seconds();
-    return report;
+    report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
+    return finish(state, report, {status, std::move(why)});
   };
+  double shift = 0;                                             // the last one: a guess for the next
+  int unseen = 0;                                               // steps whose change of energy rounding hid
   State previous;
   bool linearised = false;                                      // previous holds where the last step came from
   for (double moved = 0; ; ++report.iterations) {
     energy_.evaluate(state, true, linearised ? &previous : nullptr);
     ++report.evaluations;
-    if (!std::isfinite(energy_.last_terms().total()))
-      return finish(Status::not_converged, "the energy is not finite here: particles of an angle coincide");
-    record(report, moved, guess);
+    record(report, moved, shift);
     const bool settled = report.residual <= options_.tolerance;
     if (settled) {
       if (linearised) energy_.evaluate(state);
@@ -108,53 +190,34 @@ Report Newton::minimise(State& state, Pace pace) {
         // With a zero mode the exact factor would fill the steps with its rounding.
         factors_.try_cholesky(inertia.zero > 0 ? 100 * factors_.zero_level() : 0.0);
         polish(state, report, [&](const Vector& g) { return factors_.cholesky().solve(g); });
-        return finish(Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance));
+        return end(Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance));
       }
     }
-    if (interrupted()) return finish(Status::interrupted, "interrupted");
-    if (report.iterations == options_.max_iterations)
-      return finish(Status::not_converged, fmt::format("{} iterations were not enough; the residual is {:.2g}", options_.max_iterations, report.residual));
+    if (const auto halt = must_halt(state, report)) return end(halt->status, halt->why);
 
     const Vector g = energy_.gradient();
-    guess = factors_.make_positive(guess / 4);
-    const double sigma = factors_.zero_level();
-    if (guess > sigma) {                                        // indefinite: |H|'s size along the lowest mode
-      const EigenPairs lowest = factors_.lowest(1, guess);
-      if (settled || std::abs(lowest.vectors.col(0).dot(g)) <= 1e-6 * g.norm()) {
-        if (leave_saddle(state, lowest.vectors.col(0))) { guess = std::abs(lowest.values[0]), linearised = false; continue; }
-        if (settled) return finish(Status::not_converged, "a saddle could not be left along its negative curvature");
-        energy_.evaluate(state);
-      }
-      guess = -2 * lowest.values[0];
-      while (!factors_.try_cholesky(guess)) guess *= 2;
-    } else if (guess > 0) {                                     // a zero mode: rounding alone would fill the step with it
-      guess = 100 * sigma;
-      factors_.try_cholesky(guess);
+    bool left;
+    shift = make_convex(state, g, shift, settled, left);
+    if (left) {
+      linearised = false;
+      continue;
     }
-    Step step;
-    step.g = g, step.pace = pace;
-    step.p = -factors_.cholesky().solve(g);
-    step.hp = -g - guess * step.p;
-    step.energy = energy_.last_terms().total();
-    step.slope = g.dot(step.p), step.curvature = step.p.dot(step.hp);
-    const EnergyTerms& terms = energy_.last_terms();
-    step.energy_rounding = 16 * epsilon * (std::abs(terms.bond) + std::abs(terms.angle) + std::abs(terms.external));
-    const double distortion = energy_.distortion(state, step.p);
-    double alpha = std::min(1.0, largest_turn / std::max(distortion, 1e-300));
+    if (settled) return end(Status::not_converged, "a saddle could not be left along its negative curvature");
+    const Step step = newton_step(g, shift);
+    double alpha = largest_part(state, step.p);
     State next;
     // Where rounding hides the energy's change and the model is convex, Newton's step itself is the best there is.
-    const bool hidden = std::abs(step.slope) <= step.energy_rounding && guess <= 100 * sigma && ++unseen <= most_unseen;
+    const bool hidden = std::abs(step.slope) <= step.energy_rounding && shift <= 100 * factors_.zero_level() && ++unseen <= most_unseen;
     if (hidden) {
       next = state;
       energy_.kinematics().retract(next, step.p, alpha);
     }
-    while (!hidden && !attempt(state, step, alpha, next)) {
+    while (!hidden && !take(state, step, alpha, pace, next)) {
       ++report.evaluations;
       alpha /= 2;
-      if (alpha < 1e-12) {
-        return finish(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
+      if (alpha < 1e-12)
+        return end(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
             std::abs(step.slope) <= step.energy_rounding ? "residual below rounding" : "energy", report.residual));
-      }
     }
     moved = alpha * infinity_norm(step.p);
     previous = state;
@@ -168,7 +231,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   const double shift = std::max(-2 * energy_.quadratic_form(direction) / direction.squaredNorm(), 0.0);
   for (double s = shift; !factors_.try_cholesky(s); s = std::max(2 * s, factors_.zero_level())) {}
   Step step;
-  const double unit = energy_.distortion(state, direction);
+  const double turn = energy_.distortion(state, direction), unit = turn > 0 ? turn : energy_.movement(direction);
   if (!(unit > 0)) return false;
   step.p = direction / unit;
   step.g = energy_.gradient();
@@ -176,20 +239,21 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.hp = energy_.multiply(step.p);
   step.energy = energy_.last_terms().total();
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
-  step.energy_rounding = 0;
-  step.keep_direction = true, step.pace = Pace::downhill;
+  step.keep_direction = true;
   if (!(step.curvature < 0)) return false;
+  const double farthest = largest_part(state, largest_turn * step.p) * largest_turn;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
-  for (double alpha = 1e-3; alpha <= largest_turn; alpha *= 2) {   // as far as it goes down
-    if (!attempt(state, step, alpha, next)) break;
+  for (double alpha = 1e-3; alpha <= farthest; alpha *= 2) {       // as far as it goes down
+    if (!take(state, step, alpha, Pace::downhill, next)) break;
     const double e = energy_.last_terms().total();
     if (!(e < lowest)) break;
     best = next, lowest = e, left = true;
   }
   for (double alpha = 0.5e-3; !left && alpha > 1e-9; alpha /= 4)   // or as far as it needs
-    if (attempt(state, step, alpha, next) && energy_.last_terms().total() < lowest) best = next, left = true;
+    if (alpha <= farthest && take(state, step, alpha, Pace::downhill, next) && energy_.last_terms().total() < lowest)
+      best = next, left = true;
   state = best;
   return left;
 }
@@ -198,6 +262,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
   const Stopwatch watch;
   Report report;
   const int factorizations_before = factors_.factorizations();
+  const double factor_seconds_before = factors_.seconds();
   const auto project = [&](Vector v) {
     if (held.cols() > 0) v -= held * (held.transpose() * v);
     return v;
@@ -207,38 +272,33 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const Vector b = project(g);
     return project(definite ? factors_.cholesky().solve(b) : factors_.pivoted().solve(b));
   };
-  const auto finish = [&](Status status, std::string why) {
-    energy_.evaluate(state);
-    report.energy = energy_.last_terms().total(), report.residual = residual();
-    report.status = status, report.why = std::move(why);
+  const auto end = [&](Status status, std::string why) {
     report.factorizations = factors_.factorizations() - factorizations_before;
-    report.seconds = watch.seconds();
-    return report;
+    report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
+    return finish(state, report, {status, std::move(why)});
   };
   State previous;
   std::vector<double> sizes;                                    // |p| of every iteration
   for (double moved = 0; ; ++report.iterations) {
     energy_.evaluate(state, true, from);
     ++report.evaluations;
-    if (!std::isfinite(energy_.last_terms().total()))
-      return finish(Status::not_converged, "the energy is not finite here: particles of an angle coincide");
     record(report, moved, 0);
+    const bool settled = report.residual <= options_.tolerance;
+    if (!settled || !std::isfinite(report.energy))
+      if (const auto halt = must_halt(state, report)) return end(halt->status, halt->why);
     const double shift = held.cols() > 0 ? 100 * factors_.zero_level() : 0.0;    // as above: held modes may be zero modes
     definite = factors_.try_cholesky(shift);
     if (!definite && !factors_.try_pivoted(shift)) factors_.try_pivoted(shift + factors_.zero_level());
-    if (report.residual <= options_.tolerance) {
+    if (settled) {
       polish(state, report, solve);
-      return finish(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
+      return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
     }
-    if (interrupted()) return finish(Status::interrupted, "interrupted");
-    if (report.iterations == options_.max_iterations)
-      return finish(Status::not_converged, fmt::format("{} iterations were not enough; the residual is {:.2g}", options_.max_iterations, report.residual));
     const Vector p = -solve(energy_.gradient());
     sizes.push_back(p.norm());
     const std::size_t k = sizes.size() - 1;
     if (!p.allFinite() || (k >= 4 && !(sizes[k] < sizes[k - 2])))
-      return finish(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", report.residual));
-    const double alpha = std::min(1.0, largest_turn / std::max(energy_.distortion(state, p), 1e-300));
+      return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", report.residual));
+    const double alpha = largest_part(state, p);
     moved = alpha * infinity_norm(p);
     previous = state;
     from = &previous;

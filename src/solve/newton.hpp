@@ -3,6 +3,7 @@
 #include "solve/report.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace elamin {
 
@@ -25,6 +26,10 @@ enum class Pace { long_steps, downhill };
 /// the mixed energy of positions and axial forces, and steps are judged by the energy less what was not predicted of it:
 /// the number of iterations does not grow with slenderness. At an equilibrium both Hessians are the same.
 /// Source: Magisano, Leonetti, Garcea 2017, Int. J. Numer. Meth. Engng 109; turns of a bond are kept below 0.3 a step.
+///
+/// Hertz contacts open and close within a run: the Hessian is continuous, but no more. Steps end before anything passes
+/// through anything (Energy::passage); what overlaps too deeply is driven out by the same method, whose error in an overlap
+/// shrinks to a third a step while it is large, and quadratically once the set of contacts has settled.
 class Newton {
  public:
   explicit Newton(Energy& energy, NewtonOptions options = {});
@@ -48,9 +53,17 @@ class Newton {
 
  private:
   struct Step;
+  struct Halt;
   double residual() const;
   void record(Report& report, double step, double shift) const;
-  bool attempt(const State& from, const Step& step, double alpha, State& to);
+  Report finish(const State& state, Report report, const Halt& halt);
+  std::optional<Halt> must_halt(const State& state, const Report& report) const;
+  double largest_part(const State& state, const Vector& p) const;
+  Step newton_step(const Vector& g, double shift);
+  bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
+  bool take_downhill(const State& from, const Step& step, double alpha, State& to);
+  bool take_long(const State& from, const Step& step, double alpha, State& to);
+  double make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
   void polish(State& state, Report& report, const std::function<Vector(const Vector&)>& solve);
 
   Energy& energy_;

@@ -1,5 +1,7 @@
 #include "solve/pivoted.hpp"
 
+#include "core/timing.hpp"
+
 #include <dmumps_c.h>
 
 #include <mutex>
@@ -41,6 +43,7 @@ PivotedFactor::~PivotedFactor() {
 }
 
 void PivotedFactor::analyze(const SparseMatrix& pattern) {
+  const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time);
   Mumps& m = *mumps_;
   m.stop();
@@ -66,6 +69,7 @@ void PivotedFactor::analyze(const SparseMatrix& pattern) {
 }
 
 bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift) {
+  const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time);
   Mumps& m = *mumps_;
   for (std::size_t k = 0; k < m.values.size(); ++k)
@@ -83,6 +87,7 @@ bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift) {
 int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
 
 Vector PivotedFactor::solve(const Vector& b) {
+  const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time);
   Vector x = b;
   mumps_->id.rhs = x.data(), mumps_->id.nrhs = 1, mumps_->id.lrhs = static_cast<int>(x.size());

@@ -22,10 +22,13 @@ class PivotedFactor {
   int negative() const;
   /// (H + shift·I)⁻¹ b.
   Vector solve(const Vector& b);
+  /// Time spent in all calls so far, waiting for other threads included.
+  double seconds() const { return seconds_; }
 
  private:
   struct Mumps;
   std::unique_ptr<Mumps> mumps_;
+  double seconds_ = 0;
 };
 
 }  // namespace elamin

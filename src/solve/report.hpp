@@ -23,7 +23,7 @@ struct Report {
   double energy = 0;        // [energy]
   double residual = 0;      // relative to the largest internal force
   int negative = -1;        // Morse index where the solver learnt it, else -1
-  double seconds = 0;
+  double seconds = 0, factor_seconds = 0;   // in all; in analyses, factorisations and solves
   bool converged() const { return status == Status::converged; }
 };
 

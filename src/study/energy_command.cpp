@@ -45,14 +45,19 @@ void energy_command(const EnergyOptions& options) {
   const auto finite = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); };
   if (options.json) {
     nlohmann::ordered_json out;
-    out["energy"] = {{"total", finite(terms.total())}, {"bond", finite(terms.bond)}, {"angle", finite(terms.angle)}, {"external", finite(terms.external)}};
+    out["energy"] = {{"total", finite(terms.total())}, {"bond", finite(terms.bond)}, {"angle", finite(terms.angle)},
+                     {"contact", finite(terms.contact)}, {"wall", finite(terms.wall)}, {"cohesion", finite(terms.cohesion)},
+                     {"external", finite(terms.external)}};
     out["max_force"] = finite(max_force);
     out["particles"] = model.particles(), out["bodies"] = 0, out["dofs"] = energy.dofs();
     fmt::print("{}\n", out.dump());
     return;
   }
   fmt::print("load factor {:.17g}\n", state.load_factor);
-  fmt::print("energy      {:24.17g}\n  bond      {:24.17g}\n  angle     {:24.17g}\n  external  {:24.17g}\n", terms.total(), terms.bond, terms.angle, terms.external);
+  fmt::print("energy      {:24.17g}\n", terms.total());
+  const std::pair<const char*, double> all[]{{"bond", terms.bond}, {"angle", terms.angle}, {"contact", terms.contact},
+                                             {"wall", terms.wall}, {"cohesion", terms.cohesion}, {"external", terms.external}};
+  for (const auto& [name, value] : all) fmt::print("  {:<10}{:24.17g}\n", name, value);
   fmt::print("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
 }
 

@@ -61,10 +61,9 @@ RunResult run_one(const PreparedRun& run, const RunOptions& options, const std::
 RunResult run_sweep(const std::vector<PreparedRun>& runs, const RunOptions& options, const std::string& directory) {
   const Stopwatch watch;
   std::filesystem::create_directories(directory);
-  std::vector<std::string> keys, observables;
+  std::vector<std::string> keys;
   for (const Setting& s : runs.front().swept) keys.push_back(s.key);
-  for (const ObserveTable& o : runs.front().problem.observe) observables.push_back(o.name);
-  SweepTable table(directory + "/sweep.csv", sweep_columns(keys, observables));
+  SweepTable table(directory + "/sweep.csv", sweep_columns(keys, observable_columns(runs.front().problem)));
 
   std::vector<SingleResult> results(runs.size());
   std::vector<std::exception_ptr> failures(runs.size());

@@ -2,12 +2,14 @@
 
 #include "core/timing.hpp"
 #include "problem/resolved.hpp"
-#include "results/lammps_state.hpp"
 #include "results/run_directory.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
 
 namespace elamin {
 
@@ -19,6 +21,21 @@ std::string log_line(const PathPoint& p) {
                                  p.report.iterations, p.stability.negative, p.stability.zero, p.report.why);
   for (const std::string& name : p.stability.zero_modes) line += "; zero mode: " + name;
   return line;
+}
+
+// All closed contacts, and open ones as far as the observed gaps need: farther and farther until they are told.
+std::vector<Touch> observed_touches(Energy& energy, const State& state, const Observables& observables) {
+  std::vector<Touch> touches = energy.touches(state);
+  const std::vector<double>& diameter = energy.model().diameter;
+  const double extent = (state.position.rowwise().maxCoeff() - state.position.rowwise().minCoeff()).maxCoeff();
+  double reach = diameter.empty() ? 0.0 : *std::max_element(diameter.begin(), diameter.end()) / 4;
+  while (!observables.sufficient(touches)) {
+    const bool all = !(reach > 0 && reach < extent);
+    touches = energy.touches(state, all ? std::numeric_limits<double>::infinity() : reach);
+    if (all) break;
+    reach *= 4;
+  }
+  return touches;
 }
 
 }  // namespace
@@ -33,18 +50,25 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   const double setup = total.seconds();
 
   Progress progress(stdout, style, starting_load_factor(problem), problem.path.to);
+  const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
+    if (last && point.label.empty()) point.label = "final";
+    for (std::size_t k = 0; k < point.report.history.size(); ++k) {
+      const Iteration& i = point.report.history[k];
+      results.log(fmt::format("  iteration {} energy {:.10g} residual {:.3g} step {:.3g} shift {:.3g}", k, i.energy, i.residual, i.step, i.shift));
+    }
+    results.log(log_line(point));
+    const std::vector<Touch> touches = observed_touches(energy, point.state, results.record().observables());
+    results.add(point, energy.forces(point.state), touches, eigenvalues);
+    if (last && point.label != "final") results.add_state("final", point.state, touches);
+    progress.show(point);
+  };
   const Sink sink{
-      .point = [&](const PathPoint& found, bool last) {
-        PathPoint point = found;
-        if (last && point.label.empty()) point.label = "final";
-        for (std::size_t k = 0; k < point.report.history.size(); ++k) {
-          const Iteration& i = point.report.history[k];
-          results.log(fmt::format("  iteration {} energy {:.10g} residual {:.3g} step {:.3g} shift {:.3g}", k, i.energy, i.residual, i.step, i.shift));
-        }
-        results.log(log_line(point));
-        results.add(point, energy.forces(point.state));
-        if (last && point.label != "final") write_state(results.state_file("final"), model, point.state, problem.title);
-        progress.show(point);
+      .point = [&](const PathPoint& point, bool last) { add(point, last, {}); },
+      .modes = [&](const PathPoint& point, const std::vector<Mode>& modes) {
+        std::vector<double> eigenvalues;
+        for (const Mode& m : modes) eigenvalues.push_back(m.eigenvalue);
+        add(point, true, eigenvalues);
+        for (const Mode& m : modes) results.add_mode(m, point.state);
       },
       .note = [&](const std::string& note) { results.log(note); }};
   const Outcome outcome = trace(problem, energy, sink);
@@ -58,7 +82,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   summary.tolerances = {{"residual", problem.solver.tolerance}};
   results.finish(summary);
 
-  SingleResult result{outcome.status, outcome.why, results.record().path(), results.record().events(), results.record().observables(), {}};
+  SingleResult result{outcome.status, outcome.why, results.record().path(), results.record().events(), {}};
   result.verdicts = check_expectations(problem, result.path, result.events);
   return result;
 }

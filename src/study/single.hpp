@@ -12,7 +12,6 @@ struct SingleResult {
   Status status = Status::converged;
   std::string why;
   Table path, events;
-  std::vector<std::string> observables;
   std::vector<Verdict> verdicts;
 };
 

@@ -1,6 +1,12 @@
 #include "study/trace.hpp"
 
+#include "study/modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace elamin {
 
@@ -19,6 +25,11 @@ std::vector<double> expected_stops(const Problem& problem) {
     if (std::from_chars(e.at.data() + prefix.size(), last, value).ptr == last) stops.push_back(value);
   }
   return stops;
+}
+
+bool locates(const Problem& problem, const char* kind) {
+  const std::vector<std::string>& all = problem.path.locate;
+  return std::find(all.begin(), all.end(), kind) != all.end();
 }
 
 Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
@@ -43,28 +54,49 @@ Outcome trace_path(LoadSteps path, const Sink& sink) {
   return {path.status(), path.why()};
 }
 
-// One state: the minimum at full load. Supports that move far are brought there in steps, so that nothing is torn or
-// passes through what it is glued to.
-Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& sink) {
-  Energy& energy = newton.energy();
-  State state = starting_state(problem, energy);
-  const State before = energy.model().restart.value_or(energy.model().start);
-  const Field moved = (state.position - before.position) + (state.tail - before.tail);
-  double imposed = 0;
+// Whether supports and walls can go from one state to the other at once: no bond turns or stretches far, and nothing passes
+// through anything.
+bool reachable(const Energy& energy, const State& from, const State& to) {
+  const Field moved = (to.position - from.position) + (to.tail - from.tail);
   for (const Bond& b : energy.model().bonds) {
     const auto [i, j] = b.particles;
-    const double length = (before.at(j) - before.at(i)).hi.norm();
-    if (length > 0) imposed = std::max(imposed, (moved.col(j) - moved.col(i)).norm() / length);
+    const double length = (from.at(j) - from.at(i)).hi.norm();
+    if (length > 0 && (moved.col(j) - moved.col(i)).norm() > largest_imposed * length) return false;
   }
-  if (imposed > largest_imposed) {
-    LoadSteps path(newton, energy.model().start, {.from = 0, .to = 1, .steps = 1 + static_cast<int>(imposed / largest_imposed), .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
-    std::optional<PathPoint> last;
-    while (std::optional<PathPoint> point = path.next()) last = std::move(point);
-    for (const std::string& note : path.notes()) sink.note(note);
-    if (path.status() != Status::converged || !last) return {path.status(), path.why()};
-    state = last->state;
+  return energy.passage(from, to) >= 1;
+}
+
+// The minimum at the load factor, from a state where nothing is imposed yet: supports and walls are brought there in steps
+// as large as `reachable` allows, a minimum after each.
+Report bring(Newton& newton, State& state, double load_factor) {
+  constexpr double smallest = 1.0 / (1 << 20);
+  const Kinematics& kinematics = newton.energy().kinematics();
+  const double from = state.load_factor;
+  Report report;
+  for (double done = 0, step = 1;;) {                              // parts of the way
+    State next = state;
+    const double to = std::min(1.0, done + step);
+    kinematics.prescribe(next, to == 1 ? load_factor : from + to * (load_factor - from));
+    if (!reachable(newton.energy(), state, next)) {
+      step /= 2;
+      if (step >= smallest) continue;
+      newton.energy().evaluate(state, false);
+      report.status = Status::not_converged, report.residual = newton.energy().relative(newton.energy().gradient());
+      report.why = fmt::format("supports or walls could not go on from load factor {:.10g}: something would pass through something else or be torn", state.load_factor);
+      return report;
+    }
+    report = newton.minimise(next);
+    state = next, done = to, step *= 2;
+    if (done == 1 || !report.converged()) return report;
   }
-  const Report report = newton.minimise(state);
+}
+
+// One state: the minimum at full load. A state that is taken up again stands near it already.
+Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& sink) {
+  const Model& model = newton.energy().model();
+  State state = model.restart ? starting_state(problem, newton.energy()) : model.start;
+  if (!model.restart) newton.energy().kinematics().prescribe(state, state.load_factor);     // what is constant, in full
+  const Report report = model.restart ? newton.minimise(state) : bring(newton, state, starting_load_factor(problem));
   Equilibrium e = assess(newton, state, report);
   sink.point(e.point, true);
   return {report.status, report.why};
@@ -73,7 +105,7 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
 }  // namespace
 
 double starting_load_factor(const Problem& problem) {
-  return problem.study == StudyType::path ? problem.path.start_lambda.value_or(problem.path.from) : 1.0;
+  return problem.path.start_lambda.value_or(problem.study == StudyType::path ? problem.path.from : 1.0);
 }
 
 State starting_state(const Problem& problem, const Energy& energy) {
@@ -87,10 +119,12 @@ Outcome trace(const Problem& problem, Energy& energy, const Sink& sink) {
   switch (problem.study) {
     case StudyType::energy: return trace_energy(problem, newton, sink);
     case StudyType::equilibrium: return trace_equilibrium(problem, newton, sink);
+    case StudyType::modes: return trace_modes(problem, newton, sink);
     case StudyType::path: break;
   }
   const LoadStepOptions options{.from = problem.path.from, .to = problem.path.to, .steps = problem.path.steps,
-                                .when_unstable = problem.path.when_unstable, .start = starting_load_factor(problem), .stops = expected_stops(problem)};
+                                .when_unstable = problem.path.when_unstable, .start = starting_load_factor(problem),
+                                .stops = expected_stops(problem), .contacts = locates(problem, "contact")};
   return trace_path(LoadSteps(newton, energy.model().restart.value_or(energy.model().start), options), sink);
 }
 

@@ -2,6 +2,7 @@
 // From a problem and its model to equilibria: which solver calls a study is made of.
 #include "path/load_steps.hpp"
 #include "problem/problem.hpp"
+#include "results/mode.hpp"
 
 #include <functional>
 
@@ -13,14 +14,16 @@ struct Outcome {
   std::string why;
 };
 
-/// Where the points of a study go, one by one, the last with `last` set; and sentences for the log.
+/// Where the points of a study go, one by one, the last with `last` set; the one point of a study of modes, with them; and
+/// sentences for the log.
 struct Sink {
   std::function<void(const PathPoint& point, bool last)> point;
+  std::function<void(const PathPoint& point, const std::vector<Mode>& modes)> modes;
   std::function<void(const std::string& note)> note;
 };
 
-/// The load factor that a problem starts at: path.start_lambda or path.from of a path; 1 (loads and displacements in
-/// full) of an energy or equilibrium study.
+/// The load factor that a problem starts at: path.start_lambda if that is given, else path.from of a path, and 1 (loads
+/// and displacements in full) of every other study.
 double starting_load_factor(const Problem& problem);
 
 /// The state that a problem starts from: the model's (or the one it restarts from), with the prescribed coordinates where

@@ -74,8 +74,10 @@ TEST_CASE("Files that are no text at all") {
   const ScratchDirectory scratch;
   const auto said = [&](const std::string& bytes) { return mistakes_of(scratch.file("bad.toml", bytes)); };
   const std::string file = scratch / "bad.toml";
-  CHECK(said("") == file + ": holds no structure; add a [[beam]] or a [lammps] data file");
-  CHECK(said("\n \n# nothing\n") == file + ": holds no structure; add a [[beam]] or a [lammps] data file");
+  CHECK(said("") ==
+        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]] or a [lammps] data file");
+  CHECK(said("\n \n# nothing\n") ==
+        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]] or a [lammps] data file");
   CHECK(said("\x7f" "ELF\2\1\1\0\0"s) == file + ":1:8: is not a text in UTF-8 from here on");
   CHECK(said("title = \"column\"\ntitle = \"S\xe4ule\"\n") == file + ":2:11: is not a text in UTF-8 from here on");
   CHECK(said("# \xc0\xaf\n") == file + ":1:3: is not a text in UTF-8 from here on");
@@ -114,7 +116,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(said("beam.column.particels", "3") ==
         "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, section, particles, from, to, "
         "center, axis, "
-        "spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, angle_stiffness, rest_length; "
+        "spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, angle_stiffness, rest_length, rest; "
         "did you mean \"particles\"?");
   CHECK(said("beam.colum.particles", "3") ==
         "--set: \"beam.colum.particles\": no [[beam]] is \"colum\"; there are: column; did you mean \"column\"?");
@@ -122,13 +124,14 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(said("beam.column", "3") ==
         "--set: \"beam.column\": is a table; name one of its keys: name, section, particles, from, to, "
         "center, axis, spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, "
-        "angle_stiffness, rest_length");
+        "angle_stiffness, rest_length, rest");
   CHECK(said("load.1.force", "[0, 0, 1]") == "--set: \"load.1.force\": there is no [[load]] in this file");
   CHECK(said("support.2.displacement.4", "1") == "--set: \"support.2.displacement.4\": has components 1 to 3");
   CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
-  CHECK(said("", "1") ==
-        "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, group, support, load, gravity, viscosity, "
-        "study, path, solver, observe, expect, sweep");
+  CHECK(
+      said("", "1") ==
+      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, group, connect, support, "
+      "load, gravity, contact, wall, viscosity, study, path, modes, solver, observe, expect, sweep");
   CHECK(said("path.parameter", "1") ==
         "--set: \"path.parameter\": not available in this version; the parameter is the load factor");
   CHECK(said("path.steps", "many") ==

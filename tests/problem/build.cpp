@@ -226,13 +226,23 @@ TEST_CASE("A LAMMPS data file keeps its ids and types, and beams count on") {
       model("[[support]]\ngroup = \"type3\""),
       file +
           ":4:9: support.1.group: \"type3\" names no group; the data file has: type2, type4; did you mean \"type2\"?");
-  CHECK_THROWS_WITH(model("[[support]]\ngroup = \"type2\""),
+  CHECK_THROWS_WITH(model("[[support]]\ngroup = \"type2\"\n[[load]]\ngroup = \"all\"\nforce = [0, 0, 1]"),
                     file +
-                        ":1:1: lammps: particle 30 is connected to no particle that a support holds; an equilibrium "
-                        "needs a [[support]]");
+                        ":1:1: lammps: a force acts on particle 30, which nothing holds; an equilibrium needs a "
+                        "[[support]], a [[wall]] or a [[contact]]");
+  CHECK(model("[[support]]\ngroup = \"type2\"").supports.size() == 1);   // particle 30 is free, and nothing drives it
+  CHECK_THROWS_WITH(model(beam + "[[support]]\ngroup = \"b\""),
+                    file + ":1:1: lammps: particle 10 is connected to no particle that a support holds; an equilibrium "
+                           "needs a [[support]]");
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"all\"\n[[group]]\nname = \"g\"\nids = [11]"),
                     file + ":7:7: group.g.ids: 11 is not in \"all\", whose ids lie from 10 to 30");
 
+  scratch.file("c.data", head + "Atoms # hybrid sphere bond\n\n20 4 0 0 1 1 2 1\n10 2 0 0 0 1 2 1\n2147483640 4 0 3 0 1 2 "
+                                "2147483647\n" + tail);
+  CHECK_THROWS_WITH(model(beam + "[[support]]\ngroup = \"all\""),
+                    file + ":2:8: lammps.data: its numbers of particles, types or molecules reach 2147483647; there is no "
+                           "room above for those of the other structures");
+  CHECK(model("[[support]]\ngroup = \"all\"").id.back() == 2147483640);
   scratch.file("c.data",
                head + "Atoms # hybrid sphere bond\n\n20 4 0 0 0 1 2 1\n10 2 0 0 0 1 2 1\n30 4 0 3 0 1 2 1\n" + tail);
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"all\""),

@@ -1,19 +1,26 @@
 // Correct LAMMPS data files: every atom style, every section, the reference files.
 #include "catch.hpp"
 #include "core/error.hpp"
+#include "laws/section.hpp"
 #include "problem/lammps_data.hpp"
 #include "scratch_directory.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <filesystem>
 
 using namespace elamin;
 
 namespace {
 
 const std::string reference = std::string(ELAMIN_ROOT) + "/data/lammps/";
-const std::vector<std::string> cases{"bond_chain",      "bond_extreme",    "bond_lattice",   "bond_ring",
-                                     "angle_chain",     "angle_sheet",     "angle_triplets", "load_mixed_lj",
-                                     "eq_column_above", "eq_column_below", "eq_plate"};
+/// Every case that is there.
+std::vector<std::string> cases() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(reference))
+    if (std::filesystem::exists(entry.path() / "case.data")) names.push_back(entry.path().filename().string());
+  return names;
+}
 
 const std::string box = "0 10 xlo xhi\n0 20 ylo yhi\n0 40 zlo zhi\n\n";
 
@@ -24,7 +31,9 @@ std::string two_atoms(const std::string& style, const std::string& first, const 
 }  // namespace
 
 TEST_CASE("the reference files are read as their parameters say", "[lammps_data]") {
-  for (const std::string& name : cases) {
+  const std::vector<std::string> all = cases();
+  CHECK(all.size() >= 11);
+  for (const std::string& name : all) {
     INFO(name);
     const LammpsData data = read_lammps_data(reference + name + "/case.data");
     const auto parameters = nlohmann::json::parse(text_of(reference + name + "/case.json"));
@@ -41,12 +50,11 @@ TEST_CASE("the reference files are read as their parameters say", "[lammps_data]
     for (std::size_t k = 0; k < angle_types; ++k)
       CHECK(data.angle_types[k].stiffness == parameters["angle"]["types"][k]["K"].get<double>());
     CHECK((data.bonds.empty() && data.angles.empty()) == (bond_types + angle_types == 0));
-    CHECK((data.velocity.cols() > 0) == (name == "load_mixed_lj"));
   }
 }
 
 TEST_CASE("bonds and angles of the reference files give their energies", "[lammps_data]") {
-  for (const std::string& name : cases) {
+  for (const std::string& name : cases()) {
     const auto expected = nlohmann::json::parse(text_of(reference + name + "/expected.json"));
     if (!expected.contains("energy_lammps")) continue;      // equilibria are of another state
     INFO(name);
@@ -153,4 +161,40 @@ TEST_CASE("positions are read to the last bit", "[lammps_data]") {
   CHECK(data.position(2, 0) == 1e300);
   CHECK(data.position(0, 1) == std::numeric_limits<double>::denorm_min());
   CHECK(data.position(2, 1) == 0.1 + 0.2);
+}
+
+TEST_CASE("angle styles: cosine, cosine/shift, and lines that name theirs", "[lammps_data]") {
+  ScratchDirectory scratch;
+  const auto types = [&](const std::string& comment, const std::string& first, const std::string& second) {
+    return read_lammps_data(scratch.file("a",
+                                         "title\n3 atoms\n1 atom types\n1 angles\n2 angle types\nAtoms # atomic\n\n"
+                                         "1 1 0 0 0\n2 1 1 0 0\n3 1 2 0 0\nAngles\n\n1 2 1 2 3\nAngle Coeffs" +
+                                             comment + "\n\n1 " + first + "\n2 " + second + "\n"))
+        .angle_types;
+  };
+  const auto check = [](const std::vector<AngleType>& t) {
+    REQUIRE(t.size() == 2);
+    CHECK(t[0].stiffness == 5);
+    CHECK(t[0].rest == pi);
+    CHECK(t[1].stiffness == 7);
+    CHECK(t[1].rest == Approx(150 * pi / 180).epsilon(1e-15));
+  };
+  check(types(" # cosine/shift", "10 180", "14 150"));
+  check(types(" # cosine/shift", "cosine 5", "14 150"));
+  check(types(" # hybrid", "cosine 5", "cosine/shift 14 150"));
+  check(types(" # cosine", "5", "cosine/shift 14 150.0"));
+  check(types("", "5", "cosine/shift 14 1.5e2"));
+  CHECK(types("", "5", "cosine/shift 14 0")[1].rest == 0);
+  CHECK_THROWS_WITH(types("", "5", "14 150"),
+                    Catch::Contains(":17:1: Angle Coeffs: 3 columns, expected 2: type and K of style cosine"));
+  CHECK_THROWS_WITH(types(" # cosine/shift", "10 180", "14"),
+                    Catch::Contains(":17:1: Angle Coeffs: 2 columns, expected 3: type, Umin and theta0 of style "
+                                    "cosine/shift, U = -Umin/2 (1 + cos(theta - theta0))"));
+  CHECK_THROWS_WITH(types(" # cosine/shift", "10 180", "14 181"),
+                    Catch::Contains(":17:6: Angle Coeffs: theta0: 181 is out of range; 0 to 180 degrees are allowed"));
+  CHECK_THROWS_WITH(types(" # cosine/shift", "10 180", "-14 18"),
+                    Catch::Contains(":17:3: Angle Coeffs: Umin: -14 is negative"));
+  CHECK_THROWS_WITH(
+      types(" # hybrid", "cosine 5", "cosine/delta 14 150"),
+      Catch::Contains(":17:3: Angle Coeffs: style \"cosine/delta\" is not available; cosine and cosine/shift are"));
 }

@@ -24,15 +24,15 @@ struct Run {
                   double atol = 0) {
     Record record(problem, model);
     const Field none = Field::Zero(3, 5);
-    record.add(sample_point(model, 0, 0, "initial"), none);
-    record.add(sample_point(model, 1, 0.5), none);
+    record.add(sample_point(model, 0, 0, "initial"), none, {});
+    record.add(sample_point(model, 1, 0.5), none, {});
     PathPoint p = sample_point(model, 2, 0.6, "branch:1");
     p.multiplicity = 2, p.report.residual = std::nan("");
-    record.add(p, none);
-    record.add(sample_point(model, 3, 0.6), none);
+    record.add(p, none, {});
+    record.add(sample_point(model, 3, 0.6), none, {});
     p = sample_point(model, 4, 1);
     p.stability.negative = 3, p.stability.stable = false;
-    record.add(p, none);
+    record.add(p, none, {});
     ExpectTable& e = problem.expect[0];
     e.observable = observable, e.at = at, e.value = value, e.rtol = rtol, e.atol = atol;
     const auto all = check_expectations(problem, record.path(), record.events());

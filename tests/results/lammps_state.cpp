@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
+#include "laws/section.hpp"
 #include "problem/lammps_data.hpp"
 #include "results/sample.hpp"
 #include "scratch_directory.hpp"
@@ -39,6 +40,7 @@ TEST_CASE("a written state is read back to the last bit", "[lammps_state]") {
   }
   REQUIRE(data.angle_types.size() == 1);
   CHECK(data.angle_types[0].stiffness == m.angle_types[0].stiffness);
+  CHECK(data.angle_types[0].rest == pi);
   REQUIRE(data.bonds.size() == m.bonds.size());
   for (std::size_t k = 0; k < m.bonds.size(); ++k) {
     CHECK(data.bonds[k].type == m.bonds[k].type);
@@ -46,6 +48,21 @@ TEST_CASE("a written state is read back to the last bit", "[lammps_state]") {
   }
   REQUIRE(data.angles.size() == m.angles.size());
   for (std::size_t k = 0; k < m.angles.size(); ++k) CHECK(data.angles[k].particles == m.angles[k].particles);
+}
+
+TEST_CASE("angles that are not straight at rest are written as cosine/shift", "[lammps_state]") {
+  ScratchDirectory scratch;
+  Model m = sample_model();
+  m.angle_types = {{0.1, pi}, {1.0 / 3, pi / 2}, {7, 2.5}, {1e-7 / 3, 0.0}, {2, pi - 2 * pi / 78}};
+  write_state(scratch / "a.data", m, m.start, "a state");
+  CHECK(text_of(scratch / "a.data").find("Angle Coeffs # cosine/shift\n\n1 0.20000000000000001 180\n2 ") != std::string::npos);
+  const LammpsData data = read_lammps_data(scratch / "a.data");
+  REQUIRE(data.angle_types.size() == m.angle_types.size());
+  for (std::size_t k = 0; k < m.angle_types.size(); ++k) {
+    CHECK(data.angle_types[k].stiffness == m.angle_types[k].stiffness);
+    CHECK(std::abs(data.angle_types[k].rest - m.angle_types[k].rest) <= epsilon * m.angle_types[k].rest);
+  }
+  CHECK(data.angle_types[0].rest == pi);
 }
 
 TEST_CASE("the box of a written state holds all particles with room, flat and far ones too", "[lammps_state]") {
@@ -69,6 +86,22 @@ TEST_CASE("the box of a written state holds all particles with room, flat and fa
     CHECK(hi > state.position.row(c).maxCoeff() + 0.2);
   }
   CHECK(found == 3);
+}
+
+TEST_CASE("grains alone", "[lammps_state]") {
+  ScratchDirectory scratch;
+  Model m = sample_model();
+  m.bonds.clear(), m.angles.clear(), m.bond_types.clear(), m.angle_types.clear();
+  m.molecule = {1, 2, 3, 4, 5}, m.diameter = {0.1, 0.2, 0.3, 0.4, 0.5};
+  write_state(scratch / "a.data", m, m.start, "grains");
+  const std::string text = text_of(scratch / "a.data");
+  for (const char* section : {"Coeffs", "Bonds", "Angles"}) CHECK(text.find(section) == std::string::npos);
+  const LammpsData data = read_lammps_data(scratch / "a.data");
+  CHECK(data.position == m.start.position);
+  CHECK(data.molecule == m.molecule);
+  CHECK(data.diameter == m.diameter);
+  CHECK(data.bond_types.empty());
+  CHECK(data.angle_types.empty());
 }
 
 TEST_CASE("particles without bonds, density or a sane title", "[lammps_state]") {

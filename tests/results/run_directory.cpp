@@ -39,16 +39,16 @@ TEST_CASE("a run leaves its rows, states, log and summary", "[run_directory]") {
   RunDirectory run(scratch / "deep/run", problem, m, "title = \"a chain\"\n");
   CHECK(text_of(scratch / "deep/run/resolved.toml") == "title = \"a chain\"\n");
   CHECK(lines_of(scratch / "deep/run/path.csv") == 1);
-  run.add(sample_point(m, 0, 0, "initial"), forces);
-  run.add(sample_point(m, 1, 0.5), forces);
+  run.add(sample_point(m, 0, 0, "initial"), forces, {});
+  run.add(sample_point(m, 1, 0.5), forces, {});
   PathPoint event = sample_point(m, 2, 0.6, "branch:1");
   event.multiplicity = 2, event.report.residual = std::nan("");
-  run.add(event, forces);
+  run.add(event, forces, {});
   CHECK(lines_of(scratch / "deep/run/path.csv") == 4);           // there before the run ends
   CHECK(lines_of(scratch / "deep/run/events.csv") == 2);
   CHECK(text_of(scratch / "deep/run/events.csv").find("\nbranch:1,0.59999999999999998,2,2,0,") != std::string::npos);
   CHECK(!std::filesystem::exists(scratch / "deep/run/summary.json"));
-  run.add(sample_point(m, 3, 1, "final"), forces);
+  run.add(sample_point(m, 3, 1, "final"), forces, {});
   for (const char* name : {"initial", "branch-1", "final"})
     CHECK(std::filesystem::exists(scratch / ("deep/run/states/" + std::string(name) + ".data")));
   CHECK(run.state_file("branch:1") == scratch / "deep/run/states/branch-1.data");
@@ -76,6 +76,10 @@ TEST_CASE("a run leaves its rows, states, log and summary", "[run_directory]") {
   CHECK(j["events"][0]["mid_x"].get<double>() == Approx(0.6).epsilon(1e-15));
   CHECK(j["final"]["lambda"] == 1.0);
   CHECK(j["final"]["stable"] == true);
+  CHECK(j["final"]["contact"] == 1.5);
+  CHECK(j["final"]["wall"] == 0.25);
+  CHECK(j["final"]["cohesion"] == -0.375);
+  CHECK(j["final"]["energy"].get<double>() == Approx(1.0 / 3 + 0.3 + 1.5 + 0.25 - 0.375 - 1e-3).epsilon(1e-15));
   CHECK(j["final"]["energy"].get<double>() == sample_point(m, 3, 1).energy.total());      // all 17 digits
   for (const std::string& column : run.record().path().columns) CHECK(j["final"].contains(column));
   CHECK(j["times"]["total"] == 1.5);
@@ -91,6 +95,69 @@ TEST_CASE("a run leaves its rows, states, log and summary", "[run_directory]") {
   CHECK(log.find("20") == 0);                                    // begins with the date
   CHECK(log.find(" one line\n20") != std::string::npos);
   CHECK(log.find(" another\n") != std::string::npos);
+}
+
+TEST_CASE("closed contacts of labelled states stand in contacts.csv", "[run_directory]") {
+  ScratchDirectory scratch;
+  Model m = sample_model();
+  m.id = {2, 3, 5, 7, 11};
+  const Problem problem = sample_problem();
+  const Field forces = Field::Zero(3, 5);
+  RunDirectory run(scratch / "run", problem, m, "");
+  const std::string header = "label,lambda,first,second,gap,force,fx,fy,fz,x,y,z\n";
+  CHECK(text_of(scratch / "run/contacts.csv") == header);
+  run.add(sample_point(m, 1, 0.5), forces, sample_touches());                       // no label
+  CHECK(text_of(scratch / "run/contacts.csv") == header);
+  run.add(sample_point(m, 2, 0.75, "contact:1"), forces, sample_touches());
+  const std::string rows = "contact:1,0.75,3,7,-0.25,8,0,0,-8,1,2,3\n"
+                           "contact:1,0.75,5,11,-0.125,5,3,4,0,0,0,0\n"
+                           "contact:1,0.75,2,floor,-0.5,16,0,0,16,0,0,0\n"
+                           "contact:1,0.75,3,floor,-0.75,32,0,0,32,0,0,0\n"
+                           "contact:1,0.75,3,floor,-0.0625,3,-3,0,0,0,0,0\n";
+  CHECK(text_of(scratch / "run/contacts.csv") == header + rows);                    // there before the run ends
+  run.add_state("final", m.start, {sample_touches()[3]});
+  CHECK(text_of(scratch / "run/contacts.csv") == header + rows + "final,0,2,floor,-0.5,16,0,0,16,0,0,0\n");
+  CHECK(std::filesystem::exists(run.state_file("final")));
+  RunDirectory again(scratch / "run", problem, m, "");
+  CHECK(text_of(scratch / "run/contacts.csv") == header);
+}
+
+TEST_CASE("modes: a table, a shape and a state each", "[run_directory]") {
+  ScratchDirectory scratch;
+  Model m = sample_model();
+  m.id = {2, 3, 5, 7, 11}, m.diameter[3] = 0.25;
+  Problem problem = sample_problem();
+  problem.study = StudyType::modes, problem.modes.count = 3;
+  {
+    RunDirectory run(scratch / "run", problem, m, "");
+    CHECK(!std::filesystem::exists(scratch / "run/modes.csv"));
+    Mode turning, bending;
+    turning.eigenvalue = 0.125, turning.zero_mode = "rotation of 'a' about x through (0, 0, 0)";
+    turning.shape = Field::Zero(3, 5), turning.shape.col(1) = Vec3(0.6, 0, 0), turning.shape.col(2) = Vec3(0, 0, -0.8);
+    bending.eigenvalue = -2, bending.shape = Field::Zero(3, 5);
+    run.add(sample_point(m, 0, 1, "final"), Field::Zero(3, 5), {}, {0.125, -2});
+    run.add_mode(turning, m.start);
+    run.add_mode(bending, m.start);
+    CHECK(text_of(scratch / "run/modes.csv") ==
+          "mode,eigenvalue,zero_mode\n1,0.125,\"rotation of 'a' about x through (0, 0, 0)\"\n2,-2,\n");
+    CHECK(text_of(scratch / "run/modes/mode-1.csv") == "id,ux,uy,uz\n2,0,0,0\n3,0.59999999999999998,0,0\n"
+                                                       "5,0,0,-0.80000000000000004\n7,0,0,0\n11,0,0,0\n");
+    const Field moved = read_lammps_data(scratch / "run/states/mode-1.data").position - m.start.position;
+    CHECK(moved(2, 2) == Approx(-0.025).epsilon(1e-14));         // a tenth of the smallest diameter
+    CHECK(moved(0, 1) == Approx(0.025 * 0.6 / 0.8).epsilon(1e-14));
+    CHECK(moved.col(4).isZero(0));
+    CHECK(read_lammps_data(scratch / "run/states/mode-2.data").position == m.start.position);
+    const auto& columns = run.record().path().columns;
+    CHECK(std::vector<std::string>(columns.end() - 4, columns.end()) ==
+          std::vector<std::string>{"mid_x", "eigenvalue_1", "eigenvalue_2", "eigenvalue_3"});
+    run.finish({});
+    const json j = json::parse(text_of(scratch / "run/summary.json"));
+    CHECK(j["final"]["eigenvalue_2"] == -2.0);
+    CHECK(j["final"]["eigenvalue_3"].is_null());                 // fewer dofs than modes asked for
+  }
+  RunDirectory run(scratch / "run", problem, m, "");
+  for (const char* gone : {"run/modes.csv", "run/modes", "run/states/mode-1.data"})
+    CHECK(!std::filesystem::exists(scratch / gone));
 }
 
 TEST_CASE("a run that found nothing still has a summary", "[run_directory]") {
@@ -119,7 +186,7 @@ TEST_CASE("a second run in the same directory leaves nothing of the first, and n
   {
     RunDirectory run(scratch / "run", problem, m, "");
     CHECK(std::filesystem::exists(scratch / "run/states/mine.data"));
-    run.add(sample_point(m, 0, 0, "limit:1"), Field::Zero(3, 5));
+    run.add(sample_point(m, 0, 0, "limit:1"), Field::Zero(3, 5), {});
     run.finish({});
   }
   scratch.file("run/notes.txt", "mine");

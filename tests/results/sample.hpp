@@ -1,5 +1,6 @@
 #pragma once
 // A small chain and points on a made-up path of it.
+#include "energy/touch.hpp"
 #include "model/model.hpp"
 #include "path/point.hpp"
 #include "problem/problem.hpp"
@@ -24,6 +25,10 @@ inline elamin::Model sample_model() {
   first.group = "first", first.particles = {0};
   last.group = "last", last.particles = {4}, last.held = {true, false, true};
   m.supports = {first, last};
+  Wall floor, side;
+  floor.name = "floor", floor.group = "all", floor.particles = {0, 1, 2, 3, 4};
+  side.name = "side", side.group = "two", side.particles = {1, 2};
+  m.walls = {floor, side};
   return m;
 }
 
@@ -32,10 +37,20 @@ inline elamin::PathPoint sample_point(const elamin::Model& m, int step, double l
   p.step = step, p.label = label, p.state = m.start, p.state.load_factor = lambda;
   p.state.position(0, 2) += lambda;
   p.energy.bond = 0.1 * step, p.energy.angle = 1.0 / 3, p.energy.external = -1e-3 * lambda;
+  p.energy.contact = 0.5 * step, p.energy.wall = 0.25 * lambda, p.energy.cohesion = -0.125 * step;
   p.report.status = elamin::Status::converged, p.report.residual = 3e-14, p.report.iterations = 4;
   p.report.history = {{1.5, 1e-3, 1e-4, 0}, {1.25, 3e-14, 1e-9, 0}};
   p.stability.stable = true;
   return p;
+}
+
+/// Made-up contacts: 1–3 closed, 1–4 open, 2–4 closed, particle 0 on one and 1 on two faces of the floor, 2 near the side.
+inline std::vector<elamin::Touch> sample_touches() {
+  using elamin::Vec3;
+  return {{1, 3, -1, -0.25, Vec3(0, 0, -8), Vec3(1, 2, 3)},   {1, 4, -1, 0.5, Vec3::Zero(), Vec3::Zero()},
+          {2, 4, -1, -0.125, Vec3(3, 4, 0), Vec3::Zero()},    {0, -1, 0, -0.5, Vec3(0, 0, 16), Vec3::Zero()},
+          {1, -1, 0, -0.75, Vec3(0, 0, 32), Vec3::Zero()},    {1, -1, 0, -0.0625, Vec3(-3, 0, 0), Vec3::Zero()},
+          {2, -1, 1, 0.375, Vec3::Zero(), Vec3::Zero()}};
 }
 
 inline elamin::ObserveTable observe(const std::string& name, const std::string& group, elamin::Quantity q,

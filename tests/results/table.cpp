@@ -52,11 +52,11 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
   const std::vector<std::string> names{"mid_x", "push"};
   Table path{path_columns(names), {}}, events{event_columns(names), {}};
   CHECK(path.columns == std::vector<std::string>{"step", "label", "branch", "lambda", "energy", "bond", "angle",
-                                                 "external", "residual", "iterations", "negative", "stable", "mid_x",
-                                                 "push"});
+                                                 "contact", "wall", "cohesion", "external", "residual", "iterations",
+                                                 "negative", "stable", "mid_x", "push"});
   CHECK(events.columns == std::vector<std::string>{"label", "lambda", "multiplicity", "step", "branch", "energy",
-                                                   "bond", "angle", "external", "residual", "iterations", "negative",
-                                                   "stable", "mid_x", "push"});
+                                                   "bond", "angle", "contact", "wall", "cohesion", "external",
+                                                   "residual", "iterations", "negative", "stable", "mid_x", "push"});
   PathPoint p = sample_point(m, 3, 0.25, "branch:1");
   p.branch = 1, p.multiplicity = 2, p.stability.negative = 5, p.stability.stable = false, p.report.iterations = 8;
   path.rows.push_back(path_row(p, {0.75, -2}));
@@ -73,6 +73,9 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
     CHECK(cell(*t, "energy") == Cell(p.energy.total()));
     CHECK(cell(*t, "bond") == Cell(p.energy.bond));
     CHECK(cell(*t, "angle") == Cell(p.energy.angle));
+    CHECK(cell(*t, "contact") == Cell(1.5));
+    CHECK(cell(*t, "wall") == Cell(0.0625));
+    CHECK(cell(*t, "cohesion") == Cell(-0.375));
     CHECK(cell(*t, "external") == Cell(p.energy.external));
     CHECK(cell(*t, "residual") == Cell(3e-14));
     CHECK(cell(*t, "iterations") == Cell(8));

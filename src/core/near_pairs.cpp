@@ -1,0 +1,80 @@
+#include "core/near_pairs.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+namespace elamin {
+
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+std::uint64_t hashed(const Cell& c) {
+  std::uint64_t h = 0;
+  for (const std::int64_t k : c) {
+    h ^= static_cast<std::uint64_t>(k) + 0x9E3779B97F4A7C15ull + (h << 6) + (h >> 2);
+    h *= 0xBF58476D1CE4E5B9ull, h ^= h >> 29;
+  }
+  return h;
+}
+
+// Balls of about one size: sorted by the hash of their cell. Two cells may share a hash; distances are checked anyway.
+struct Grid {
+  double cell = 0;
+  std::vector<std::pair<std::uint64_t, int>> balls;
+
+  Cell cell_of(const Vec3& x) const {
+    Cell c;
+    for (int k = 0; k < 3; ++k) c[k] = static_cast<std::int64_t>(std::clamp(std::floor(x[k] / cell), -9e18, 9e18));
+    return c;
+  }
+};
+
+}  // namespace
+
+std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double>& radii,
+                                  const std::function<bool(int, int)>& wanted) {
+  const int n = static_cast<int>(centers.cols());
+  std::map<int, Grid> grids;                                    // by the power of two of the radius
+  for (int i = 0; i < n; ++i)
+    if (radii[i] > 0) grids[std::ilogb(radii[i])].balls.push_back({0, i});
+  for (auto& [power, grid] : grids) {
+    grid.cell = std::ldexp(4.0, power);                         // ≥ twice the largest radius: neighbours lie in 27 cells
+    for (auto& [hash, i] : grid.balls) hash = hashed(grid.cell_of(centers.col(i)));
+    std::sort(grid.balls.begin(), grid.balls.end());
+  }
+  // The smaller one of two looks for the larger one; of one size, each for the other, once.
+  std::vector<std::vector<int>> partners(n);
+  parallel_for(n, 1000, [&](std::int64_t at) {
+    const int i = static_cast<int>(at);
+    if (!(radii[i] > 0)) return;
+    const Vec3 x = centers.col(i);
+    const int own = std::ilogb(radii[i]);
+    for (auto level = grids.lower_bound(own); level != grids.end(); ++level) {
+      const Grid& grid = level->second;
+      const Cell middle = grid.cell_of(x);
+      for (int k = 0; k < 27; ++k) {
+        const std::uint64_t hash = hashed({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
+        auto ball = std::lower_bound(grid.balls.begin(), grid.balls.end(), std::pair(hash, -1));
+        for (; ball != grid.balls.end() && ball->first == hash; ++ball) {
+          const int j = ball->second;
+          if (j == i || (level->first == own && j < i)) continue;
+          const double reach = radii[i] + radii[j];
+          if ((centers.col(j) - x).squaredNorm() <= reach * reach && wanted(i, j)) partners[i].push_back(j);
+        }
+      }
+    }
+  });
+  std::vector<IndexPair> pairs;
+  for (int i = 0; i < n; ++i)
+    for (const int j : partners[i]) pairs.push_back({std::min(i, j), std::max(i, j)});
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace elamin

@@ -1,0 +1,50 @@
+#include "energy/neighbours.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+constexpr double skin_of_diameter = 0.3;
+}
+
+Neighbours::Neighbours(const Model& model) : model_(model), rules_(model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < model.particles(); ++i)
+    if (rules_.reach(i) > 0) smallest = std::min(smallest, 2 * rules_.reach(i));
+  skin_ = rules_.any() ? skin_of_diameter * smallest : 0;
+}
+
+bool Neighbours::covers(const State& state) const {
+  if (!rules_.any()) return true;
+  if (listed_.particles() != state.particles()) return false;
+  for (Eigen::Index i = 0; i < state.particles(); ++i)
+    if (rules_.reach(static_cast<int>(i)) > 0 &&
+        !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= skin_ * skin_ / 4))
+      return false;
+  return true;
+}
+
+bool Neighbours::refresh(const State& state) {
+  if (!rules_.any()) return false;
+  listed_ = state;
+  std::vector<double> radii(model_.particles());
+  for (int i = 0; i < model_.particles(); ++i)
+    if (rules_.reach(i) > 0) radii[i] = rules_.reach(i) + skin_ / 2;
+  const auto feel = [&](int i, int j) { return rules_.hertz(i, j) >= 0 || rules_.lj(i, j) >= 0; };
+  std::array<std::vector<IndexPair>, 2> now;
+  for (const IndexPair& p : near_pairs(state.position, radii, feel)) {
+    const auto [i, j] = p;
+    const double apart = (state.position.col(j) - state.position.col(i)).norm() - skin_;
+    if (rules_.hertz(i, j) >= 0 && apart <= (model_.diameter[i] + model_.diameter[j]) / 2) now[0].push_back(p);
+    if (const int t = rules_.lj(i, j); t >= 0 && apart <= model_.contacts[t].cutoff) now[1].push_back(p);
+  }
+  bool changed = false;
+  for (int law = 0; law < 2; ++law)
+    changed = changed || !std::includes(pairs_[law].begin(), pairs_[law].end(), now[law].begin(), now[law].end());
+  if (changed) pairs_ = std::move(now);
+  return changed;
+}
+
+}  // namespace elamin

@@ -1,0 +1,35 @@
+#pragma once
+// The pairs that are near enough to feel each other before anything has moved far.
+#include "core/near_pairs.hpp"
+#include "energy/contact_rules.hpp"
+
+#include <array>
+
+namespace elamin {
+
+/// Candidate pairs: all that feel each other, and all that would if every particle moved by half the skin.
+/// The skin is 0.3 of the smallest diameter in any table. Not rebuilt without need: while nothing has moved by half the
+/// skin the list holds, and a new list that is part of the old one changes nothing.
+class Neighbours {
+ public:
+  explicit Neighbours(const Model& model);
+
+  const ContactRules& rules() const { return rules_; }
+  /// Whether the list still holds every pair that feels each other at the state.
+  bool covers(const State& state) const;
+  /// Makes the list hold for the state. True if the candidates have changed.
+  bool refresh(const State& state);
+  /// Pairs with a Hertz table, and pairs with a Lennard-Jones table, ascending.
+  const std::vector<IndexPair>& hertz() const { return pairs_[0]; }
+  const std::vector<IndexPair>& lj() const { return pairs_[1]; }
+  double skin() const { return skin_; }
+
+ private:
+  const Model& model_;
+  ContactRules rules_;
+  double skin_ = 0;
+  State listed_;                                 // where the list was made
+  std::array<std::vector<IndexPair>, 2> pairs_;
+};
+
+}  // namespace elamin

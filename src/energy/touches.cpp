@@ -1,0 +1,86 @@
+#include "energy/touches.hpp"
+
+#include "energy/groups.hpp"
+#include "energy/wall_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+
+std::vector<IndexPair> candidates(const Model& model, const ContactRules& rules, const State& state, double within) {
+  const auto feel = [&](int i, int j) { return rules.hertz(i, j) >= 0; };
+  std::vector<IndexPair> pairs;
+  if (std::isfinite(within)) {
+    std::vector<double> radii(model.particles(), 0.0);
+    for (int i = 0; i < model.particles(); ++i)
+      if (rules.reach(i) > 0) radii[i] = (model.diameter[i] + within) / 2 * (1 + 1e-12);
+    return near_pairs(state.position, radii, feel);
+  }
+  for (int i = 0; i < model.particles(); ++i)
+    for (int j = i + 1; j < model.particles(); ++j)
+      if (feel(i, j)) pairs.push_back({i, j});
+  return pairs;
+}
+
+Points<2> points(int i, int j, const State& state) {
+  Points<2> x;
+  x.position << state.position.col(i), state.position.col(j);
+  x.tail << state.tail.col(i), state.tail.col(j);
+  return x;
+}
+
+Touch between(const Model& model, const HertzContact& law, int i, int j, const State& state) {
+  const Points<2> x = points(i, j, state);
+  Touch t{i, j, -1, law.gap(x), Vec3::Zero(), Vec3::Zero()};
+  const Vec3 d = x.edge(0, 1).hi;
+  const double r = d.norm();
+  const Vec3 n = r > 0 ? Vec3(d / r) : Vec3(Vec3::Zero());
+  if (t.gap < 0) t.force = -law.force(t.gap) * n;
+  t.point = state.position.col(i) + (model.diameter[i] / 2 + t.gap / 2) * n;
+  return t;
+}
+
+}  // namespace
+
+double pair_gap(const Model& model, int i, int j, const State& state) {
+  return HertzContact{0, (model.diameter[i] + model.diameter[j]) / 2}.gap(points(i, j, state));
+}
+
+double wall_gap(const Model& model, int particle, int wall, const State& state) {
+  std::array<WallTouch, WallContact::most_faces> faces;
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const int n = wall_at(model.walls[wall], state.load_factor).touches(state.at(particle), model.diameter[particle] / 2, anywhere, faces);
+  double least = anywhere;
+  for (int k = 0; k < n; ++k) least = std::min(least, faces[k].gap);
+  return least;
+}
+
+std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, const State& state, double within) {
+  std::vector<Touch> touches;
+  within = std::max(within, 0.0);
+  const auto near = [&](double gap) { return gap < 0 || (gap <= within && within > 0); };
+  if (rules.any())
+    for (const auto& [i, j] : candidates(model, rules, state, within)) {
+      const int table = rules.hertz(i, j);
+      if (model.contacts[table].effective_modulus == 0) continue;
+      const Touch t = between(model, hertz_contact(model, table, i, j), i, j, state);
+      if (near(t.gap)) touches.push_back(t);
+    }
+  for (std::size_t w = 0; w < model.walls.size(); ++w) {
+    const WallContact wall = wall_at(model.walls[w], state.load_factor);
+    std::array<WallTouch, WallContact::most_faces> faces;
+    for (const int p : model.walls[w].particles) {
+      const int n = wall.touches(state.at(p), model.diameter[p] / 2, within, faces);
+      for (int k = 0; k < n; ++k)
+        if (near(faces[k].gap))
+          touches.push_back({p, -1, static_cast<int>(w), faces[k].gap, faces[k].force * faces[k].normal, faces[k].point});
+    }
+  }
+  return touches;
+}
+
+}  // namespace elamin

@@ -1,0 +1,61 @@
+#include "energy/wall_group.hpp"
+
+namespace elamin {
+
+namespace {
+constexpr std::int64_t grain = 500;
+}
+
+WallContact wall_at(const Wall& wall, double load_factor) {
+  return {wall.region.moved(load_factor * wall.displacement, load_factor * wall.radius_change), wall.inside,
+          wall.effective_modulus, wall.curved};
+}
+
+WallGroup::WallGroup(const Model& model) : model_(model) {
+  walls_.reserve(model.walls.size());
+  for (std::size_t w = 0; w < model.walls.size(); ++w) {
+    for (const int p : model.walls[w].particles) particle_.push_back(p), wall_.push_back(static_cast<int>(w));
+    moves_ = moves_ || !model.walls[w].displacement.isZero(0) || model.walls[w].radius_change != 0;
+  }
+}
+
+const std::vector<WallContact>& WallGroup::at(double load_factor) const {
+  walls_.clear();
+  for (const Wall& w : model_.walls) walls_.push_back(wall_at(w, load_factor));
+  return walls_;
+}
+
+void WallGroup::values(const State& state, double* value) const {
+  const std::vector<WallContact>& walls = at(state.load_factor);
+  parallel_for(elements(), grain, [&](std::int64_t e) {
+    value[e] = walls[wall_[e]].value(state.at(particle_[e]), model_.diameter[particle_[e]] / 2);
+  });
+}
+
+void WallGroup::derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const {
+  const std::vector<WallContact>& walls = at(state.load_factor);
+  parallel_for(elements(), grain, [&](std::int64_t e) {
+    const Local<1> u = walls[wall_[e]].derivatives(state.at(particle_[e]), model_.diameter[particle_[e]] / 2);
+    value[e] = u.value;
+    Eigen::Map<Vec3>(gradient + 3 * e) = u.gradient;
+    if (!hessian) return;
+    double* h = hessian + e * hessian_size();
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c <= r; ++c) *h++ = u.hessian(r, c);
+  });
+}
+
+void WallGroup::load_rates(const State& state, double* rate) const {
+  const std::vector<WallContact>& walls = at(state.load_factor);
+  parallel_for(elements(), grain, [&](std::int64_t e) {
+    const Wall& wall = model_.walls[wall_[e]];
+    const WallContact& law = walls[wall_[e]];
+    const ExactVector x = state.at(particle_[e]);
+    const double r = model_.diameter[particle_[e]] / 2;
+    Vec3 v = -(law.derivatives(x, r).hessian * wall.displacement);
+    if (wall.radius_change != 0) v += wall.radius_change * law.radius_rate(x, r);
+    Eigen::Map<Vec3>(rate + 3 * e) = v;
+  });
+}
+
+}  // namespace elamin

@@ -1,0 +1,35 @@
+#pragma once
+// Particles at walls: one element for every particle of every wall's group.
+#include "energy/law_group.hpp"
+#include "laws/wall_contact.hpp"
+#include "model/model.hpp"
+
+namespace elamin {
+
+/// The wall as it stands at the load factor λ: moved by λ d, its radius larger by λ ΔR.
+WallContact wall_at(const Wall& wall, double load_factor);
+
+/// U of all walls. They move with the load factor themselves:
+///   ∂(∇U)/∂λ = −∇∇U d + ∂(∇U)/∂R ΔR.
+class WallGroup final : public ElementGroup {
+ public:
+  explicit WallGroup(const Model& model);
+
+  int elements() const override { return static_cast<int>(particle_.size()); }
+  int sites() const override { return 1; }
+  std::span<const int> stencil(int element) const override { return {&particle_[element], 1}; }
+  void values(const State& state, double* value) const override;
+  void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override;
+  bool unpredicted(const State&, const State&, double*) const override { return false; }
+  bool moves() const override { return moves_; }
+  void load_rates(const State& state, double* rate) const override;
+
+ private:
+  const std::vector<WallContact>& at(double load_factor) const;
+  const Model& model_;
+  mutable std::vector<WallContact> walls_;     // as they stand at the load factor asked for last
+  std::vector<int> particle_, wall_;           // of every element
+  bool moves_ = false;
+};
+
+}  // namespace elamin

@@ -1,0 +1,36 @@
+#pragma once
+// Where something is inside or outside of: LAMMPS's regions, for walls and for choosing groups.
+#include "core/exact.hpp"
+
+#include <array>
+#include <limits>
+
+namespace elamin {
+
+enum class Shape { plane, block, cylinder, sphere, cone };
+
+/// A plane (the half-space that the normal points into), a block, a cylinder or a cone (a frustum) along x, y or z between
+/// lo and hi, or a sphere. Members that a shape does not have are not read.
+struct Region {
+  Shape shape = Shape::plane;
+  Vec3 center = Vec3::Zero();                  // plane: a point of it; cylinder, cone: of the axis (along it: not read); sphere
+  Vec3 normal = Vec3::UnitZ();                 // plane: a unit vector
+  Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();   // block
+  int axis = 2;                                // cylinder, cone: 0, 1, 2 for x, y, z
+  double axial_lo = -std::numeric_limits<double>::infinity();   // cylinder, cone: ends along the axis
+  double axial_hi = std::numeric_limits<double>::infinity();
+  double radius = 0;                           // cylinder, sphere
+  double radius_lo = 0, radius_hi = 0;         // cone: at axial_lo and axial_hi
+  /// Faces that are not there. block: xlo, xhi, ylo, yhi, zlo, zhi; cylinder, cone: lo, hi, side.
+  std::array<bool, 6> open{};
+
+  /// Whether x is inside (on the surface: inside).
+  bool contains(const Vec3& x) const { return contains(ExactVector{x, Vec3::Zero()}); }
+  bool contains(const ExactVector& x) const;
+  bool any_open() const { return open != std::array<bool, 6>{}; }
+  /// The same region moved by d and with its radius (of a cone: both) larger by `growth`.
+  Region moved(const Vec3& d, double growth) const;
+  bool operator==(const Region&) const = default;
+};
+
+}  // namespace elamin

@@ -1,0 +1,30 @@
+#pragma once
+// Where between two equilibria a contact is made or lost.
+#include "path/equilibrium.hpp"
+
+#include <optional>
+#include <set>
+
+namespace elamin {
+
+/// Two particles (wall −1), or a particle at a wall (other −1).
+struct ContactKey {
+  int particle, other, wall;
+  auto operator<=>(const ContactKey&) const = default;
+};
+using ContactSet = std::set<ContactKey>;
+
+/// The contacts whose surfaces overlap at the state.
+ContactSet closed_contacts(Energy& energy, const State& state);
+
+struct ContactEvent {
+  Equilibrium at;
+  ContactSet after;                    // what is closed beyond the event
+};
+
+/// The first change of the closed contacts between two equilibria of one branch, located at the zero of the gap that changes
+/// sign, to rounding. `before`: what is closed from `a` on, which at an event differs from what overlaps at `a` itself.
+/// Contacts that change together are one event. Nothing if none changes, or if an equilibrium between cannot be found.
+std::optional<ContactEvent> locate_contact(Newton& newton, const ContactSet& before, const Equilibrium& a, const Equilibrium& b);
+
+}  // namespace elamin

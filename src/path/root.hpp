@@ -1,0 +1,22 @@
+#pragma once
+#include "path/equilibrium.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace elamin {
+
+/// A function of an equilibrium along a branch: parameter, value, and the equilibrium itself.
+struct Sample {
+  double t, f;
+  Equilibrium e;
+};
+
+/// The zero of f between two samples of different sign, by the Illinois variant of regula falsi with bisection where it is
+/// slow. `evaluate(t, nearest)` computes the sample at t, from the one of the bracket that is nearest. Stops when the
+/// secant through the bracket predicts a change below `resolution`, or the bracket is that small; the better end of it.
+/// Nothing if an evaluation fails.  Source: Dowell & Jarratt 1971, BIT 11.
+std::optional<Sample> find_zero(Sample a, Sample b, double resolution,
+                                const std::function<std::optional<Sample>(double, const Sample&)>& evaluate);
+
+}  // namespace elamin

@@ -1,0 +1,154 @@
+#include "model/rigid_motion.hpp"
+#include "problem/build_checks.hpp"
+#include "problem/build_structures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace elamin {
+namespace {
+
+/// Index of the structure of each particle.
+std::vector<int> structure_of(const Model& model) {
+  std::vector<int> of(model.particles());
+  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s)
+    std::fill_n(of.begin() + model.structures[s].first, model.structures[s].count, s);
+  return of;
+}
+
+bool acts(const PairContact& c) { return c.effective_modulus > 0 || c.epsilon > 0; }
+
+/// The glued parts, and which of them may touch each other.
+class Parts {
+ public:
+  explicit Parts(const Model& model) : part_(connected_parts(model)) {
+    int count = 0;
+    for (const int p : part_) count = std::max(count, p + 1);
+    root_.resize(count);
+    std::iota(root_.begin(), root_.end(), 0);
+    held_.resize(count), touched_.resize(count), size_.resize(count), kept_.resize(count);
+    for (const int p : part_) ++size_[p];
+    for (const Support& s : model.supports)
+      for (const int i : s.particles) held_[part_[i]] = true;
+    for (const PairContact& c : model.contacts)
+      if (acts(c)) touch(c);
+    std::vector<bool> walled(count);
+    for (const Wall& w : model.walls)
+      if (w.effective_modulus > 0)
+        for (const int i : w.particles) touched_[part_[i]] = walled[part_[i]] = true;
+    for (int p = 0; p < count; ++p)
+      if (held_[p] || walled[p]) kept_[find(p)] = true;
+  }
+
+  bool held(int particle) const { return held_[part_[particle]]; }          // a support holds it
+  bool touched(int particle) const { return touched_[part_[particle]]; }    // a wall or another part may hold it
+  bool alone(int particle) const { return size_[part_[particle]] == 1; }
+  /// All that may touch each other, by number, and whether a support or a wall may hold it.
+  int cluster(int particle) const { return find(part_[particle]); }
+  bool kept(int particle) const { return kept_[cluster(particle)]; }
+
+ private:
+  /// Any particle of one side may touch any of the other, so that all of them belong together.
+  void touch(const PairContact& c) {
+    const int first = part_[c.particles[0].front()];
+    bool others = false;
+    for (const auto& side : c.particles)
+      for (const int i : side) others = others || part_[i] != first;
+    if (!others) return;
+    for (const auto& side : c.particles)
+      for (const int i : side) {
+        touched_[part_[i]] = true;
+        root_[find(part_[i])] = find(first);
+      }
+  }
+  int find(int p) const {
+    while (root_[p] != p) p = root_[p];
+    return p;
+  }
+
+  std::vector<int> part_, root_, size_;
+  std::vector<bool> held_, touched_, kept_;
+};
+
+/// Of every cluster: whether dead loads and weights leave a force on it, which only a support or a wall could bear.
+std::vector<bool> driven(const Model& model, const Parts& parts) {
+  struct Forces { std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()}; double size = 0; };   // scaled, constant
+  std::vector<Forces> forces(model.particles());
+  const auto add = [&](int i, const Vec3& force, bool constant) {
+    Forces& f = forces[parts.cluster(i)];
+    f.sum[constant] += force, f.size += force.cwiseAbs().maxCoeff();
+  };
+  for (const Load& l : model.loads)
+    for (const int i : l.particles) add(i, l.force, l.constant);
+  for (const Gravity& g : model.gravity)
+    for (const int i : g.particles) add(i, model.mass(i) * g.acceleration, g.constant);
+  std::vector<bool> left(model.particles());
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    for (const Vec3& sum : forces[k].sum) left[k] = left[k] || sum.cwiseAbs().maxCoeff() > 1e-9 * forces[k].size;
+  return left;
+}
+
+}  // namespace
+
+void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  if (problem.study == StudyType::energy) return;
+  const Parts parts(model);
+  const std::vector<bool> force = driven(model, parts);
+  const std::vector<int> structure = structure_of(model);
+  std::vector<bool> told(model.structures.size());
+  const auto tell = [&](int i, const std::string& what) {
+    if (!told[structure[i]]) mistakes.add(place_of(problem, model.structures[structure[i]]), what);
+    told[structure[i]] = true;
+  };
+  for (int i = 0; i < model.particles(); ++i) {
+    if (parts.held(i)) continue;
+    const Structure& s = model.structures[structure[i]];
+    if (parts.touched(i)) {
+      if (!parts.kept(i) && force[parts.cluster(i)])
+        tell(i, fmt::format("particle {} and all that it may touch are held by no [[support]] and no [[wall]], and the "
+                            "forces on them do not cancel", model.id[i]));
+    } else if (parts.alone(i)) {
+      if (force[parts.cluster(i)])
+        tell(i, fmt::format("a force acts on particle {}, which nothing holds; an equilibrium needs a [[support]], a "
+                            "[[wall]] or a [[contact]]", model.id[i]));
+    } else {
+      const std::string of_file =
+          fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
+      tell(i, (s.kind == "lammps" ? of_file : "none of its particles is held by a support") +
+                  "; an equilibrium needs a [[support]]");
+    }
+  }
+  // What is held may still move as a whole. A translation is never an equilibrium's business; a rotation is if
+  // something acts on it, as a weight on a pendulum does, or if the state comes from a file, as a buckled column's
+  // does. What may touch something is held by that.
+  const bool loaded = !problem.loads.empty() || !problem.gravity.empty() || !problem.path.start.empty();
+  std::vector<std::string> names(model.structures.size());
+  for (const RigidMotion& m : free_rigid_motions(model, model.start)) {
+    if (!parts.held(m.particle) || parts.touched(m.particle)) continue;
+    const int s = structure[m.particle];
+    const bool allowed = !m.translation && (loaded || model.structures[s].kind == "lammps");
+    if (!allowed && names[s].size() < 500) names[s] += (names[s].empty() ? "" : ", ") + m.name;
+  }
+  for (std::size_t s = 0; s < names.size(); ++s)
+    if (!names[s].empty())
+      mistakes.add(place_of(problem, model.structures[s]),
+                   "free to move as a whole: " + names[s] + "; hold it with a [[support]]");
+}
+
+void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  if (problem.study != StudyType::modes) return;
+  using Flags = Eigen::Matrix<bool, 3, Eigen::Dynamic>;
+  Flags held = Flags::Constant(3, model.particles(), false);
+  if (model.plane_normal) held.row(*model.plane_normal).setConstant(true);
+  for (const Support& s : model.supports)
+    for (const int i : s.particles)
+      for (int c = 0; c < 3; ++c) held(c, i) = held(c, i) || s.held[c];
+  if (const auto free = held.size() - held.count(); free < problem.modes.count)
+    mistakes.add(problem.modes.place, "count",
+                 fmt::format("asks for {} modes; only {} coordinates are free", problem.modes.count, free));
+}
+
+}  // namespace elamin

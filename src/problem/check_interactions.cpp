@@ -1,0 +1,136 @@
+#include "problem/check_parts.hpp"
+#include "problem/check_region.hpp"
+#include "problem/schema_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace elamin {
+
+void check_direction(TablePlace& place, const char* key, const Vec3& direction, Mistakes& mistakes) {
+  if (direction.isZero(0)) mistakes.add(place, key, "is zero; a direction has a length");
+}
+
+const char* name_of(Shape shape) {
+  for (const auto& word : shape_words)
+    if (word.value == shape) return word.text;
+  return "";
+}
+
+void check_region(TablePlace& place, const Region& region, bool flat, Mistakes& mistakes) {
+  const auto order = [&](double lo, double hi, bool may_meet, const std::string& along) {
+    if (lo > hi)
+      mistakes.add(place, "hi", fmt::format("lies below lo{}: {} < {}", along, hi, lo));
+    else if (lo == hi && !may_meet)
+      mistakes.add(place, "hi", fmt::format("is the same as lo{}: {}; there must be room between them", along, hi));
+  };
+  switch (region.shape) {
+    case Shape::plane: return check_direction(place, "normal", region.normal, mistakes);
+    case Shape::block:
+      for (int c = 0; c < 3; ++c) order(region.lo[c], region.hi[c], flat, fmt::format(" along {}", "xyz"[c]));
+      return;
+    case Shape::sphere: return;
+    case Shape::cylinder: return order(region.axial_lo, region.axial_hi, flat, "");
+    case Shape::cone:
+      order(region.axial_lo, region.axial_hi, false, "");
+      if (region.radius_lo == 0 && region.radius_hi == 0)
+        mistakes.add(place, "radius_hi", "is zero, and radius_lo too; a cone has a radius at one end at least");
+      return;
+  }
+}
+
+namespace {
+
+/// Load factors between which a study moves.
+std::vector<double> load_factors(const Problem& p) {
+  if (p.study != StudyType::path || p.path.place.broken) return {0, 1};
+  return {p.path.from, p.path.to, p.path.start_lambda.value_or(p.path.from)};
+}
+
+class CheckInteractions {
+ public:
+  CheckInteractions(const Problem& problem, Names& names, Mistakes& mistakes)
+      : problem_(problem), names_(names), mistakes_(mistakes) {}
+
+  void check(ConnectTable& c) {
+    names_.refer(c.place, "between", c.between);
+    if (c.place.keys.count("rest") && !c.place.keys.count("angle_stiffness"))
+      mistakes_.add(c.place, "rest", "is of no use without angle_stiffness; without it there are no angles");
+  }
+
+  void check(ContactTable& c) {
+    const bool whole = !c.place.broken;
+    names_.refer(c.place, "between", c.between);
+    if (!whole || c.law != "hertz") return;
+    const bool effective = written(c, "effective_modulus"), E = written(c, "youngs_modulus"),
+               nu = written(c, "poissons_ratio");
+    if (effective) return only_one(c.place, E, nu);
+    if (!E)
+      mistakes_.add(c.place, "youngs_modulus",
+                    "is missing; give youngs_modulus and poissons_ratio, or effective_modulus");
+    else if (!nu)
+      mistakes_.add(c.place, "poissons_ratio",
+                    "is missing; it must be a number above -1 and at most 0.5, or give effective_modulus alone");
+    else if (c.youngs_modulus.size() != c.poissons_ratio.size())
+      mistakes_.add(c.place, "poissons_ratio",
+                    c.poissons_ratio.size() == 1 ? "is one number for two moduli; give a list of two"
+                                                 : "are two numbers for one modulus; give one, or two moduli");
+  }
+
+  void check(WallTable& w) {
+    const bool whole = !w.place.broken;
+    names_.refer(w.place, "group", w.group);
+    if (!whole) return;
+    const bool effective = written(w, "effective_modulus"), E = written(w, "youngs_modulus"),
+               nu = written(w, "poissons_ratio");
+    if (effective)
+      only_one(w.place, E, nu);
+    else if (!E)
+      mistakes_.add(w.place, "youngs_modulus", "is missing; it must be a positive number, or give effective_modulus");
+    check_region(w.place, w.region, false, mistakes_);
+    radius(w);
+  }
+
+ private:
+  template <class Table> static bool written(const Table& t, const char* key) { return t.place.keys.count(key) > 0; }
+
+  void only_one(TablePlace& place, bool E, bool nu) {
+    if (E) mistakes_.add(place, "effective_modulus", "youngs_modulus is there too; give one of them");
+    if (nu && !E) mistakes_.add(place, "poissons_ratio", "is of no use beside effective_modulus; leave it out");
+  }
+
+  /// The radius must stay one at every load factor in use.
+  void radius(WallTable& w) {
+    if (w.radius_change == 0) return;
+    const Region& r = w.region;
+    if (r.shape == Shape::plane || r.shape == Shape::block)
+      return mistakes_.add(w.place, "radius_change", fmt::format("a {} has no radius; leave it out", name_of(r.shape)));
+    const bool cone = r.shape == Shape::cone;
+    for (const double lambda : load_factors(problem_)) {
+      const double change = lambda * w.radius_change;
+      const double smallest = cone ? std::min(r.radius_lo, r.radius_hi) + change : r.radius + change;
+      const double largest = cone ? std::max(r.radius_lo, r.radius_hi) + change : smallest;
+      if (smallest >= 0 && largest > 0) continue;
+      return mistakes_.add(w.place, "radius_change",
+                           fmt::format("makes a radius {} at load factor {}; a radius is {}", smallest, lambda,
+                                       cone ? "not negative, and positive at one end at least" : "positive"));
+    }
+  }
+
+  const Problem& problem_;
+  Names& names_;
+  Mistakes& mistakes_;
+};
+
+}  // namespace
+
+void check_interactions(Problem& problem, Names& names, Mistakes& mistakes) {
+  for (WallTable& w : problem.walls) names.add_wall(w.place, w.name);
+  CheckInteractions interactions(problem, names, mistakes);
+  for (ConnectTable& c : problem.connections) interactions.check(c);
+  for (ContactTable& c : problem.contacts) interactions.check(c);
+  for (WallTable& w : problem.walls) interactions.check(w);
+}
+
+}  // namespace elamin

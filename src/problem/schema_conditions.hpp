@@ -1,0 +1,142 @@
+#pragma once
+// Keys of what acts on particles: groups, supports, loads, contacts, walls.
+#include "problem/schema_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// The faces of a region that are open, by name.
+template <class IO, std::size_t n> void describe_open(IO& io, Region& r, const Word<const char*> (&faces)[n]) {
+  std::vector<std::string> open;
+  for (std::size_t i = 0; i < n; ++i)
+    if (r.open[i]) open.push_back(faces[i].text);
+  io.words("open", open, faces);
+  for (std::size_t i = 0; i < n; ++i) r.open[i] = std::find(open.begin(), open.end(), faces[i].text) != open.end();
+}
+
+/// A region's keys stand among those of its table, after them: each shape has its own.
+template <class IO> void describe_region(IO& io, Region& r) {
+  if (!io.must_word("shape", r.shape, shape_words)) return io.skip_the_rest();   // other keys belong to other shapes
+  std::vector<const char*> others{"point", "normal", "center",    "axis",      "radius",
+                                  "lo",    "hi",     "radius_lo", "radius_hi", "open"};
+  const auto has = [&](std::initializer_list<const char*> keys, const std::string& what) {
+    for (const std::string key : keys) std::erase_if(others, [&](const char* other) { return key == other; });
+    for (const char* other : others) io.foreign(other, what);
+  };
+  switch (r.shape) {
+    case Shape::plane:
+      io.must("point", r.center);
+      io.must("normal", r.normal);
+      return has({"point", "normal"}, "a plane, which has point and normal");
+    case Shape::block:
+      io.must("lo", r.lo);
+      io.must("hi", r.hi);
+      describe_open(io, r, block_faces);
+      return has({"lo", "hi", "open"}, "a block, which has lo, hi and open");
+    case Shape::sphere:
+      io.must("center", r.center);
+      io.must("radius", r.radius, range::positive);
+      return has({"center", "radius"}, "a sphere, which has center and radius");
+    case Shape::cylinder: {
+      io.must_word("axis", r.axis, axis_words);
+      io.center("center", r.center, r.axis);
+      io.must("radius", r.radius, range::positive);
+      std::optional<double> lo, hi;
+      if (std::isfinite(r.axial_lo)) lo = r.axial_lo;
+      if (std::isfinite(r.axial_hi)) hi = r.axial_hi;
+      io.may("lo", lo);
+      io.may("hi", hi);
+      if (lo) r.axial_lo = *lo;
+      if (hi) r.axial_hi = *hi;
+      describe_open(io, r, round_faces);
+      return has({"center", "axis", "radius", "lo", "hi", "open"},
+                 "a cylinder, which has center, axis, radius, lo, hi and open");
+    }
+    case Shape::cone:
+      io.must_word("axis", r.axis, axis_words);
+      io.center("center", r.center, r.axis);
+      io.must("radius_lo", r.radius_lo, range::not_negative);
+      io.must("radius_hi", r.radius_hi, range::not_negative);
+      io.must("lo", r.axial_lo);
+      io.must("hi", r.axial_hi);
+      describe_open(io, r, round_faces);
+      return has({"center", "axis", "radius_lo", "radius_hi", "lo", "hi", "open"},
+                 "a cone, which has center, axis, radius_lo, radius_hi, lo, hi and open");
+  }
+}
+
+template <class IO> void describe(IO& io, GroupTable::Inside& t) { describe_region(io, t.region); }
+
+template <class IO> void describe(IO& io, GroupTable& t) {
+  io.name("name", t.name);
+  io.may("of", t.of);
+  io.may("first", t.first, range::count);
+  io.may("last", t.last, range::count);
+  io.may("middle", t.middle, range::count);
+  io.may("ids", t.ids, range::id);
+  io.table("inside", t.inside);
+}
+
+template <class IO> void describe(IO& io, SupportTable& t) {
+  io.must("group", t.group);
+  io.may("directions", t.directions);
+  io.may("displacement", t.displacement);
+  io.may("constant", t.constant);
+}
+
+template <class IO> void describe(IO& io, LoadTable& t) {
+  io.must("group", t.group);
+  io.may("force", t.force);
+  io.may("total_force", t.total_force);
+  io.may("constant", t.constant);
+}
+
+template <class IO> void describe(IO& io, GravityTable& t) {
+  io.may("group", t.group);
+  io.must("acceleration", t.acceleration);
+  io.may("constant", t.constant);
+}
+
+template <class IO> void describe(IO& io, ContactTable& t) {
+  io.must("between", t.between);
+  if (!io.word("law", t.law, law_words)) return io.skip_the_rest();   // other keys belong to other laws
+  if (t.law == "hertz") {
+    io.one_or_two("youngs_modulus", t.youngs_modulus, range::positive);
+    io.one_or_two("poissons_ratio", t.poissons_ratio, range::poissons_ratio);
+    io.may("effective_modulus", t.effective_modulus, range::not_negative);
+    for (const char* key : {"epsilon", "sigma", "cutoff"})
+      io.foreign(key, "law \"hertz\", which has youngs_modulus, poissons_ratio, effective_modulus and exclude_bonds");
+  } else {
+    io.must("epsilon", t.epsilon, range::not_negative);
+    io.must("sigma", t.sigma, range::positive);
+    io.must("cutoff", t.cutoff, range::positive);
+    for (const char* key : {"youngs_modulus", "poissons_ratio", "effective_modulus"})
+      io.foreign(key, "law \"lj\", which has epsilon, sigma, cutoff and exclude_bonds");
+  }
+  io.may("exclude_bonds", t.exclude_bonds, Range{0, 1000});
+}
+
+template <class IO> void describe(IO& io, WallTable& t) {
+  io.name("name", t.name);
+  io.may("group", t.group);
+  io.word("side", t.inside, side_words);
+  io.may("youngs_modulus", t.youngs_modulus, range::positive);
+  io.may("poissons_ratio", t.poissons_ratio, range::poissons_ratio);
+  io.may("effective_modulus", t.effective_modulus, range::not_negative);
+  io.word("effective_radius", t.curved, effective_radius_words);
+  io.may("displacement", t.displacement);
+  io.may("radius_change", t.radius_change);
+  describe_region(io, t.region);
+}
+
+template <class IO> void describe(IO& io, ViscosityTable& t) {
+  io.may("group", t.group);
+  io.must("coefficient", t.coefficient, range::not_negative);
+}
+
+}  // namespace elamin

@@ -1,0 +1,90 @@
+#pragma once
+// Keys of what is made of particles.
+#include "problem/schema_words.hpp"
+
+namespace elamin {
+
+template <class IO> void describe(IO& io, LammpsTable& t) {
+  io.file("data", t.data);
+  io.may("atom_style", t.atom_style);
+}
+
+/// What every glued structure may say of its stiffnesses.
+template <class IO, class Table> void describe_stiffness(IO& io, Table& t) {
+  io.may("thickness", t.thickness, range::positive);
+  io.may("youngs_modulus", t.youngs_modulus, range::positive);
+  io.may("density", t.density, range::positive);
+  io.may("bond_stiffness", t.bond_stiffness, range::positive);
+  io.may("angle_stiffness", t.angle_stiffness, range::positive);
+  io.may("rest_length", t.rest_length, range::positive);
+  io.may("rest", t.rest, range::degrees);
+}
+
+template <class IO> void describe(IO& io, BeamTable& t) {
+  io.name("name", t.name);
+  io.word("section", t.section, section_words);
+  io.must("particles", t.particles, Range{2, most_particles});
+  io.may("from", t.from);
+  io.may("to", t.to);
+  io.may("center", t.center);
+  io.may("axis", t.axis);
+  io.may("spacing", t.spacing, range::positive);
+  io.must("diameter", t.diameter, range::positive);
+  describe_stiffness(io, t);
+}
+
+template <class IO> void describe(IO& io, LoopTable& t) {
+  io.name("name", t.name);
+  io.word("section", t.section, section_words);
+  io.must("particles", t.particles, Range{3, most_particles});
+  io.may("center", t.center);
+  io.may("normal", t.normal);
+  io.must("radius", t.radius, range::positive);
+  io.must("diameter", t.diameter, range::positive);
+  describe_stiffness(io, t);
+}
+
+template <class IO> void describe(IO& io, SheetTable& t) {
+  io.name("name", t.name);
+  if (!io.word("shape", t.shape, sheet_words)) return io.skip_the_rest();   // other keys belong to other shapes
+  switch (t.shape) {
+    case SheetShape::rectangle:
+      io.must("size", t.size, range::positive);
+      for (const char* key : {"radius", "height"}) io.foreign(key, "a rectangle, which has size");
+      break;
+    case SheetShape::circle:
+      io.must("radius", t.radius, range::positive);
+      for (const char* key : {"size", "height"}) io.foreign(key, "a circle, which has radius");
+      break;
+    case SheetShape::cylinder:
+      io.must("radius", t.radius, range::positive);
+      io.must("height", t.height, range::positive);
+      io.foreign("size", "a cylinder, which has radius and height");
+  }
+  io.may("center", t.center);
+  io.may("normal", t.normal);
+  io.may("lattice_angle", t.lattice_angle);
+  io.must("spacing", t.spacing, range::positive);
+  io.may("diameter", t.diameter, range::positive);
+  describe_stiffness(io, t);
+}
+
+template <class IO> void describe(IO& io, GrainsTable& t) {
+  io.name("name", t.name);
+  io.may("positions", t.positions);
+  io.may_file("file", t.file);
+  io.may("diameter", t.diameter, range::positive);
+  io.may("density", t.density, range::positive);
+}
+
+template <class IO> void describe(IO& io, ConnectTable& t) {
+  io.must("between", t.between);
+  io.must("within", t.within, range::positive);
+  io.may("bonds_per_particle", t.bonds_per_particle, range::count);
+  io.must("bond_stiffness", t.bond_stiffness, range::positive);
+  io.may("rest_length", t.rest_length, range::positive);
+  io.may("angle_stiffness", t.angle_stiffness, range::positive);
+  io.may("rest", t.rest, range::degrees);
+}
+
+}  // namespace elamin

@@ -1,0 +1,85 @@
+#pragma once
+// The words and ranges of a problem file.
+#include "problem/problem.hpp"
+
+#include <limits>
+
+namespace elamin {
+
+/// What a number may be: lo ≤ x ≤ hi, or lo < x ≤ hi.
+struct Range {
+  double lo = -std::numeric_limits<double>::max(), hi = std::numeric_limits<double>::max();
+  bool above = false;
+};
+inline constexpr int most_particles = 100'000'000, most_steps = 1'000'000;
+namespace range {
+inline constexpr Range any{}, positive{0, any.hi, true}, not_negative{0}, count{1, most_particles};
+inline constexpr Range id{1, std::numeric_limits<int>::max()};
+inline constexpr Range poissons_ratio{-1, 0.5, true}, degrees{0, 180};
+}  // namespace range
+
+/// A word of the file and what it stands for.
+template <class T> struct Word {
+  const char* text;
+  T value;
+};
+inline constexpr Word<Section> section_words[]{{"cylinder", Section::cylinder}, {"square", Section::square}};
+inline constexpr Word<SheetShape> sheet_words[]{
+    {"rectangle", SheetShape::rectangle}, {"circle", SheetShape::circle}, {"cylinder", SheetShape::cylinder}};
+inline constexpr Word<const char*> plane_words[]{{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}};
+inline constexpr Word<Shape> shape_words[]{{"plane", Shape::plane},
+                                           {"block", Shape::block},
+                                           {"cylinder", Shape::cylinder},
+                                           {"sphere", Shape::sphere},
+                                           {"cone", Shape::cone}};
+inline constexpr Word<int> axis_words[]{{"x", 0}, {"y", 1}, {"z", 2}};
+inline constexpr Word<const char*> block_faces[]{{"xlo", "xlo"}, {"xhi", "xhi"}, {"ylo", "ylo"},
+                                                 {"yhi", "yhi"}, {"zlo", "zlo"}, {"zhi", "zhi"}};
+inline constexpr Word<const char*> round_faces[]{{"lo", "lo"}, {"hi", "hi"}, {"side", "side"}};   // cylinder, cone
+inline constexpr Word<bool> side_words[]{{"inside", true}, {"outside", false}};
+inline constexpr Word<bool> effective_radius_words[]{{"particle", false}, {"curved", true}};
+inline constexpr Word<const char*> law_words[]{{"hertz", "hertz"}, {"lj", "lj"}};
+inline constexpr Word<StudyType> study_words[]{{"energy", StudyType::energy},
+                                               {"equilibrium", StudyType::equilibrium},
+                                               {"path", StudyType::path},
+                                               {"modes", StudyType::modes}};
+inline constexpr Word<const char*> path_method_words[]{{"load_steps", "load_steps"}};
+inline constexpr Word<WhenUnstable> when_unstable_words[]{{"jump", WhenUnstable::jump}, {"stop", WhenUnstable::stop}};
+inline constexpr Word<const char*> event_words[]{{"limit", "limit"}, {"branch", "branch"}, {"contact", "contact"}};
+inline constexpr Word<const char*> solver_words[]{{"newton", "newton"}};
+inline constexpr Word<Reduce> reduce_words[]{
+    {"mean", Reduce::mean}, {"sum", Reduce::sum}, {"min", Reduce::min}, {"max", Reduce::max}};
+
+/// What is observed: quantity and component in one word; a gap and contacts have no components.
+struct Observed {
+  Quantity quantity;
+  Component component;
+  bool operator==(const Observed&) const = default;
+};
+inline constexpr Word<Observed> observed_words[]{
+    {"position.x", {Quantity::position, Component::x}},
+    {"position.y", {Quantity::position, Component::y}},
+    {"position.z", {Quantity::position, Component::z}},
+    {"position.norm", {Quantity::position, Component::norm}},
+    {"displacement.x", {Quantity::displacement, Component::x}},
+    {"displacement.y", {Quantity::displacement, Component::y}},
+    {"displacement.z", {Quantity::displacement, Component::z}},
+    {"displacement.norm", {Quantity::displacement, Component::norm}},
+    {"reaction.x", {Quantity::reaction, Component::x}},
+    {"reaction.y", {Quantity::reaction, Component::y}},
+    {"reaction.z", {Quantity::reaction, Component::z}},
+    {"reaction.norm", {Quantity::reaction, Component::norm}},
+    {"velocity.x", {Quantity::velocity, Component::x}},
+    {"velocity.y", {Quantity::velocity, Component::y}},
+    {"velocity.z", {Quantity::velocity, Component::z}},
+    {"velocity.norm", {Quantity::velocity, Component::norm}},
+    {"gap", {Quantity::gap, Component::x}},
+    {"contacts", {Quantity::contacts, Component::x}}};
+
+/// How the values of a group's particles become one where the file does not say it.
+constexpr Reduce default_reduce(Quantity q) {
+  if (q == Quantity::gap) return Reduce::min;
+  return q == Quantity::reaction || q == Quantity::contacts ? Reduce::sum : Reduce::mean;
+}
+
+}  // namespace elamin

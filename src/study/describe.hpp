@@ -1,0 +1,23 @@
+#pragma once
+// What `elamin check` says of a model, in lines for reading.
+#include "energy/energy.hpp"
+#include "problem/problem.hpp"
+
+#include <string>
+
+namespace elamin {
+
+/// A few lines for each structure and each connection: particles, stiffnesses K and B, and what follows from them of a
+///   row    EA = 2 K q₀, EI = B q₀, its ends, the effective length between them and Euler's load
+///   loop   EA, EI, radius
+///   sheet  Y = 4K/√3 and ν = 1/3 in its plane, D = 3√3/4 B, spacing and size
+///   grains diameters and mass
+std::string describe_structures(const Problem& problem, const Model& model, const Kinematics& kinematics);
+
+/// One or two lines for each contact law and each wall: its numbers, and who overlaps or is on the wrong side at `state`.
+std::string describe_contacts(const Model& model, Energy& energy, const State& state);
+
+/// The rigid motions that the supports leave free; many of them are counted, not named.
+std::string describe_motions(const Model& model);
+
+}  // namespace elamin

@@ -1,0 +1,96 @@
+#include "study/describe.hpp"
+
+#include "energy/wall_group.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+struct Overlaps {
+  int count = 0;
+  double deepest = 0;
+  void add(const Touch& t) {
+    if (t.gap < 0) ++count, deepest = std::max(deepest, -t.gap);
+  }
+  std::string text(const char* what) const {
+    return count == 0 ? fmt::format("no {} at the start", what)
+                      : fmt::format("{} {}{} at the start, the deepest {:.6g}", count, what, count == 1 ? "" : "s", deepest);
+  }
+};
+
+// Smallest and largest radius of the particles of a group.
+std::array<double, 2> radii(const Model& model, const std::vector<int>& particles) {
+  std::array<double, 2> r{};
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const double radius = model.diameter[particles[k]] / 2;
+    r = k == 0 ? std::array{radius, radius} : std::array{std::min(r[0], radius), std::max(r[1], radius)};
+  }
+  return r;
+}
+
+std::string describe_pair(const Model& model, const PairContact& c, int excluded, const Overlaps& overlaps) {
+  std::string text = fmt::format("contact of '{}' and '{}': ", c.between[0], c.between[1]);
+  const std::string left_out = excluded > 0 ? fmt::format("pairs up to {} bond{} apart are left out", excluded, excluded == 1 ? "" : "s")
+                                            : std::string("bonded pairs too");
+  if (c.law == PairContact::Law::lj)
+    return text + fmt::format("lj, epsilon = {:.10g}, sigma = {:.10g}, cutoff {:.10g}; {}\n", c.epsilon, c.sigma, c.cutoff, left_out);
+  const auto a = radii(model, c.particles[0]), b = radii(model, c.particles[1]);
+  const auto effective = [](double r, double s) { return r + s > 0 ? r * s / (r + s) : 0.0; };
+  const double least = effective(a[0], b[0]), most = effective(a[1], b[1]);
+  text += fmt::format("hertz, E_eff = {:.10g}, r_eff = {:.10g}", c.effective_modulus, least);
+  if (most > least) text += fmt::format(" to {:.10g}", most);
+  return text + fmt::format("; {}\n  {}\n", left_out, overlaps.text("overlap"));
+}
+
+std::string shape_of(const Region& r) {
+  const auto along = [&](const std::string& name) {
+    const std::string ends = std::isfinite(r.axial_lo) || std::isfinite(r.axial_hi)
+                                 ? fmt::format(" from {:.10g} to {:.10g}", r.axial_lo, r.axial_hi) : std::string(" without ends");
+    return fmt::format("a {} along {}{}", name, "xyz"[r.axis], ends);
+  };
+  switch (r.shape) {
+    case Shape::plane: return fmt::format("a plane through [{:.10g}, {:.10g}, {:.10g}], normal [{:.10g}, {:.10g}, {:.10g}]", r.center[0], r.center[1], r.center[2], r.normal[0], r.normal[1], r.normal[2]);
+    case Shape::block: return fmt::format("a block from [{:.10g}, {:.10g}, {:.10g}] to [{:.10g}, {:.10g}, {:.10g}]", r.lo[0], r.lo[1], r.lo[2], r.hi[0], r.hi[1], r.hi[2]);
+    case Shape::sphere: return fmt::format("a sphere of radius {:.10g}", r.radius);
+    case Shape::cylinder: return along("cylinder") + fmt::format(", radius {:.10g}", r.radius);
+    case Shape::cone: return along("cone") + fmt::format(", radii {:.10g} and {:.10g}", r.radius_lo, r.radius_hi);
+  }
+  return "";
+}
+
+std::string describe_wall(const Wall& wall, const State& state, const Overlaps& overlaps) {
+  const Region region = wall_at(wall, state.load_factor).region;
+  int wrong = 0;
+  for (const int p : wall.particles) wrong += region.contains(state.position.col(p)) != wall.inside;
+  const int open = static_cast<int>(std::count(region.open.begin(), region.open.end(), true));
+  std::string text = fmt::format("wall '{}' of '{}': {} of {}, E_eff = {:.10g}, effective radius {}", wall.name, wall.group,
+                                 wall.inside ? "inside" : "outside", shape_of(region), wall.effective_modulus,
+                                 wall.curved ? "with the wall's curvature" : "the particle's");
+  if (open > 0) text += fmt::format(", {} open face{}: both sides act", open, open == 1 ? "" : "s");
+  text += fmt::format("\n  {}", overlaps.text("overlap"));
+  if (wrong > 0 && open == 0) text += fmt::format("; {} particle{} on the wrong side, which feel{} nothing", wrong, wrong == 1 ? "" : "s", wrong == 1 ? "s" : "");
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string describe_contacts(const Model& model, Energy& energy, const State& state) {
+  std::vector<Overlaps> pairs(model.contacts.size()), walls(model.walls.size());
+  for (const Touch& t : energy.touches(state)) {
+    if (t.wall >= 0) walls[t.wall].add(t);
+    else pairs[energy.contact_rules().hertz(t.particle, t.other)].add(t);
+  }
+  std::string text;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    text += describe_pair(model, model.contacts[k], energy.contact_rules().excluded_bonds(static_cast<int>(k)), pairs[k]);
+  for (std::size_t k = 0; k < walls.size(); ++k) text += describe_wall(model.walls[k], state, walls[k]);
+  return text;
+}
+
+}  // namespace elamin

@@ -1,0 +1,192 @@
+#include "study/describe.hpp"
+
+#include "laws/section.hpp"
+#include "model/rigid_motion.hpp"
+#include "model/sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+
+struct Range {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  void add(double v) { least = std::min(least, v), most = std::max(most, v); }
+  bool empty() const { return least > most; }
+  std::string text() const {
+    return most - least <= 1e-12 * std::abs(most) ? fmt::format("{:.10g}", most) : fmt::format("{:.10g} to {:.10g}", least, most);
+  }
+};
+
+// How an end of a row is held: no particle, one (pinned) or at least two (clamped) across its line.
+struct End {
+  int held = 0;
+  std::string name() const { return held == 0 ? "free" : held == 1 ? "pinned" : "clamped"; }
+};
+
+End end_of(const Structure& s, const Kinematics& kinematics, bool last) {
+  End end;
+  for (; end.held < s.count; ++end.held) {
+    const int p = last ? s.first + s.count - 1 - end.held : s.first + end.held;
+    int free = 0;
+    for (int c = 0; c < 3; ++c) free += kinematics.dof(p, c) >= 0;
+    if (free > 1) break;
+  }
+  return end;
+}
+
+// Euler's factor: P = factor · π² EI/L².
+double euler_factor(const End& a, const End& b) {
+  const int least = std::min(std::min(a.held, b.held), 2), most = std::min(std::max(a.held, b.held), 2);
+  if (least == 2) return 4;
+  if (least == 1) return most == 2 ? 2.045748 : 1;
+  return most == 2 ? 0.25 : 0;
+}
+
+// Rest angles of the structure's own angles.
+std::string rest_of(const Model& model, const Structure& s) {
+  Range rest;
+  const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
+  for (const Angle& a : model.angles)
+    if (own(a.particles[0]) && own(a.particles[1]) && own(a.particles[2])) rest.add(model.angle_types[a.type].rest);
+  if (rest.empty() || (rest.least == pi && rest.most == pi)) return "straight at rest";
+  rest.least *= 180 / pi, rest.most *= 180 / pi;
+  return "at rest " + rest.text() + " degrees";
+}
+
+std::string stiffnesses(const Model& model, const Structure& s) {
+  const BondType& bond = model.bond_types[s.bond_type];
+  const double K = bond.stiffness, q0 = bond.rest_length, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
+  return fmt::format("  bond stiffness K = {:.10g}, rest length q0 = {:.10g}, EA = 2 K q0 = {:.10g}\n"
+                     "  angle stiffness B = {:.10g}, {}, EI = B q0 = {:.10g}\n",
+                     K, q0, 2 * K * q0, B, rest_of(model, s), B * q0);
+}
+
+std::string describe_beam(const Model& model, const Structure& s, const Kinematics& kinematics) {
+  const BondType& bond = model.bond_types[s.bond_type];
+  const double K = bond.stiffness, q0 = bond.rest_length, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
+  std::string text = stiffnesses(model, s);
+  const End a = end_of(s, kinematics, false), b = end_of(s, kinematics, true);
+  const int bonds = s.count - 1 - std::max(0, a.held - 1) - std::max(0, b.held - 1);
+  // A clamp sits at the middle of its inner bond.
+  const double length = (bonds + (a.held > 1 ? 0.5 : 0.0) + (b.held > 1 ? 0.5 : 0.0)) * q0;
+  text += fmt::format("  ends: {}, {}; {} bonds can stretch; effective length {:.10g}\n", a.name(), b.name(), std::max(bonds, 0), length);
+  if (const double factor = euler_factor(a, b); factor > 0 && bonds > 0 && B > 0)
+    text += fmt::format("  Euler load {:.6g} pi^2 EI/L^2 = {:.10g}, strain {:.6g}\n", factor, factor * pi * pi * B * q0 / (length * length),
+                        factor * pi * pi * B / (2 * K * length * length));
+  return text;
+}
+
+std::string describe_loop(const Problem& problem, const Model& model, const Structure& s) {
+  std::string text;
+  for (const LoopTable& t : problem.loops)
+    if (t.name == s.name) text = fmt::format("  radius {:.10g}, chord {:.10g}\n", t.radius, 2 * t.radius * std::sin(pi / s.count));
+  return text + stiffnesses(model, s);
+}
+
+std::string describe_sheet(const Problem& problem, const Model& model, const Structure& s) {
+  std::string text;
+  for (const SheetTable& t : problem.sheets) {
+    if (t.name != s.name) continue;
+    switch (t.shape) {
+      case SheetShape::rectangle:
+        if (t.size) text += fmt::format("  rectangle, {:.10g} by {:.10g}", (*t.size)[0], (*t.size)[1]);
+        break;
+      case SheetShape::circle: text += fmt::format("  circle, radius {:.10g}", t.radius.value_or(0)); break;
+      case SheetShape::cylinder:
+        text += fmt::format("  cylinder, radius {:.10g}, height {:.10g}", t.radius.value_or(0), t.height.value_or(0));
+    }
+    text += fmt::format("; lattice at {:.10g} degrees, spacing {:.10g}", t.lattice_angle, t.spacing);
+    if (t.shape != SheetShape::cylinder) continue;
+    Sheet sheet;
+    sheet.shape = Sheet::Shape::cylinder, sheet.radius = t.radius.value_or(0), sheet.height = t.height.value_or(0);
+    sheet.spacing = t.spacing, sheet.lattice_angle = t.lattice_angle * (pi / 180);
+    const Rolled r = rolled(sheet);
+    text += fmt::format(", {:.10g} where it closes, ({}, {}) steps around", r.spacing, r.n1, r.n2);
+  }
+  Range lengths, rest;                                 // bonds of a cylinder are chords
+  std::size_t bonds = 0;
+  const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
+  for (const Bond& b : model.bonds)
+    if (own(b.particles[0]) && own(b.particles[1])) {
+      lengths.add((model.start.at(b.particles[1]) - model.start.at(b.particles[0])).hi.norm());
+      rest.add(model.bond_types[b.type].rest_length);
+      ++bonds;
+    }
+  const double K = model.bond_types[s.bond_type].stiffness, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
+  return text + fmt::format("; {} bonds of length {} as built\n", bonds, lengths.text()) +
+         fmt::format("  bond stiffness K = {:.10g}, rest length q0 = {}, Y = 4 K/sqrt(3) = {:.10g}, nu = 1/3\n", K, rest.text(),
+                     4 * K / std::sqrt(3.0)) +
+         fmt::format("  angle stiffness B = {:.10g}, {}, D = 3 sqrt(3)/4 B = {:.10g}\n", B, rest_of(model, s),
+                     0.75 * std::sqrt(3.0) * B);
+}
+
+std::string describe_grains(const Model& model, const Structure& s) {
+  Range diameters;
+  double mass = 0;
+  bool known = true;
+  for (int p = s.first; p < s.first + s.count; ++p) {
+    diameters.add(model.diameter[p]);
+    mass += model.mass(p), known = known && model.density[p] > 0;
+  }
+  return fmt::format("  diameters {}, {}\n", diameters.text(), known ? fmt::format("mass {:.10g}", mass) : "no density");
+}
+
+// Bonds between two groups that are no structure's own.
+std::string describe_connection(const ConnectTable& t, const Model& model) {
+  std::vector<int> structure(model.particles(), -1);
+  for (std::size_t s = 0; s < model.structures.size(); ++s)
+    std::fill_n(structure.begin() + model.structures[s].first, model.structures[s].count, static_cast<int>(s));
+  std::array<std::vector<bool>, 2> member;
+  for (int side = 0; side < 2; ++side) {
+    member[side].resize(model.particles());
+    for (const Group& g : model.groups)
+      if (g.name == t.between[side])
+        for (const int p : g.particles) member[side][p] = true;
+  }
+  Range lengths;
+  int bonds = 0;
+  for (const Bond& b : model.bonds) {
+    const auto [i, j] = b.particles;
+    const bool joins = (member[0][i] && member[1][j]) || (member[0][j] && member[1][i]);
+    if (!joins || structure[i] == structure[j] || model.bond_types[b.type].stiffness != t.bond_stiffness) continue;
+    lengths.add(model.bond_types[b.type].rest_length);
+    ++bonds;
+  }
+  std::string text = fmt::format("connection of '{}' and '{}' within {:.10g}: K = {:.10g}", t.between[0], t.between[1], t.within, t.bond_stiffness);
+  if (bonds > 0) text += fmt::format(", {} bond{} between structures, rest length {}", bonds, bonds == 1 ? "" : "s", lengths.text());
+  if (t.angle_stiffness) text += fmt::format(", angles with B = {:.10g}", *t.angle_stiffness);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string describe_structures(const Problem& problem, const Model& model, const Kinematics& kinematics) {
+  std::string text;
+  for (const Structure& s : model.structures) {
+    text += fmt::format("{} '{}': {} particles\n", s.kind, s.name, s.count);
+    if (s.kind == "grains") text += describe_grains(model, s);
+    else if (s.bond_type < 0) continue;
+    else if (s.kind == "loop") text += describe_loop(problem, model, s);
+    else if (s.kind == "sheet") text += describe_sheet(problem, model, s);
+    else text += describe_beam(model, s, kinematics);
+  }
+  for (const ConnectTable& t : problem.connections) text += describe_connection(t, model);
+  return text;
+}
+
+std::string describe_motions(const Model& model) {
+  constexpr std::size_t most = 10;
+  const std::vector<RigidMotion> motions = free_rigid_motions(model, model.start);
+  std::string text = motions.empty() ? "no rigid motion is free\n" : "";
+  for (std::size_t k = 0; k < std::min(most, motions.size()); ++k) text += fmt::format("free rigid motion: {}\n", motions[k].name);
+  if (motions.size() > most) text += fmt::format("and {} more\n", motions.size() - most);
+  return text;
+}
+
+}  // namespace elamin
