@@ -10,7 +10,8 @@ using namespace elamin;
 
 int main() {
   const int n = 14;
-  const double d = 1e-3, E = 0.96e6, K = bond_stiffness(Section::cylinder, E, d, d), B = angle_stiffness(Section::cylinder, E, d, d);
+  const double d = 1e-3, E = 0.96e6;
+  const double K = bond_stiffness(Section::cylinder, E, d, d), B = angle_stiffness(Section::cylinder, E, d, d);
   Model model;
   Field x = Field::Zero(3, n);
   for (int i = 0; i < n; ++i) x(2, i) = i * d;
@@ -27,10 +28,13 @@ int main() {
 
   Energy energy(model);
   Newton newton(energy);
-  LoadSteps path(newton, model.start, {.from = 0, .to = 0.3, .steps = 20, .when_unstable = WhenUnstable::stop, .start = {}, .stops = {}});
+  LoadStepOptions options;
+  options.to = 0.3, options.steps = 20, options.when_unstable = WhenUnstable::stop;
+  LoadSteps path(newton, model.start, options);
   double found = 0;
   while (const auto point = path.next()) {
-    std::printf("%-9s load factor %.12f energy %.6e negative %d\n", point->label.c_str(), point->state.load_factor, point->energy.total(), point->stability.negative);
+    std::printf("%-9s load factor %.12f energy %.6e negative %d\n", point->label.c_str(), point->state.load_factor,
+                point->energy.total(), point->stability.negative);
     if (point->label == "branch:1") found = point->state.load_factor;
   }
   const double s = std::sin(pi / 12);

@@ -61,12 +61,12 @@ std::optional<ContactEvent> locate_contact(Newton& newton, const ContactSet& bef
       if (!e.point.report.converged()) return {};
       return sample(*first, e);
     });
-    if (!zero) return {};
+    if (!zero) return ContactEvent{};
     upper = zero->e;
   }
   for (const ContactKey& key : changed)
     if (std::abs(gap(key, upper)) <= together * energy.model().diameter[key.particle]) toggle(now, key);
-  return ContactEvent{std::move(upper), std::move(now)};
+  return ContactEvent{true, std::move(upper), std::move(now)};
 }
 
 }  // namespace elamin

@@ -18,13 +18,14 @@ using ContactSet = std::set<ContactKey>;
 ContactSet closed_contacts(Energy& energy, const State& state);
 
 struct ContactEvent {
+  bool found = false;                  // else: something changes, but an equilibrium between could not be computed
   Equilibrium at;
   ContactSet after;                    // what is closed beyond the event
 };
 
 /// The first change of the closed contacts between two equilibria of one branch, located at the zero of the gap that changes
 /// sign, to rounding. `before`: what is closed from `a` on, which at an event differs from what overlaps at `a` itself.
-/// Contacts that change together are one event. Nothing if none changes, or if an equilibrium between cannot be found.
+/// Contacts that change together are one event. Nothing if none changes.
 std::optional<ContactEvent> locate_contact(Newton& newton, const ContactSet& before, const Equilibrium& a, const Equilibrium& b);
 
 }  // namespace elamin

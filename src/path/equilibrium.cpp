@@ -10,19 +10,6 @@ namespace elamin {
 
 namespace {
 
-// Solves H t = b in the complement of the zero modes, with whichever factorisation exists.
-Vector solve_projected(Factors& factors, const Eigen::MatrixXd& zero, Vector b) {
-  const auto project = [&](Vector v) {
-    if (zero.cols() > 0) v -= zero * (zero.transpose() * v);
-    return v;
-  };
-  b = project(b);
-  if (zero.cols() == 0 && factors.try_cholesky(0)) return factors.cholesky().solve(b);
-  const double shift = zero.cols() > 0 ? 100 * factors.zero_level() : 0.0;
-  if (!factors.try_pivoted(shift)) factors.try_pivoted(shift + factors.zero_level());
-  return project(factors.pivoted().solve(b));
-}
-
 // A basis of the zero modes that have been explained, orthonormal, and their names.
 class Explained {
  public:
@@ -106,6 +93,24 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
   if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more particles");
 }
 
+Field difference(const State& a, const State& b) { return (a.position - b.position) + (a.tail - b.tail); }
+
+// Whether the corrector moved so little that the branch is still the same: less than the predictor did, all in all. What
+// touches is pushed along by supports and walls, whatever the tangent was before the touch: then every particle may move
+// by thrice the largest of these movements besides.
+bool stays(const Energy& energy, const Equilibrium& from, const State& driven, const State& predicted, const State& corrected) {
+  const State& start = from.point.state;
+  const double change = std::abs(predicted.load_factor - start.load_factor);
+  const Field moved = difference(corrected, predicted);
+  const Model& model = energy.model();
+  if (model.contacts.empty() && model.walls.empty())
+    return energy.kinematics().restrict(moved).norm() <= change * from.tangent.norm();
+  double pushed = difference(driven, start).colwise().norm().maxCoeff();
+  for (const Wall& w : model.walls) pushed = std::max(pushed, change * (w.displacement.norm() + std::abs(w.radius_change)));
+  const double predicted_most = change * energy.kinematics().extend(from.tangent).colwise().norm().maxCoeff();
+  return moved.colwise().norm().maxCoeff() <= predicted_most + 3 * pushed;
+}
+
 }  // namespace
 
 Equilibrium assess(Newton& newton, const State& state, const Report& report) {
@@ -126,35 +131,47 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     named = name_zero_modes(energy, state, e.zero_modes, s.zero_modes);
   }
   s.stable = s.negative == 0 && named;
-  e.tangent = solve_projected(newton.factors(), e.zero_modes, -energy.load_derivative());
+  newton.factors().factorize_holding(e.zero_modes);
+  e.tangent = newton.factors().solve_holding(-energy.load_derivative());
   return e;
 }
 
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor) {
   const Kinematics& kinematics = newton.energy().kinematics();
-  State predicted = from.point.state;
-  const Vector step = (load_factor - from.point.state.load_factor) * from.tangent;
-  kinematics.prescribe(predicted, load_factor);
-  kinematics.retract(predicted, step);
+  Energy& energy = newton.energy();
+  const State& start = from.point.state;
+  State driven = start;                                         // what is prescribed moves; then what is free, as predicted
+  kinematics.prescribe(driven, load_factor);
+  State predicted = driven;
+  kinematics.retract(predicted, from.tangent, load_factor - start.load_factor);
   const auto fail = [&](const State& at, Report report, const std::string& why) {
     report.status = Status::not_converged, report.why = why;
     Equilibrium failed;
     failed.point.state = at, failed.point.report = std::move(report);
     return failed;
   };
-  if (newton.energy().passage(from.point.state, predicted) < 1)
-    return fail(predicted, {}, "the step would carry something through something else");
+  // A contact that hardly touches yields without end to the tangent: then the prediction is cut short of what is in its way.
+  if (const double part = energy.passage(start, predicted); part < 1) {
+    if (energy.passage(start, driven) < 1) return fail(driven, {}, "the step would carry something through something else");
+    predicted = driven;
+    kinematics.retract(predicted, from.tangent, part * (load_factor - start.load_factor));
+    if (energy.passage(start, predicted) < 1) predicted = driven;
+  }
   State state = predicted;
-  Report report = newton.correct(state, from.zero_modes, &from.point.state);
+  Report report = newton.correct(state, from.zero_modes, &start);
+  const bool meets = !energy.model().contacts.empty() || !energy.model().walls.empty();
+  if (report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
+    // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
+    state = predicted;
+    report = newton.minimise(state);
+  }
   if (!report.converged()) {
     Equilibrium failed;
     failed.point.state = state, failed.point.report = report;
     return failed;
   }
-  const Field corrected = (state.position - predicted.position) + (state.tail - predicted.tail);
-  if (kinematics.restrict(corrected).norm() > step.norm())
-    return fail(state, report, "the corrector went further than the predictor");
-  if (newton.energy().passage(from.point.state, state) < 1)
+  if (!stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
+  if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   return assess(newton, state, report);
 }

@@ -9,6 +9,7 @@ struct Equilibrium {
   PathPoint point;
   Vector tangent;                      // dx/dλ at fixed zero modes (dofs) [length]
   Eigen::MatrixXd zero_modes;          // orthonormal, dofs × count: rigid motions and symmetries that cost nothing
+  EigenPairs lowest;                   // eigenpairs as far as they were asked for: where the search at a neighbour begins
 };
 
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.

@@ -12,7 +12,7 @@ namespace elamin {
 namespace {
 
 constexpr int finest = 20;                          // halvings of a step
-constexpr int seek_limit = 8;                       // halvings after which a limit point is looked for
+constexpr int seek_limit = 8, seek_again = 6;       // halvings after which a limit point is looked for, and every so many more
 constexpr std::int64_t whole = std::int64_t(1) << finest;
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a jump is made
 
@@ -102,16 +102,20 @@ bool LoadSteps::step() {
   std::optional<Event> event;
   std::optional<ContactEvent> contact;
   bool accepted = candidate.point.report.converged();
-  if (accepted && options_.contacts && (contact = locate_contact(newton_, closed_, current_, candidate))) candidate = contact->at;
+  if (accepted && options_.contacts && (contact = locate_contact(newton_, closed_, current_, candidate))) {
+    if (contact->found) candidate = contact->at;
+    else accepted = halvings_ == finest, contact.reset();       // shorter steps, as long as there are
+  }
   if (accepted && candidate.point.stability.negative != current_.point.stability.negative) {
     event = locate_crossing(newton_, current_, candidate);
     accepted = event.has_value();
   }
   if (!accepted) {
     if (candidate.point.report.status == Status::interrupted) return end(Status::interrupted, "interrupted");
-    if (halvings_ == seek_limit) {
+    if (halvings_ >= seek_limit && (halvings_ - seek_limit) % seek_again == 0) {
       if (std::optional<Event> limit = locate_limit(newton_, current_, target)) return lose_stability(*limit, goal);
     }
+    if (halvings_ == finest && options_.when_unstable == WhenUnstable::jump && fall(target)) return true;
     if (halvings_ == finest)
       return end(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}",
           current_.point.state.load_factor, std::abs(target - current_.point.state.load_factor), candidate.point.report.why));
@@ -165,6 +169,26 @@ bool LoadSteps::lose_stability(const Event& located, double target) {
   current_ = next;
   closed_ = closed_contacts(newton_.energy(), current_.point.state);
   interval_start_ = past, done_ = 0;
+  return true;
+}
+
+// Where the branch ends within the finest step, at an event that could not be resolved: the minimum that is reached by going
+// down from there, beyond.
+bool LoadSteps::fall(double target) {
+  State state = current_.point.state;
+  const double at = state.load_factor, before = newton_.energy().value(state);
+  newton_.energy().kinematics().prescribe(state, target);
+  if (newton_.energy().passage(current_.point.state, state) < 1) return false;
+  const Report report = newton_.minimise(state, Pace::downhill);
+  if (!report.converged()) return false;
+  current_ = assess(newton_, state, report);
+  closed_ = closed_contacts(newton_.energy(), state);
+  ++branch_;
+  notes_.push_back(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
+                               at, before, report.energy));
+  interval_start_ = target, done_ = 0;
+  if (target == targets_[interval_]) ++interval_;
+  emit(current_.point);
   return true;
 }
 

@@ -31,6 +31,7 @@ class LoadSteps {
   bool step();
   bool meet(ContactEvent event);
   bool lose_stability(const Event& event, double target);
+  bool fall(double target);
   bool jump(const Event& event, double target);
   void emit(PathPoint point);
   void emit(Event& event);

@@ -3,35 +3,47 @@
 #include "path/bordered.hpp"
 #include "path/root.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
 #include <cmath>
 
 namespace elamin {
 
 namespace {
 
-// The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
-double eigenvalue(Newton& newton, const Equilibrium& e, int index) {
+// The lowest eigenpairs at the equilibrium without the known zero modes Z: of the span V of so many eigenvectors more as
+// there are known ones, what is orthogonal to VᵀZ. So it does not matter how a critical mode and a zero mode mix where
+// their eigenvalues meet, and the stiff directions, in which Z is not exact beside its own state, stay out.
+// `e.lowest` is where the search begins and what it leaves for a neighbour.
+EigenPairs lowest_but(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, int count) {
   newton.energy().evaluate(e.point.state);
-  const int zeros = static_cast<int>(e.zero_modes.cols());
-  const EigenPairs pairs = newton.factors().lowest(index + zeros + 1);
-  std::vector<double> values;
-  for (Eigen::Index j = 0; j < pairs.values.size(); ++j)
-    if (zeros == 0 || (e.zero_modes.transpose() * pairs.vectors.col(j)).norm() < 0.5) values.push_back(pairs.values[j]);
-  return index < static_cast<int>(values.size()) ? values[index] : values.empty() ? 0.0 : values.back();
+  const double guess = e.lowest.values.size() > 0 ? 2 * e.lowest.values.cwiseAbs().maxCoeff() : 0.0;
+  const EigenPairs pairs = e.lowest = newton.factors().lowest(count + static_cast<int>(known.cols()), guess, 1e-11, e.lowest.vectors);
+  if (known.cols() == 0 || pairs.values.size() <= known.cols()) return pairs;
+  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(pairs.vectors.transpose() * known).householderQ();
+  const Eigen::MatrixXd others = Q.rightCols(pairs.values.size() - known.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(others.transpose() * pairs.values.asDiagonal() * others);
+  return {small.eigenvalues(), pairs.vectors * (others * small.eigenvectors())};
+}
+
+// The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
+double eigenvalue(Newton& newton, Equilibrium& e, int index) {
+  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1).values;
+  return values.size() == 0 ? 0.0 : values[std::min<Eigen::Index>(index, values.size() - 1)];
 }
 
 // Eigenvectors whose eigenvalues are zero beside `scale`, without the zero modes that were there before.
-Eigen::MatrixXd critical_modes(Newton& newton, const Equilibrium& e, int index, double scale, const Eigen::MatrixXd& known) {
-  newton.energy().evaluate(e.point.state);
+Eigen::MatrixXd critical_modes(Newton& newton, Equilibrium& e, int index, double scale, const Eigen::MatrixXd& known) {
   constexpr int most_multiple = 6;
-  const EigenPairs pairs = newton.factors().lowest(index + static_cast<int>(known.cols()) + most_multiple);
+  const EigenPairs pairs = lowest_but(newton, e, known, index + most_multiple);
   Eigen::MatrixXd modes(pairs.vectors.rows(), 0);
-  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
-    if (std::abs(pairs.values[j]) > scale) continue;
-    if (known.cols() > 0 && (known.transpose() * pairs.vectors.col(j)).norm() > 0.5) continue;
-    modes.conservativeResize(Eigen::NoChange, modes.cols() + 1);
-    modes.rightCols(1) = pairs.vectors.col(j);
-  }
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j)
+    if (std::abs(pairs.values[j]) <= scale) {
+      modes.conservativeResize(Eigen::NoChange, modes.cols() + 1);
+      modes.rightCols(1) = pairs.vectors.col(j);
+    }
   return canonical_modes(newton.energy().kinematics(), modes);
 }
 
@@ -68,7 +80,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Equilibrium& a, const
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     Equilibrium start = from.e;
     if (std::abs(from.f) < 1e-6 * scale) {                     // close by, the critical modes stay as they are
-      const Eigen::MatrixXd modes = critical_modes(newton, from.e, index, 1e-5 * scale, known);
+      const Eigen::MatrixXd modes = critical_modes(newton, start, index, 1e-5 * scale, known);
       start.zero_modes.resize(modes.rows(), known.cols() + modes.cols());
       if (known.cols() > 0) start.zero_modes.leftCols(known.cols()) = known;
       start.zero_modes.rightCols(modes.cols()) = modes;
@@ -76,22 +88,23 @@ std::optional<Event> locate_crossing(Newton& newton, const Equilibrium& a, const
     }
     Equilibrium e = continue_to(newton, start, t);
     if (!e.point.report.converged()) return {};
-    e.zero_modes = known;
+    e.zero_modes = known, e.lowest = from.e.lowest;
     return Sample{t, eigenvalue(newton, e, index), std::move(e)};
   });
   if (!zero || std::abs(zero->f) > 1e-6 * scale) return {};
-  return finish(newton, zero->e, EventKind::branch, index, std::max(1e-7 * scale, 0.0), known);
+  return finish(newton, zero->e, EventKind::branch, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known);
 }
 
 std::optional<Event> locate_limit(Newton& newton, const Equilibrium& a, double reach) {
   const int index = a.point.stability.negative;
   const Eigen::MatrixXd known = a.zero_modes;
   const ArcStep arc(newton.energy(), a, reach > a.point.state.load_factor ? 1 : -1);
-  Sample lower{0, eigenvalue(newton, a, index), a};
-  const auto evaluate = [&](double s, const Sample&) -> std::optional<Sample> {
+  Equilibrium first = a;
+  Sample lower{0, eigenvalue(newton, first, index), first};
+  const auto evaluate = [&](double s, const Sample& from) -> std::optional<Sample> {
     Equilibrium e = arc.equilibrium(newton, s);
     if (!e.point.report.converged()) return {};
-    e.zero_modes = known;
+    e.zero_modes = known, e.lowest = from.e.lowest;
     return Sample{s, eigenvalue(newton, e, index), std::move(e)};
   };
   constexpr int most = 60;

@@ -81,14 +81,14 @@ void check_load(LoadTable& l, Mistakes& mistakes) {
     mistakes.add(l.place, "force or total_force is missing; give one of them, a list of three numbers [x, y, z]");
 }
 
-void check_path(PathTable& t, Mistakes& mistakes) {
+void check_path(PathTable& t, bool is_path, Mistakes& mistakes) {
   if (t.place.broken) return;
   if (t.from == t.to)
     mistakes.add(t.place, "to",
                  fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
   if (t.start_lambda && t.start.empty())
     mistakes.add(t.place, "start_lambda", "is of no use without start, the state to start from");
-  if (t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
+  if (is_path && t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
     mistakes.add(t.place, "start_lambda",
                  fmt::format("is the load factor where the path ends, {}; a path leads from one to another", t.to));
 }
@@ -109,7 +109,7 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
   }
   for (GravityTable& g : problem.gravity) names.refer(g.place, "group", g.group);
   for (ViscosityTable& v : problem.viscosity) names.refer(v.place, "group", v.group);
-  check_path(problem.path, mistakes);
+  check_path(problem.path, problem.study == StudyType::path, mistakes);
   check_interactions(problem, names, mistakes);
   check_results(problem, names, mistakes);
 }

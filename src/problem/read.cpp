@@ -23,7 +23,7 @@ void complete(Problem& p) {
     if (!s.thickness) s.thickness = s.spacing;
     if (!s.diameter) s.diameter = s.spacing;
   }
-  if (!p.path.start.empty() && !p.path.start_lambda) p.path.start_lambda = p.path.from;
+  if (!p.path.start.empty() && !p.path.start_lambda) p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
 }
 
 /// Names inside tables that the schema does not know.

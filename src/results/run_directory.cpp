@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double at_touch = 1e-9;   // of the diameter: a gap that an event has located, whichever sign rounding gave it
+
 std::string place(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
 }
@@ -78,7 +80,7 @@ void RunDirectory::add_state(const std::string& label, const State& state, const
   write_state(state_file(label), model_, state,
               fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
   for (const Touch& t : touches) {
-    if (!(t.gap < 0)) continue;
+    if (!(t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
     const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);
     const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
     contacts_.add({label, state.load_factor, model_.id[t.particle], second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});

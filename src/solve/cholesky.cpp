@@ -3,6 +3,7 @@
 #include "core/timing.hpp"
 
 #include <cholmod.h>
+#include <omp.h>
 
 extern "C" void openblas_set_num_threads(int);
 
@@ -21,6 +22,13 @@ cholmod_sparse view(const SparseMatrix& m) {
   a.stype = -1, a.itype = CHOLMOD_INT, a.xtype = CHOLMOD_REAL, a.dtype = CHOLMOD_DOUBLE, a.sorted = 1, a.packed = 1;
   return a;
 }
+
+// CHOLMOD opens teams of four threads for loops of a few hundred numbers, whatever it is told: none while this lives.
+struct OneThread {
+  int levels = omp_get_max_active_levels();
+  OneThread() { omp_set_max_active_levels(0); }
+  ~OneThread() { omp_set_max_active_levels(levels); }
+};
 
 }  // namespace
 
@@ -53,7 +61,9 @@ Cholesky::~Cholesky() = default;
 
 void Cholesky::analyze(const SparseMatrix& pattern) {
   const Timed timed(seconds_);
+  const OneThread one;
   cholmod_->release();
+  if (pattern.cols() == 0) return;
   cholmod_sparse a = view(pattern);
   cholmod_->factor = cholmod_analyze(&a, &cholmod_->common);
   if (!cholmod_->factor) throw std::runtime_error("CHOLMOD: the analysis of the pattern failed (out of memory?)");
@@ -62,6 +72,7 @@ void Cholesky::analyze(const SparseMatrix& pattern) {
 bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
   if (hessian.cols() == 0) return true;
   const Timed timed(seconds_);
+  const OneThread one;
   cholmod_sparse a = view(hessian);
   double beta[2] = {shift, 0};
   const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, cholmod_->factor, &cholmod_->common);
@@ -72,6 +83,7 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
   if (b.rows() == 0) return b;
   const Timed timed(seconds_);
+  const OneThread one;
   cholmod_dense rhs{};
   rhs.nrow = b.rows(), rhs.ncol = b.cols(), rhs.nzmax = b.size(), rhs.d = b.rows();
   rhs.x = const_cast<double*>(b.data()), rhs.xtype = CHOLMOD_REAL, rhs.dtype = CHOLMOD_DOUBLE;

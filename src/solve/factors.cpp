@@ -1,6 +1,7 @@
 #include "solve/factors.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -47,6 +48,24 @@ bool Factors::try_pivoted(double shift) {
   return pivoted().factorize(energy_.hessian(), shift);
 }
 
+void Factors::factorize_holding(const Eigen::MatrixXd& held) {
+  const double shift = held.cols() > 0 ? 100 * zero_level() : 0.0;
+  definite_ = try_cholesky(shift);
+  if (!definite_ && !try_pivoted(shift)) try_pivoted(shift + zero_level());
+  held_.resize(energy_.dofs(), 0);
+  response_.resize(energy_.dofs(), held.cols());
+  for (Eigen::Index j = 0; j < held.cols(); ++j) response_.col(j) = solve_holding(held.col(j));
+  held_ = held;
+}
+
+// μ from Zᵀ(H⁻¹b − H⁻¹Z μ) = 0; projected once more, as H⁻¹Z is large along Z.
+Vector Factors::solve_holding(const Vector& b) {
+  Vector p = definite_ ? cholesky_.solve(b) : pivoted().solve(b);
+  for (int k = 0; k < 2 && held_.cols() > 0; ++k)
+    p -= response_ * (held_.transpose() * response_).eval().partialPivLu().solve(held_.transpose() * p);
+  return p;
+}
+
 double Factors::zero_level() const {
   const SparseMatrix& h = energy_.hessian();
   Vector sums = Vector::Zero(h.cols());
@@ -80,7 +99,7 @@ double Factors::make_positive(double guess) {
   return shift;
 }
 
-EigenPairs Factors::lowest(int count, double guess, double accuracy) {
+EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen::MatrixXd& start) {
   const int n = energy_.dofs();
   count = std::min(count, n);
   const int block = std::min(n, count + 4);
@@ -89,6 +108,7 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy) {
   double shift = guess;
   if (!(guess > 0 && try_cholesky(guess))) shift = make_positive(guess);
   Eigen::MatrixXd x = starting_block(n, block);
+  if (start.rows() == n) x.leftCols(std::min<Eigen::Index>(block, start.cols())) = start.leftCols(std::min<Eigen::Index>(block, start.cols()));
   Vector values = Vector::Zero(block), before;
   const int settle = 3, most = 200;
   for (int k = 0; k < most; ++k) {

@@ -35,8 +35,16 @@ class Factors {
   /// The `count` lowest eigenpairs, by block inverse iteration with Rayleigh–Ritz on a few guard vectors more, which
   /// finds multiple eigenvalues as such; values are Rayleigh quotients formed element by element (Energy::quadratic_form).
   /// `guess`: a shift that may make the Hessian positive definite, as of make_positive. `accuracy`: of the eigenvalues,
-  /// relative to the largest of them.
-  EigenPairs lowest(int count, double guess = 0, double accuracy = 1e-11);
+  /// relative to the largest of them. `start`: vectors that may be near, dofs × any number.
+  EigenPairs lowest(int count, double guess = 0, double accuracy = 1e-11, const Eigen::MatrixXd& start = {});
+
+  /// Factorises the Hessian as it is, definite or not, for solutions of
+  ///   H p + Z μ = b,   Zᵀ p = 0
+  /// where the columns of `held` (orthonormal, dofs × m) keep still: zero modes, critical modes. H may be singular along
+  /// them; a shift of 100 σ then makes it regular.
+  void factorize_holding(const Eigen::MatrixXd& held);
+  /// p of the system above, by block elimination; the factors must be those of factorize_holding.
+  Vector solve_holding(const Vector& b);
 
   Cholesky& cholesky() { return cholesky_; }
   PivotedFactor& pivoted();
@@ -52,6 +60,8 @@ class Factors {
   std::unique_ptr<PivotedFactor> pivoted_;       // made when first needed
   int cholesky_version_ = -1, pivoted_version_ = -1;   // of the pattern that was analysed
   int factorizations_ = 0;
+  bool definite_ = true;                         // which of the two holds the factor of factorize_holding
+  Eigen::MatrixXd held_, response_;              // Z, H⁻¹ Z
 };
 
 }  // namespace elamin

@@ -59,7 +59,7 @@ Report Newton::finish(const State& state, Report report, const Halt& halt) {
 
 std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& report) const {
   if (!std::isfinite(energy_.last_terms().total()))
-    return Halt{Status::not_converged, "the energy is not finite here: particles coincide"};
+    return Halt{Status::not_converged, "the energy is not finite here: particles coincide, or do not fit into a curved wall"};
   if (interrupted()) return Halt{Status::interrupted, "interrupted"};
   if (const std::string gone = energy_.escaped(state, lost); !gone.empty())
     return Halt{Status::not_converged, gone + " moves away without end; hold it with a [[support]], or with a wall"};
@@ -69,14 +69,18 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
                                                  report.residual, falls.empty() ? "" : "; " + falls + " flies freely under a force")};
 }
 
-// The part of p that one step may take: turns within reach, nothing longer than the whole, nothing through anything.
-double Newton::largest_part(const State& state, const Vector& p) const {
+// The part of p that one step may take: turns within reach, nothing longer than the whole …
+double Newton::part_within_turn(const State& state, const Vector& p) const {
   constexpr double tiny = std::numeric_limits<double>::min();
-  const double part = std::min({1.0, largest_turn / std::max(energy_.distortion(state, p), tiny),
-                                energy_.longest_step() / std::max(infinity_norm(p), tiny)});
+  return std::min({1.0, largest_turn / std::max(energy_.distortion(state, p), tiny),
+                   energy_.longest_step() / std::max(infinity_norm(p), tiny)});
+}
+
+// … and nothing through anything: the part of part · p.
+double Newton::free_part(const State& state, const Vector& p, double part) const {
   State to = state;
   energy_.kinematics().retract(to, p, part);
-  return part * energy_.passage(state, to);
+  return energy_.passage(state, to);
 }
 
 // The step with the factor of H + shift I at hand, from the last evaluation.
@@ -163,6 +167,18 @@ double Newton::make_convex(State& state, const Vector& g, double guess, bool set
   return shift;
 }
 
+// The Newton step, with a shift τ so large that no dof moves by more than about `reach`: along a direction that has a force
+// but hardly a stiffness, as of a grain that must slide, the step would be of no use however it is cut.
+Newton::Step Newton::step_within(double reach, const Vector& g, double& shift) {
+  Step step = newton_step(g, shift);
+  while (infinity_norm(step.p) > 2 * reach) {
+    shift = std::max(4 * shift, infinity_norm(g) / (4 * reach));
+    if (!factors_.try_cholesky(shift)) continue;
+    step = newton_step(g, shift);
+  }
+  return step;
+}
+
 Report Newton::minimise(State& state, Pace pace) {
   const Stopwatch watch;
   Report report;
@@ -174,6 +190,7 @@ Report Newton::minimise(State& state, Pace pace) {
     return finish(state, report, {status, std::move(why)});
   };
   double shift = 0;                                             // the last one: a guess for the next
+  double reach = energy_.longest_step();                        // of a step, as far as the last ones could be taken
   int unseen = 0;                                               // steps whose change of energy rounding hid
   State previous;
   bool linearised = false;                                      // previous holds where the last step came from
@@ -203,8 +220,9 @@ Report Newton::minimise(State& state, Pace pace) {
       continue;
     }
     if (settled) return end(Status::not_converged, "a saddle could not be left along its negative curvature");
-    const Step step = newton_step(g, shift);
-    double alpha = largest_part(state, step.p);
+    const Step step = step_within(reach, g, shift);
+    const double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), first = turn * free;
+    double alpha = first;
     State next;
     // Where rounding hides the energy's change and the model is convex, Newton's step itself is the best there is.
     const bool hidden = std::abs(step.slope) <= step.energy_rounding && shift <= 100 * factors_.zero_level() && ++unseen <= most_unseen;
@@ -215,11 +233,12 @@ Report Newton::minimise(State& state, Pace pace) {
     while (!hidden && !take(state, step, alpha, pace, next)) {
       ++report.evaluations;
       alpha /= 2;
-      if (alpha < 1e-12)
+      if (alpha < 1e-12 * first)
         return end(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
             std::abs(step.slope) <= step.energy_rounding ? "residual below rounding" : "energy", report.residual));
     }
     moved = alpha * infinity_norm(step.p);
+    reach = free < 0.5 ? std::min(reach, 2 * first * infinity_norm(step.p)) : std::min(std::max(reach, 4 * moved), energy_.longest_step());
     previous = state;
     linearised = pace == Pace::long_steps;
     state = next;
@@ -241,7 +260,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
   step.keep_direction = true;
   if (!(step.curvature < 0)) return false;
-  const double farthest = largest_part(state, largest_turn * step.p) * largest_turn;
+  const double farthest = free_part(state, step.p, largest_turn) * largest_turn;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
@@ -263,15 +282,6 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
   Report report;
   const int factorizations_before = factors_.factorizations();
   const double factor_seconds_before = factors_.seconds();
-  const auto project = [&](Vector v) {
-    if (held.cols() > 0) v -= held * (held.transpose() * v);
-    return v;
-  };
-  bool definite = true;
-  const auto solve = [&](const Vector& g) {
-    const Vector b = project(g);
-    return project(definite ? factors_.cholesky().solve(b) : factors_.pivoted().solve(b));
-  };
   const auto end = [&](Status status, std::string why) {
     report.factorizations = factors_.factorizations() - factorizations_before;
     report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
@@ -286,19 +296,17 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const bool settled = report.residual <= options_.tolerance;
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report)) return end(halt->status, halt->why);
-    const double shift = held.cols() > 0 ? 100 * factors_.zero_level() : 0.0;    // as above: held modes may be zero modes
-    definite = factors_.try_cholesky(shift);
-    if (!definite && !factors_.try_pivoted(shift)) factors_.try_pivoted(shift + factors_.zero_level());
+    factors_.factorize_holding(held);
     if (settled) {
-      polish(state, report, solve);
+      polish(state, report, [&](const Vector& g) { return factors_.solve_holding(g); });
       return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
     }
-    const Vector p = -solve(energy_.gradient());
+    const Vector p = -factors_.solve_holding(energy_.gradient());
     sizes.push_back(p.norm());
     const std::size_t k = sizes.size() - 1;
     if (!p.allFinite() || (k >= 4 && !(sizes[k] < sizes[k - 2])))
       return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", report.residual));
-    const double alpha = largest_part(state, p);
+    const double turn = part_within_turn(state, p), alpha = turn * free_part(state, p, turn);
     moved = alpha * infinity_norm(p);
     previous = state;
     from = &previous;

@@ -58,8 +58,10 @@ class Newton {
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
   std::optional<Halt> must_halt(const State& state, const Report& report) const;
-  double largest_part(const State& state, const Vector& p) const;
+  double part_within_turn(const State& state, const Vector& p) const;
+  double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
+  Step step_within(double reach, const Vector& g, double& shift);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
   bool take_downhill(const State& from, const Step& step, double alpha, State& to);
   bool take_long(const State& from, const Step& step, double alpha, State& to);

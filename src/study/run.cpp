@@ -30,12 +30,15 @@ std::string default_directory(const std::string& file) {
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 // The name of a run's directory: its number and what is swept (but for expected values), the last word of each key.
+constexpr std::size_t longest_name = 120;
 std::string run_name(std::size_t number, std::size_t runs, const Settings& swept) {
   std::string name = fmt::format("{:0{}}", number + 1, fmt::formatted_size("{}", runs));
   for (const Setting& s : swept) {
     if (s.key.starts_with("expect")) continue;
-    name += "_" + s.key.substr(s.key.rfind('.') + 1) + "=";
-    for (const char c : s.value) name += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' ? c : '_';
+    std::string part = "_" + s.key.substr(s.key.rfind('.') + 1) + "=";
+    for (const char c : s.value) part += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' ? c : '_';
+    if (name.size() + part.size() > longest_name) break;        // the number tells the runs apart anyway
+    name += part;
   }
   return name;
 }

@@ -25,8 +25,9 @@ std::string log_line(const PathPoint& p) {
 
 // All closed contacts, and open ones as far as the observed gaps need: farther and farther until they are told.
 std::vector<Touch> observed_touches(Energy& energy, const State& state, const Observables& observables) {
-  std::vector<Touch> touches = energy.touches(state);
+  constexpr double at_touch = 1e-9;                             // of the diameter: what an event has located
   const std::vector<double>& diameter = energy.model().diameter;
+  std::vector<Touch> touches = energy.touches(state, diameter.empty() ? 0.0 : at_touch * *std::max_element(diameter.begin(), diameter.end()));
   const double extent = (state.position.rowwise().maxCoeff() - state.position.rowwise().minCoeff()).maxCoeff();
   double reach = diameter.empty() ? 0.0 : *std::max_element(diameter.begin(), diameter.end()) / 4;
   while (!observables.sufficient(touches)) {
