@@ -21,7 +21,8 @@ struct Plate {
     for (std::size_t j = 0; j < rows.size(); ++j)
       for (std::size_t i = 0; i < rows[j].size(); ++i) {
         const bool row = j < layers || j >= rows.size() - layers, end = i < layers || i >= rows[j].size() - layers;
-        const bool hinge = type == "straight_simply_supported" && j % 2 == 1 && !row;   // rests on nothing between the rows
+        const bool hinge =
+            type == "straight_simply_supported" && j % 2 == 1 && !row;  // rests on nothing between the rows
         if (row || end) held[rows[j][i]] = {true, true, !hinge};
       }
     return held;
@@ -29,7 +30,8 @@ struct Plate {
   /// Holds these coordinates; at load factor 1 they are moved by `displacement` of the place.
   void hold(const std::vector<std::array<bool, 3>>& held, const std::function<Vec3(const Vec3&)>& displacement) {
     for (int p = 0; p < model.particles(); ++p)
-      if (held[p] != std::array<bool, 3>{}) model.supports.push_back({"", {p}, held[p], displacement(model.start.position.col(p)), false});
+      if (held[p] != std::array<bool, 3>{})
+        model.supports.push_back({"", {p}, held[p], displacement(model.start.position.col(p)), false});
   }
 };
 
@@ -43,7 +45,8 @@ inline Plate plate(int m, int n, bool straight, double spacing, double K, double
   Plate p;
   add_sheets(p.model, {s});
   p.rows.resize(n);
-  for (int i = 0; i < p.model.particles(); ++i) p.rows.at(std::lround(p.model.start.position(1, i) / (spacing * std::sqrt(3) / 2))).push_back(i);
+  for (int i = 0; i < p.model.particles(); ++i)
+    p.rows.at(std::lround(p.model.start.position(1, i) / (spacing * std::sqrt(3) / 2))).push_back(i);
   return p;
 }
 

@@ -95,9 +95,11 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
 
 Field difference(const State& a, const State& b) { return (a.position - b.position) + (a.tail - b.tail); }
 
-// Whether the corrector moved so little that the branch is still the same: less than the predictor did, all in all. What
-// touches is pushed along by supports and walls, whatever the tangent was before the touch: then every particle may move
-// by thrice the largest of these movements besides.
+constexpr int most_iterations = 12;           // of a corrector that stays on its branch
+
+// Whether the corrector moved so little that the branch is still the same: less than the predictor did, all in all. Where
+// there are contacts: every particle by less than half of the predictor's largest movement, and, as what touches is pushed
+// along by supports and walls whatever the tangent was before the touch, thrice the largest of these movements.
 bool stays(const Energy& energy, const Equilibrium& from, const State& driven, const State& predicted, const State& corrected) {
   const State& start = from.point.state;
   const double change = std::abs(predicted.load_factor - start.load_factor);
@@ -108,7 +110,7 @@ bool stays(const Energy& energy, const Equilibrium& from, const State& driven, c
   double pushed = difference(driven, start).colwise().norm().maxCoeff();
   for (const Wall& w : model.walls) pushed = std::max(pushed, change * (w.displacement.norm() + std::abs(w.radius_change)));
   const double predicted_most = change * energy.kinematics().extend(from.tangent).colwise().norm().maxCoeff();
-  return moved.colwise().norm().maxCoeff() <= predicted_most + 3 * pushed;
+  return moved.colwise().norm().maxCoeff() <= predicted_most / 2 + 3 * pushed;
 }
 
 }  // namespace
@@ -131,8 +133,12 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     named = name_zero_modes(energy, state, e.zero_modes, s.zero_modes);
   }
   s.stable = s.negative == 0 && named;
-  newton.factors().factorize_holding(e.zero_modes);
-  e.tangent = newton.factors().solve_holding(-energy.load_derivative());
+  if (inertia.positive_definite()) {          // with the factor of H − σI that has just told so
+    e.tangent = newton.factors().cholesky().solve(Vector(-energy.load_derivative()));
+  } else {
+    newton.factors().factorize_holding(e.zero_modes);
+    e.tangent = newton.factors().solve_holding(-energy.load_derivative());
+  }
   return e;
 }
 
@@ -170,7 +176,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     failed.point.state = state, failed.point.report = report;
     return failed;
   }
-  if (!stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
+  if (report.iterations > most_iterations || !stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
   if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   return assess(newton, state, report);

@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "energy/energy.hpp"
-#include "../model/sheets.hpp"
+#include "model/sheets.hpp"
 #include "reference.hpp"
 #include "solve/newton.hpp"
 
@@ -17,12 +17,14 @@ Sheet patch(double radius, double spacing, double K, double B, double direction_
   s.bond_stiffness = K, s.angle_stiffness = B;
   return s;
 }
-double area(const Sheet& s, std::size_t elements) { return static_cast<double>(elements) / 3 * s.spacing * s.spacing * std::sqrt(3) / 2; }
+double area(const Sheet& s, std::size_t elements) {
+  return static_cast<double>(elements) / 3 * s.spacing * s.spacing * std::sqrt(3) / 2;
+}
 
 }  // namespace
 
-// The rim is put where the reference's right Cauchy-Green tensor has it; the inside, off its place, must find it. The stress
-// P = Σ f ⊗ X / area of the forces f that hold the rim is uniaxial, for C22 and C12 are where the energy is smallest.
+// The rim is put where the reference's right Cauchy-Green tensor has it; the inside, off its place, must find it. The
+// stress P = Σ f ⊗ X / area of the forces f that hold the rim is uniaxial, for C22 and C12 are where the energy is least.
 TEST_CASE("A stretched patch relaxes to the homogeneous state and pulls along one direction", "[energy][reference]") {
   const nlohmann::json data = reference("exact/plate_homogeneous.json");
   const double K = data["K"], t = data["t"];
@@ -54,10 +56,13 @@ TEST_CASE("A stretched patch relaxes to the homogeneous state and pulls along on
     REQUIRE(report.converged());
     // F is known to ε, its strain to ε/strain, the energy to twice that; a few roundings more at the rim.
     const double accuracy = 1e-13 + 16 * epsilon / std::abs(strain);
-    for (const int p : inner) CHECK((state.position.col(p) - m.start.position.col(p) - moved(p)).norm() <= 1e-12 * std::abs(strain) * t + 32 * epsilon * t);
+    for (const int p : inner)
+      CHECK((state.position.col(p) - m.start.position.col(p) - moved(p)).norm() <=
+            1e-12 * std::abs(strain) * t + 32 * epsilon * t);
     const EnergyTerms terms = energy.terms(state);
-    CHECK(terms.bond / area(s, m.bonds.size()) == Approx(static_cast<double>(r["energy_per_reference_area"])).epsilon(accuracy));
-    CHECK(terms.angle <= 1e-12 * terms.bond);                                           // straight triples stay straight
+    CHECK(terms.bond / area(s, m.bonds.size()) ==
+          Approx(static_cast<double>(r["energy_per_reference_area"])).epsilon(accuracy));
+    CHECK(terms.angle <= 1e-12 * terms.bond);  // straight triples stay straight
     Eigen::Matrix2d P = Eigen::Matrix2d::Zero();
     const Field forces = energy.forces(state);
     for (const int p : rim) P -= forces.col(p).head<2>() * m.start.position.col(p).head<2>().transpose();
@@ -84,16 +89,20 @@ TEST_CASE("A lattice rolled to a cylinder", "[energy][reference]") {
     for (int p = 0; p < m.particles(); ++p) {
       ExactVector x = m.start.at(p);
       const Exact half_turns = x[0] / (R * exact_pi), quarter = {half_turns.hi / 4, half_turns.lo / 4};
-      const CosineSine half = cosine_sine(quarter);                                       // of x/2R
+      const CosineSine half = cosine_sine(quarter);  // of x/2R
       x.set(0, Exact{2, 0} * R * half.sine * half.cosine);
-      x.set(2, Exact{2, 0} * R * half.sine * half.sine);                                  // R (1 − cos(x/R))
+      x.set(2, Exact{2, 0} * R * half.sine * half.sine);  // R (1 − cos(x/R))
       state.set(p, x);
     }
     const EnergyTerms terms = energy.terms(state);
     // The places are exact; an angle term is formed to some ε, the shortening of a chord, (a/R)²/24, to ε of the bond.
-    CHECK(terms.angle / area(s, m.angles.size()) == Approx(static_cast<double>(r["bending_energy_per_area"])).epsilon(1e-13));
-    CHECK(terms.bond / area(s, m.bonds.size()) == Approx(static_cast<double>(r["stretch_energy_per_area"])).epsilon(1e-13));
-    CHECK(terms.angle / area(s, m.angles.size()) == Approx(static_cast<double>(r["ratio"]) * static_cast<double>(data["Btilde"]) * ratio * ratio / (2 * a * a)).epsilon(1e-13));
+    CHECK(terms.angle / area(s, m.angles.size()) ==
+          Approx(static_cast<double>(r["bending_energy_per_area"])).epsilon(1e-13));
+    CHECK(terms.bond / area(s, m.bonds.size()) ==
+          Approx(static_cast<double>(r["stretch_energy_per_area"])).epsilon(1e-13));
+    CHECK(terms.angle / area(s, m.angles.size()) ==
+          Approx(static_cast<double>(r["ratio"]) * static_cast<double>(data["Btilde"]) * ratio * ratio / (2 * a * a))
+              .epsilon(1e-13));
   }
 }
 
@@ -104,7 +113,7 @@ TEST_CASE("A lattice on a saddle, a bowl and a trough", "[energy][reference]") {
     INFO(r["k1"] << ", " << r["k2"] << ", " << r["direction_deg"] << "°");
     const Sheet s = patch(a, a, data["K"], data["B"], r["direction_deg"]);
     const Model m = built(s);
-    REQUIRE(m.angles.size() == 3);                                                        // those at the origin
+    REQUIRE(m.angles.size() == 3);  // those at the origin
     Energy energy(m);
     State state = m.start;
     for (int p = 0; p < m.particles(); ++p) {
@@ -113,6 +122,7 @@ TEST_CASE("A lattice on a saddle, a bowl and a trough", "[energy][reference]") {
       x.set(2, k1 * x[0] * x[0] + k2 * x[1] * x[1]);
       state.set(p, x);
     }
-    CHECK(energy.terms(state).angle / area(s, 3) == Approx(static_cast<double>(r["bending_energy_per_area_at_origin"])).epsilon(1e-13));
+    CHECK(energy.terms(state).angle / area(s, 3) ==
+          Approx(static_cast<double>(r["bending_energy_per_area_at_origin"])).epsilon(1e-13));
   }
 }

@@ -10,15 +10,18 @@ namespace {
 // Compressed along x with the sides free to slide across: only the bonds along x are stressed, as in the reference, which
 // prescribes the sides where they slide to. The transverse stiffness is that of the particles' places alone. The load
 // factor is the strain; the events on the way to `to`.
-std::vector<PathPoint> events_of_flat(const nlohmann::json& data, const std::string& type, const nlohmann::json& c, WhenUnstable when_unstable, double to) {
-  Plate p = plate(c["m_per_row"], c["n_rows"], type == "straight_simply_supported", data["spacing"], data["K"], data["B"]);
+std::vector<PathPoint> events_of_flat(const nlohmann::json& data, const std::string& type, const nlohmann::json& c,
+                                      WhenUnstable when_unstable, double to) {
+  Plate p =
+      plate(c["m_per_row"], c["n_rows"], type == "straight_simply_supported", data["spacing"], data["K"], data["B"]);
   auto held = p.edge(type);
   for (auto& h : held) h[1] = false;
   held[0][1] = true;
   p.hold(held, [](const Vec3& x) { return Vec3(-x[0], 0, 0); });
   Energy energy(p.model);
   Newton newton(energy);
-  LoadSteps path(newton, p.model.start, {.from = 0, .to = to, .steps = 4, .when_unstable = when_unstable, .start = {}, .stops = {}});
+  LoadSteps path(newton, p.model.start,
+                 {.from = 0, .to = to, .steps = 4, .when_unstable = when_unstable, .start = {}, .stops = {}});
   std::vector<PathPoint> events;
   while (const auto point = path.next()) {
     CHECK(point->state.position.row(2).cwiseAbs().maxCoeff() <= 1e-12 * p.spacing());
@@ -71,7 +74,8 @@ TEST_CASE("A buckled plate", "[path][reference]") {
       p.hold(held, [&](const Vec3& x) { return Vec3(-e * x[0], lateral * x[1], 0); });
       Energy energy(p.model);
       Newton newton(energy);
-      LoadSteps path(newton, p.model.start, {.from = 0, .to = 1, .steps = 10, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
+      LoadSteps path(newton, p.model.start,
+                     {.from = 0, .to = 1, .steps = 10, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
       PathPoint last;
       int branches = 0;
       while (const auto point = path.next()) {
@@ -90,9 +94,11 @@ TEST_CASE("A buckled plate", "[path][reference]") {
       const Field forces = energy.forces(last.state);
       double force = 0;
       for (int i = 0; i < p.model.particles(); ++i)
-        if (held[i][0] && p.model.start.position(0, i) > p.model.start.position.row(0).maxCoeff() / 2 + a / 100) force -= forces(0, i);
+        if (held[i][0] && p.model.start.position(0, i) > p.model.start.position.row(0).maxCoeff() / 2 + a / 100)
+          force -= forces(0, i);
       CHECK(force == Approx(static_cast<double>(s["x_force_on_held_particles_of_the_right_half"])).epsilon(1e-12));
       energy.evaluate(last.state);
-      CHECK(std::abs(newton.factors().lowest(1).values[0] - static_cast<double>(s["smallest_eigenvalue"])) <= newton.factors().zero_level());
+      CHECK(std::abs(newton.factors().lowest(1).values[0] - static_cast<double>(s["smallest_eigenvalue"])) <=
+            newton.factors().zero_level());
     }
 }

@@ -1,7 +1,6 @@
 #include "catch.hpp"
 #include "laws/section.hpp"
 #include "model/beam.hpp"
-
 #include "path/load_steps.hpp"
 #include "reference.hpp"
 
@@ -14,7 +13,7 @@ namespace {
 // Two clamped chains side by side, pressed by compression/2 from both ends; the load factor is the compression.
 struct Beams {
   Model model;
-  std::array<int, 2> first{}, last{};   // of the thin and the thick one
+  std::array<int, 2> first{}, last{};  // of the thin and the thick one
   int mid(int b) const { return (first[b] + last[b]) / 2; }
   double bow(int b, const State& x) const { return x.position(0, mid(b)) - model.start.position(0, mid(b)); }
   /// Compressive force at the upper clamp.
@@ -76,9 +75,10 @@ int negative_in_space(const nlohmann::json& c, const State& x) {
   return Factors(energy).inertia().negative;
 }
 
-void check_state(const Beams& b, const nlohmann::json& c, Newton& newton, const PathPoint& point, const nlohmann::json& s, double thick_sign = 1) {
+void check_state(const Beams& b, const nlohmann::json& c, Newton& newton, const PathPoint& point,
+                 const nlohmann::json& s, double thick_sign = 1) {
   INFO("compression " << s["compression"] << ", " << s["regime"]);
-  // Lengths of a diameter, energies and forces of the whole are known to some ten roundings of doubles: so is the reference.
+  // Rounded doubles on both sides: some ten roundings of a diameter, of the whole energy, of the largest force.
   const auto near = [&](double value, const nlohmann::json& expected, double scale) {
     CHECK(std::abs(value - expected.get<double>()) <= 64 * epsilon * scale);
   };
@@ -109,8 +109,10 @@ void check_state(const Beams& b, const nlohmann::json& c, Newton& newton, const 
   CHECK(point.stability.negative == negative);
   CHECK(negative_in_space(c, point.state) == negative + s["negative_out_of_plane"].get<int>());
   energy.evaluate(point.state);
-  const double symmetric = s["smallest_eigenvalue_mirror_symmetric"], antisymmetric = s["smallest_eigenvalue_mirror_antisymmetric"];
-  CHECK(std::abs(newton.factors().lowest(1).values[0] - std::min(symmetric, antisymmetric)) <= newton.factors().zero_level());
+  const double symmetric = s["smallest_eigenvalue_mirror_symmetric"],
+               antisymmetric = s["smallest_eigenvalue_mirror_antisymmetric"];
+  CHECK(std::abs(newton.factors().lowest(1).values[0] - std::min(symmetric, antisymmetric)) <=
+        newton.factors().zero_level());
 }
 
 }  // namespace
@@ -122,17 +124,21 @@ TEST_CASE("Two beams before they touch, and both bowed to one side", "[path][con
   Newton newton(energy);
   std::vector<double> stops;
   for (const auto& s : c["path"]) stops.push_back(s["compression"]);
-  LoadSteps path(newton, b.model.start, {.from = 0, .to = stops.back(), .steps = 8, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
+  LoadSteps path(
+      newton, b.model.start,
+      {.from = 0, .to = stops.back(), .steps = 8, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
   std::vector<std::string> events;
   std::size_t next = 0;
   while (const auto point = path.next()) {
     if (!point->label.empty()) events.push_back(point->label);
-    if (point->label == "branch:1") CHECK(point->state.load_factor == Approx(c["critical_compression_thin"].get<double>()).epsilon(1e-11));
-    if (point->label == "branch:2") CHECK(point->state.load_factor == Approx(c["critical_compression_thick"].get<double>()).epsilon(1e-11));
+    if (point->label == "branch:1")
+      CHECK(point->state.load_factor == Approx(c["critical_compression_thin"].get<double>()).epsilon(1e-11));
+    if (point->label == "branch:2")
+      CHECK(point->state.load_factor == Approx(c["critical_compression_thick"].get<double>()).epsilon(1e-11));
     if (next == stops.size() || point->state.load_factor != stops[next]) continue;
     const auto& s = c["path"][next++];
     const std::string regime = s["regime"];
-    // Falling from the straight line the thick beam goes to +x as the thin one does; it is the mirror image as long as nothing touches.
+    // Falling from the straight line the thick beam goes to +x, as the thin one does: a mirror image while nothing touches.
     if (regime == "both buckled towards each other") check_state(b, c, newton, *point, s, -1);
     else if (regime != "in contact") check_state(b, c, newton, *point, s);
   }
@@ -142,9 +148,9 @@ TEST_CASE("Two beams before they touch, and both bowed to one side", "[path][con
   CHECK(events == std::vector<std::string>{"initial", "branch:1", "branch:2"});
 }
 
-// The thin beam bows to +x, the thick one to -x, until they touch; then the thin one pushes the thick one back. Gaps up to 5 mm
-// end at a limit point next to where the contact would be lost, and a fall to both beams bowed to +x; 6 mm where the middles
-// start to slip past each other.
+// The thin beam bows to +x, the thick one to -x, until they touch; then the thin one pushes the thick one back. Gaps up to
+// 5 mm end at a limit point next to where the contact would be lost, and a fall to both beams bowed to +x; 6 mm where the
+// middles start to slip past each other.
 TEST_CASE("Two beams pressed against each other", "[path][contact][reference]") {
   for (const nlohmann::json& c : nlohmann::json(reference("exact/two_beams.json")["cases"])) {
     const auto& loss = c["loss_of_stability"];
@@ -160,21 +166,29 @@ TEST_CASE("Two beams pressed against each other", "[path][contact][reference]") 
     for (const auto& s : c["path"])
       if (s["compression"].get<double>() > begin) states.push_back(s), stops.push_back(s["compression"]);
     const double end = limit ? stops.back() : 1.01 * loss["compression"].get<double>();
-    LoadSteps path(newton, start, {.from = begin, .to = end, .steps = 20, .when_unstable = limit ? WhenUnstable::jump : WhenUnstable::stop, .start = {}, .stops = stops});
+    LoadSteps path(newton, start,
+                   {.from = begin,
+                    .to = end,
+                    .steps = 20,
+                    .when_unstable = limit ? WhenUnstable::jump : WhenUnstable::stop,
+                    .start = {},
+                    .stops = stops});
     std::vector<std::string> events;
     std::size_t next = 0;
     while (const auto point = path.next()) {
       if (!point->label.empty()) events.push_back(point->label);
       if (point->label == "contact:1") {
         CHECK(point->state.load_factor == Approx(c["contact_onset_compression"].get<double>()).epsilon(1e-12));
-        for (int k = 0; k < 2; ++k) CHECK(std::abs(b.bow(k, point->state) - c["mids_at_onset"][k].get<double>()) <= 1e-11 * size);
+        for (int k = 0; k < 2; ++k)
+          CHECK(std::abs(b.bow(k, point->state) - c["mids_at_onset"][k].get<double>()) <= 1e-11 * size);
       }
       if (point->label.starts_with("limit") || point->label.starts_with("branch")) {
         CHECK(point->state.load_factor == Approx(loss["compression"].get<double>()).epsilon(1e-12));
         const auto touches = energy.touches(point->state);
         REQUIRE(touches.size() == 1);
-        // A limit point: the position is known to the root of what the load is.
-        for (int k = 0; k < 2; ++k) CHECK(std::abs(b.bow(k, point->state) - loss["mids"][k].get<double>()) <= 1e-8 * size);
+        // At a limit point positions are known to the root of what the load is, and the reference gives them to 1e-8.
+        for (int k = 0; k < 2; ++k)
+          CHECK(std::abs(b.bow(k, point->state) - loss["mids"][k].get<double>()) <= 1e-8 * size);
         CHECK(-touches[0].gap == Approx(loss["overlap"].get<double>()).epsilon(1e-6));
         CHECK(touches[0].force.norm() == Approx(loss["contact_force"].get<double>()).epsilon(1e-6));
       }

@@ -96,7 +96,7 @@ TEST_CASE("A stack of spheres on a wall", "[solve][contact][reference]") {
       INFO(n << " spheres, " << variants[v]);
       CHECK(modulus == Approx(number(known, "wall_modulus_in_F=4/3_E_sqrt(r)_delta^1.5")).epsilon(4 * epsilon));
       Field x = Field::Zero(3, n);
-      for (int i = 0; i < n; ++i) x(2, i) = (2 * i + 1) * 1.1 * r;          // above one another, nothing touches
+      for (int i = 0; i < n; ++i) x(2, i) = (2 * i + 1) * 1.1 * r;  // above one another, nothing touches
       Model m = spheres(x, std::vector<double>(n, r), c["density"]);
       meet(m, c["E_eff_pair"]), wall(m, Vec3::UnitZ(), modulus);
       Support upright;
@@ -106,9 +106,11 @@ TEST_CASE("A stack of spheres on a wall", "[solve][contact][reference]") {
       m.gravity.push_back({"", upright.particles, Vec3(0, 0, -number(c, "g")), true});
       CHECK(m.mass(0) == Approx(number(c, "mass")).epsilon(8 * epsilon));
       const Rested s = rest(m);
-      for (int i = 0; i < n; ++i) CHECK(s.state.position(2, i) == Approx(known["z"][i].get<double>()).epsilon(8 * epsilon));
+      for (int i = 0; i < n; ++i)
+        CHECK(s.state.position(2, i) == Approx(known["z"][i].get<double>()).epsilon(8 * epsilon));
       REQUIRE(static_cast<int>(s.touches.size()) == n);
-      for (int i = 0; i + 1 < n; ++i) CHECK(-s.touches[i].gap == Approx(c["pair_overlaps_from_the_wall_up"][i].get<double>()).epsilon(accuracy));
+      for (int i = 0; i + 1 < n; ++i)
+        CHECK(-s.touches[i].gap == Approx(c["pair_overlaps_from_the_wall_up"][i].get<double>()).epsilon(accuracy));
       CHECK(s.touches.back().wall == 0);
       CHECK(-s.touches.back().gap == Approx(number(known, "wall_overlap")).epsilon(accuracy));
       CHECK(s.touches.back().force[2] == Approx(number(known, "wall_force")).epsilon(accuracy));
@@ -120,14 +122,16 @@ TEST_CASE("A sphere in a corner of two planes", "[solve][contact][reference]") {
   for (const nlohmann::json& c : nlohmann::json(reference("exact/hertz.json")["corner"]))
     for (int v = 0; v < 3; ++v) {
       const auto& known = c["variants"][variants[v]];
-      const double r = c["r"], left = number(c, "angle_left_plane_deg") * pi / 180, right = number(c, "angle_right_plane_deg") * pi / 180;
+      const double r = c["r"], left = number(c, "angle_left_plane_deg") * pi / 180,
+                   right = number(c, "angle_right_plane_deg") * pi / 180;
       INFO(c["angle_left_plane_deg"] << "°, " << c["angle_right_plane_deg"] << "°, " << variants[v]);
       Field x = Field::Zero(3, 1);
       x.col(0) = Vec3(0.3 * r, 3 * r, 0);
       Model m = spheres(x, {r}, c["density"]);
       m.plane_normal = 2;
       const double modulus = wall_modulus(v, c["E"], c["nu"]);
-      wall(m, Vec3(std::sin(left), std::cos(left), 0), modulus), wall(m, Vec3(-std::sin(right), std::cos(right), 0), modulus);
+      wall(m, Vec3(std::sin(left), std::cos(left), 0), modulus),
+          wall(m, Vec3(-std::sin(right), std::cos(right), 0), modulus);
       m.gravity.push_back({"", {0}, Vec3(0, -number(c, "g"), 0), true});
       const Rested s = rest(m);
       CHECK(std::abs(s.state.position(0, 0) - number(known, "x")) <= 8 * epsilon * r);

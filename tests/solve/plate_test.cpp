@@ -8,7 +8,9 @@ using namespace elamin;
 namespace {
 
 // What is held of each particle: nothing yet.
-std::vector<std::array<bool, 3>> nothing(const Plate& p) { return std::vector<std::array<bool, 3>>(p.model.particles()); }
+std::vector<std::array<bool, 3>> nothing(const Plate& p) {
+  return std::vector<std::array<bool, 3>>(p.model.particles());
+}
 
 double total(const Field& forces, const std::vector<int>& particles, int coordinate) {
   double sum = 0;
@@ -30,7 +32,8 @@ TEST_CASE("Strips pulled along their rows", "[solve][reference]") {
       for (const auto& row : strip.rows) held[row.front()][0] = held[row.back()][0] = true;
       held[0][1] = true;
       if (plane) strip.model.plane_normal = 2;
-      else for (const auto& row : strip.rows) held[row.front()][2] = held[row.back()][2] = true;
+      else
+        for (const auto& row : strip.rows) held[row.front()][2] = held[row.back()][2] = true;
       strip.hold(held, [&](const Vec3& x) { return Vec3(e * x[0], 0, 0); });
       Energy energy(strip.model);
       Newton newton(energy);
@@ -49,7 +52,8 @@ TEST_CASE("Strips pulled along their rows", "[solve][reference]") {
       CHECK(terms.bond == Approx(static_cast<double>(c["U_stretch"])).epsilon(accuracy));
       CHECK(terms.angle <= 1e-12 * terms.bond);
       for (int j = 0; j < n; ++j)
-        for (const int p : strip.rows[j]) CHECK(std::abs(state.position(1, p) - j * static_cast<double>(c["row_spacing"])) <= 1e-12 * a);
+        for (const int p : strip.rows[j])
+          CHECK(std::abs(state.position(1, p) - j * static_cast<double>(c["row_spacing"])) <= 1e-12 * a);
     }
 }
 
@@ -70,13 +74,15 @@ TEST_CASE("Strips pulled across their rows", "[solve][reference]") {
     State state = strip.model.start;
     energy.kinematics().prescribe(state, 1);
     REQUIRE(newton.minimise(state).converged());
-    CHECK(-total(energy.forces(state), strip.rows.back(), 1) == Approx(static_cast<double>(c["total_force"])).epsilon(1e-12));
+    CHECK(-total(energy.forces(state), strip.rows.back(), 1) ==
+          Approx(static_cast<double>(c["total_force"])).epsilon(1e-12));
     const EnergyTerms terms = energy.terms(state);
     CHECK(terms.bond == Approx(static_cast<double>(c["U_stretch"])).epsilon(1e-12));
     CHECK(terms.angle == Approx(static_cast<double>(c["U_bend_in_plane"])).epsilon(1e-12));
     const std::vector<int>& middle = strip.rows[n / 2];
     const double width = state.position(0, middle.back()) - state.position(0, middle.front());
-    CHECK((1 - width / ((m - 1) * a)) / e == Approx(static_cast<double>(c["mid_height_width_change_over_(m-1)a_e"])).epsilon(1e-15 / e + 1e-12));
+    CHECK((1 - width / ((m - 1) * a)) / e ==
+          Approx(static_cast<double>(c["mid_height_width_change_over_(m-1)a_e"])).epsilon(1e-15 / e + 1e-12));
   }
 }
 
@@ -104,12 +110,16 @@ TEST_CASE("Plates under a load across them", "[solve][reference]") {
       const int centre = c["centre_particle"], quarter = c["quarter_particle"];
       CHECK(state.position(2, centre) == Approx(w).epsilon(1e-12));
       CHECK(state.position.row(2).maxCoeff() == Approx(static_cast<double>(s["w_max"])).epsilon(1e-12));
-      for (int k = 0; k < 3; ++k) CHECK(std::abs(state.position(k, quarter) - static_cast<double>(s["position_quarter_particle"][k])) <= 1e-12 * w);
-      CHECK(total(energy.forces(state), supported, 2) == Approx(-static_cast<double>(s["sum_reaction_z"])).epsilon(1e-12));
+      for (int k = 0; k < 3; ++k)
+        CHECK(std::abs(state.position(k, quarter) - static_cast<double>(s["position_quarter_particle"][k])) <=
+              1e-12 * w);
+      CHECK(total(energy.forces(state), supported, 2) ==
+            Approx(-static_cast<double>(s["sum_reaction_z"])).epsilon(1e-12));
       energy.evaluate(state);
       CHECK(energy.last_terms().bond == Approx(static_cast<double>(s["U_stretch"])).epsilon(1e-12));
       CHECK(energy.last_terms().angle == Approx(static_cast<double>(s["U_bend"])).epsilon(1e-12));
       CHECK(newton.factors().inertia().negative == static_cast<int>(s["Morse_index"]));
-      CHECK(std::abs(newton.factors().lowest(1).values[0] - static_cast<double>(s["smallest_eigenvalue"])) <= newton.factors().zero_level());
+      CHECK(std::abs(newton.factors().lowest(1).values[0] - static_cast<double>(s["smallest_eigenvalue"])) <=
+            newton.factors().zero_level());
     }
 }

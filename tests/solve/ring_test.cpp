@@ -22,11 +22,12 @@ TEST_CASE("A pinched ring", "[solve][reference]") {
     Newton newton(energy);
     std::vector<double> stops;
     for (const auto& s : pinch["states"]) stops.push_back(static_cast<double>(s["approach"]) / largest);
-    LoadSteps path(newton, m.start, {.from = 0, .to = 1, .steps = 4, .when_unstable = WhenUnstable::stop, .start = {}, .stops = stops});
+    LoadSteps path(newton, m.start,
+                   {.from = 0, .to = 1, .steps = 4, .when_unstable = WhenUnstable::stop, .start = {}, .stops = stops});
     double rest = 0;
     std::size_t next = 0;
     while (const auto point = path.next()) {
-      if (point->label == "initial") {                       // the polygon itself is an equilibrium
+      if (point->label == "initial") {  // the polygon itself is an equilibrium
         rest = point->energy.angle;
         CHECK((point->state.position - m.start.position).cwiseAbs().maxCoeff() <= 1e-12 * R);
         CHECK(rest == Approx(n * B * (1 - std::cos(2 * pi / n))).epsilon(1e-12));
@@ -44,12 +45,14 @@ TEST_CASE("A pinched ring", "[solve][reference]") {
       agrees(energy.forces(point->state)(0, 0), "force", 1e-11);
       agrees(point->energy.bond, "U_stretch", 1e-11);
       agrees(point->energy.angle, "U_bend", 1e-14);
-      agrees(point->energy.angle - rest, "U_bend_minus_rest", 1e-13 + 4 * epsilon * rest / (point->energy.angle - rest));
+      agrees(point->energy.angle - rest, "U_bend_minus_rest",
+             1e-13 + 4 * epsilon * rest / (point->energy.angle - rest));
       const auto y = point->state.position.row(1);
       agrees(y.maxCoeff() - y.minCoeff(), "transverse_extent_max_y_minus_min_y", 1e-14);
       double shortest = q0, longest = 0;
       for (const Bond& b : m.bonds) {
-        const double length = (point->state.position.col(b.particles[0]) - point->state.position.col(b.particles[1])).norm();
+        const double length =
+            (point->state.position.col(b.particles[0]) - point->state.position.col(b.particles[1])).norm();
         shortest = std::min(shortest, length), longest = std::max(longest, length);
       }
       agrees(shortest, "min_bond", 1e-14), agrees(longest, "max_bond", 1e-14);
