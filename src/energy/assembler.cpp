@@ -174,7 +174,7 @@ void Assembler::gather(const std::vector<double>& buffer, Field& g) const {
   });
 }
 
-const SparseMatrix& Assembler::hessian() {
+void Assembler::sum_hessian() {
   double* value = hessian_.valuePtr();
   parallel_for(hessian_.nonZeros(), grain, [&](std::int64_t i) {
     double sum = 0;
@@ -182,7 +182,6 @@ const SparseMatrix& Assembler::hessian() {
       sum += hessians_[nonzero_gather_.index[k]];
     value[i] = sum;
   });
-  return hessian_;
 }
 
 void Assembler::add_drive(const State& state, Vector& out) const {

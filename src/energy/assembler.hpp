@@ -29,10 +29,10 @@ class Assembler {
   /// ∂U/∂x of all sites, 3 × sites, from the last evaluation.
   void gradient(Field& g) const { gather(gradients_, g); }
   /// ∂²U/∂q∂q, lower triangle, pattern fixed; from the last evaluation with Hessian.
-  const SparseMatrix& hessian();
-  const SparseMatrix& pattern() const { return hessian_; }
+  void sum_hessian();
+  const SparseMatrix& hessian() const { return hessian_; }
   /// The same, for whoever puts something on its diagonal until the next evaluation.
-  SparseMatrix& hessian_values() { return hessian_; }
+  SparseMatrix& hessian() { return hessian_; }
   /// ∂²U/∂q∂λ through the driven sites and the groups that move by themselves, added to `out` (dofs); from the last
   /// evaluation with Hessian, which was at `state`.
   void add_drive(const State& state, Vector& out) const;

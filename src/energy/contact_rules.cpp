@@ -14,7 +14,7 @@ constexpr int most_bonds = 100;        // along a chain; beyond it, particles th
 // Breadth-first walks along the bonds, to particles with larger and smaller index alike.
 class Walk {
  public:
-  explicit Walk(const Model& model) : model_(model), seen_(model.particles(), -1), start_(model.particles() + 1) {
+  explicit Walk(const Model& model) : seen_(model.particles(), -1), start_(model.particles() + 1) {
     for (const Bond& b : model.bonds)
       for (const int p : b.particles) ++start_[p + 1];
     for (std::size_t p = 1; p < start_.size(); ++p) start_[p] += start_[p - 1];
@@ -47,7 +47,6 @@ class Walk {
 
  private:
   struct Step { int particle; double length; };
-  const Model& model_;
   std::vector<int> seen_;
   std::vector<std::int64_t> start_;
   std::vector<Step> next_, front_, after_;

@@ -3,10 +3,7 @@
 #include "energy/groups.hpp"
 #include "energy/touches.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -32,21 +29,6 @@ double stiffest(const Model& model) {
   for (const PairContact& c : model.contacts)
     if (c.law == PairContact::Law::lj) most = std::max(most, c.epsilon / c.sigma);
   return most;
-}
-
-// Diagonal of the box around all particles and the finite corners of walls.
-double extent(const Model& model) {
-  Eigen::AlignedBox3d box;
-  for (int p = 0; p < model.particles(); ++p)
-    for (const double r : {-model.diameter[p] / 2, model.diameter[p] / 2})
-      box.extend(Vec3(model.start.position.col(p) + Vec3::Constant(r)));
-  for (const Wall& w : model.walls) {
-    const Region& r = w.region;
-    if (r.shape == Shape::block) box.extend(r.lo), box.extend(r.hi);
-    else if (r.shape == Shape::plane) box.extend(Vec3(model.start.position.col(0) - r.normal * r.normal.dot(model.start.position.col(0) - r.center)));
-    else box.extend(Vec3(r.center - Vec3::Constant(r.radius))), box.extend(Vec3(r.center + Vec3::Constant(r.radius)));
-  }
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 // The free dofs of particles that no bond and no angle holds.
@@ -80,8 +62,6 @@ Energy::Energy(const Model& model)
   force_floor_ = epsilon * stiffest(model);
   loose_ = loose_dofs(model, kinematics_);
   idle_.reserve(loose_.size());
-  const bool meets = !model.contacts.empty() || !model.walls.empty();
-  longest_step_ = meets ? extent(model) : std::numeric_limits<double>::infinity();
   groups_.resize(places);
   groups_[bonds] = bond_group(model), groups_[angles] = angle_group(model), groups_[walls] = wall_group(model);
   neighbours_.refresh(model.restart.value_or(model.start));
@@ -93,7 +73,7 @@ void Energy::assemble_groups() {
   const std::unique_ptr<Assembler> before = std::move(assembler_);
   groups_[contacts] = contact_group(model_, neighbours_), groups_[cohesion] = cohesion_group(model_, neighbours_);
   assembler_ = std::make_unique<Assembler>(kinematics_, groups_);
-  if (!before || !same_pattern(before->pattern(), assembler_->pattern())) ++pattern_version_;
+  if (!before || !same_pattern(before->hessian(), assembler_->hessian())) ++pattern_version_;
 }
 
 void Energy::cover(const State& state) {
@@ -123,7 +103,7 @@ void Energy::evaluate(const State& state, bool with_hessian, const State* from) 
   terms_ = terms_of(assembler_->evaluate(state, with_hessian, from), state);
   finish_gradient(state);
   if (!with_hessian) return;
-  assembler_->hessian();
+  assembler_->sum_hessian();
   evaluated_ = state;
   anchor_idle();
 }
@@ -131,7 +111,7 @@ void Energy::evaluate(const State& state, bool with_hessian, const State* from) 
 void Energy::anchor_idle() {
   idle_.clear();
   if (loose_.empty()) return;
-  SparseMatrix& h = assembler_->hessian_values();
+  SparseMatrix& h = assembler_->hessian();
   Vector& stiffness = row_sums_;
   stiffness.setZero(dofs());
   for (int j = 0; j < h.outerSize(); ++j)
@@ -169,45 +149,6 @@ Vector Energy::multiply(const Vector& v) const {
   Field product;
   assembler_->multiply(kinematics_.extend(v), product);
   return kinematics_.restrict(product);
-}
-
-double Energy::distortion(const State& state, const Vector& step) const {
-  const Field s = kinematics_.extend(step);
-  double largest = 0;
-  for (const Bond& b : model_.bonds) {
-    const auto [i, j] = b.particles;
-    const double length = (state.at(j) - state.at(i)).hi.norm();
-    if (length > 0) largest = std::max(largest, (s.col(j) - s.col(i)).norm() / length);
-  }
-  return largest;
-}
-
-double Energy::movement(const Vector& step) const {
-  const Field s = kinematics_.extend(step);
-  double largest = 0;
-  for (int p = 0; p < model_.particles(); ++p)
-    if (model_.diameter[p] > 0) largest = std::max(largest, s.col(p).norm() / model_.diameter[p]);
-  return largest;
-}
-
-std::string Energy::name_of(int particle) const {
-  std::string name = "particle " + std::to_string(model_.id[particle]);
-  for (const Structure& s : model_.structures)
-    if (particle >= s.first && particle < s.first + s.count) name += " of '" + s.name + "'";
-  return name;
-}
-
-std::string Energy::escaped(const State& state, double extents) const {
-  const double far = extents * longest_step_;
-  for (int p = 0; p < model_.particles(); ++p)
-    if ((state.position.col(p) - model_.start.position.col(p)).cwiseAbs().maxCoeff() > far) return name_of(p);
-  return "";
-}
-
-std::string Energy::falling() const {
-  for (const int d : idle_)
-    if (gradient_[d] != 0) return name_of(kinematics_.site_of(d));
-  return "";
 }
 
 double Energy::relative(const Vector& force) const {

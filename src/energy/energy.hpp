@@ -6,6 +6,8 @@
 #include "energy/terms.hpp"
 #include "energy/touch.hpp"
 
+#include <utility>
+
 namespace elamin {
 
 /// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_wall(λ) − Σ F(λ)·x,   F(λ) = F₀ + λ F₁ (dead loads and
@@ -34,8 +36,8 @@ class Energy {
   double unpredicted(const State& state, const State& from) { return assembler_->unpredicted(state, from); }
   const EnergyTerms& last_terms() const { return terms_; }
   const Vector& gradient() const { return gradient_; }        // g = ∂E/∂q (dofs) [force]
-  const SparseMatrix& hessian() const { return assembler_->pattern(); }   // H = ∂²E/∂q∂q, lower triangle [force/length]
-  const SparseMatrix& pattern() const { return assembler_->pattern(); }
+  /// H = ∂²E/∂q∂q, lower triangle [force/length]; its pattern is there before any evaluation.
+  const SparseMatrix& hessian() const { return std::as_const(*assembler_).hessian(); }
   /// Free dofs of single particles that nothing gives a stiffness, at the last evaluation with Hessian: grains that fly, or
   /// slide on a plane. On the diagonal of hessian() they have |gᵢ|/2d, so that a step of Newton's method lets a grain
   /// fall by two diameters, or where no force acts on them the largest stiffness there is, so that they stay.
@@ -47,25 +49,11 @@ class Energy {
   /// H v (dofs) and vᵀHv formed from differences of v element by element: more digits than the assembled Hessian has.
   Vector multiply(const Vector& v) const;
   double quadratic_form(const Vector& v) const { return assembler_->quadratic_form(kinematics_.extend(v)); }
-  /// Largest |s_j − s_i|/|x_j − x_i| over the bonds: how much a step turns or stretches what is glued.
-  double distortion(const State& state, const Vector& step) const;
-  /// Largest movement of a particle in its own diameters.
-  double movement(const Vector& step) const;
   /// Largest part of the way from → to, in (0, 1], on which nothing passes through anything (see free_passage).
   double passage(const State& from, const State& to) const { return free_passage(model_, neighbours_.rules(), from, to); }
-  /// No single step should be longer: the extent of all particles and walls where there are contacts or walls, else
-  /// infinite. [length]
-  double longest_step() const { return longest_step_; }
-  /// What has moved farther from the start than this many extents of the structure, "particle 7 of 'grains'"; else "".
-  std::string escaped(const State& state, double extents) const;
-  /// The first grain that a force drives and no stiffness holds, at the last evaluation with Hessian; else "".
-  std::string falling() const;
   const ContactRules& contact_rules() const { return neighbours_.rules(); }
   /// The scale of internal forces: the largest force of one element on a particle, or of one load if that is larger.
   double force_scale() const { return force_scale_; }
-  /// Rounding's own force: ε times the largest of stiffness times bond length and E_eff times diameter²; forces below it
-  /// are zero. [force]
-  double force_floor() const { return force_floor_; }
   /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
   double relative(const Vector& force) const;
 
@@ -86,7 +74,6 @@ class Energy {
   void finish_gradient(const State& state);
   void cover(const State& state);
   void anchor_idle();
-  std::string name_of(int particle) const;
   void assemble_groups();
   EnergyTerms terms_of(const std::vector<double>& sums, const State& state) const;
 
@@ -101,7 +88,7 @@ class Energy {
   State evaluated_;                                           // where load_derivative() is asked for, if walls move
   int pattern_version_ = 0;
   EnergyTerms terms_;
-  double force_scale_ = 0, force_floor_ = 0, longest_step_ = 0;
+  double force_scale_ = 0, force_floor_ = 0;
   std::vector<int> loose_, idle_;                             // free dofs of particles without bonds; those without stiffness
 };
 

@@ -22,7 +22,6 @@ class Neighbours {
   /// Pairs with a Hertz table, and pairs with a Lennard-Jones table, ascending.
   const std::vector<IndexPair>& hertz() const { return pairs_[0]; }
   const std::vector<IndexPair>& lj() const { return pairs_[1]; }
-  double skin() const { return skin_; }
 
  private:
   const Model& model_;

@@ -15,8 +15,6 @@ namespace {
 constexpr double keep = 0.8;                   // of the distance, at least
 constexpr double chunk = 10;                   // movement looked at in one go, in smallest distances of touch
 
-Field difference(const State& a, const State& b) { return (b.position - a.position) + (b.tail - a.tail); }
-
 // Distance at which a pair touches; 0: it feels nothing.
 double touching(const Model& model, const ContactRules& rules, int i, int j) {
   if (const int t = rules.hertz(i, j); t >= 0 && model.contacts[t].effective_modulus > 0)
@@ -92,7 +90,7 @@ double at_wall(const Model& model, const Wall& wall, const State& from, const St
 
 double free_passage(const Model& model, const ContactRules& rules, const State& from, const State& to) {
   if (!rules.any() && model.walls.empty()) return 1;
-  const Field u = difference(from, to);
+  const Field u = displacement(from, to);
   if (!u.allFinite()) return 0;
   double part = rules.any() ? among_particles(model, rules, from, u) : 1;
   for (const Wall& wall : model.walls)

@@ -20,4 +20,7 @@ struct State {
   void set(Eigen::Index i, const ExactVector& x) { position.col(i) = x.hi, tail.col(i) = x.lo; }
 };
 
+/// b − a of all particles, 3 × particles [length].
+inline Field displacement(const State& a, const State& b) { return (b.position - a.position) + (b.tail - a.tail); }
+
 }  // namespace elamin

@@ -1,5 +1,7 @@
 #include "path/bordered.hpp"
 
+#include "energy/step_limits.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -39,7 +41,7 @@ Equilibrium ArcStep::equilibrium(Newton& newton, double s) const {
     const double change = -weight_ * t_x_.dot(a) / (weight_ * t_x_.dot(b) + t_lambda_);
     const Vector step = a + change * b;
     const double size = std::sqrt(weight_ * step.squaredNorm() + change * change);
-    if (!std::isfinite(size) || size > 2 * last || energy_.distortion(state, step) > 0.5) break;
+    if (!std::isfinite(size) || size > 2 * last || distortion(energy_, state, step) > 0.5) break;
     lambda += change;
     kinematics.prescribe(state, lambda);
     kinematics.retract(state, step);

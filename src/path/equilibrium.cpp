@@ -36,8 +36,8 @@ class Explained {
 
   /// Whether the rest are motions of the parts as rigid bodies against each other, which no force opposes.
   void take_relative(const std::vector<RigidMotion>& motions) {
-    constexpr std::size_t most = 600;
-    if (all() || motions.empty() || motions.size() > most) return;
+    constexpr std::size_t most_motions = 600;
+    if (all() || motions.empty() || motions.size() > most_motions) return;
     Eigen::MatrixXd span(zero_.rows(), static_cast<Eigen::Index>(motions.size()));
     for (std::size_t k = 0; k < motions.size(); ++k)
       span.col(static_cast<Eigen::Index>(k)) = energy_.kinematics().restrict(motions[k].velocity_field(energy_.model().particles()));
@@ -74,26 +74,24 @@ bool name_zero_modes(Energy& energy, const State& state, const Eigen::MatrixXd& 
 
 // Single particles that no stiffness holds: a grain that flies is named as such, one that slides on a plane by direction.
 void name_idle(const Energy& energy, std::vector<std::string>& names) {
-  constexpr std::size_t most = 20;
+  constexpr std::size_t most_names = 20;
   const Kinematics& kinematics = energy.kinematics();
   std::size_t left_out = 0;
   const std::vector<int>& idle = energy.idle();
   for (std::size_t k = 0; k < idle.size();) {
     const int p = kinematics.site_of(idle[k]);
     std::string along;
-    for (; k < idle.size() && kinematics.site_of(idle[k]) == p; ++k)
+    int without_stiffness = 0, free = 0;
+    for (; k < idle.size() && kinematics.site_of(idle[k]) == p; ++k, ++without_stiffness)
       along += (along.empty() ? "" : ", ") + std::string(1, "xyz"[kinematics.coordinate_of(idle[k])]);
-    int free = 0;
     for (int c = 0; c < 3; ++c) free += kinematics.dof(p, c) >= 0;
-    const bool flies = 3 * free == static_cast<int>(along.size()) + 2;   // all its free directions: "x, y, z"
-    if (names.size() >= most) ++left_out;
+    const bool flies = without_stiffness == free;
+    if (names.size() >= most_names) ++left_out;
     else names.push_back((flies ? "rattler: particle " : "translation of particle ") + std::to_string(energy.model().id[p]) +
                          (flies ? " touches nothing" : " along " + along));
   }
   if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more particles");
 }
-
-Field difference(const State& a, const State& b) { return (a.position - b.position) + (a.tail - b.tail); }
 
 constexpr int most_iterations = 12;           // of a corrector that stays on its branch
 
@@ -103,11 +101,11 @@ constexpr int most_iterations = 12;           // of a corrector that stays on it
 bool stays(const Energy& energy, const Equilibrium& from, const State& driven, const State& predicted, const State& corrected) {
   const State& start = from.point.state;
   const double change = std::abs(predicted.load_factor - start.load_factor);
-  const Field moved = difference(corrected, predicted);
+  const Field moved = displacement(predicted, corrected);
   const Model& model = energy.model();
   if (model.contacts.empty() && model.walls.empty())
     return energy.kinematics().restrict(moved).norm() <= change * from.tangent.norm();
-  double pushed = difference(driven, start).colwise().norm().maxCoeff();
+  double pushed = displacement(start, driven).colwise().norm().maxCoeff();
   for (const Wall& w : model.walls) pushed = std::max(pushed, change * (w.displacement.norm() + std::abs(w.radius_change)));
   const double predicted_most = change * energy.kinematics().extend(from.tangent).colwise().norm().maxCoeff();
   return moved.colwise().norm().maxCoeff() <= predicted_most / 2 + 3 * pushed;
@@ -150,8 +148,8 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   kinematics.prescribe(driven, load_factor);
   State predicted = driven;
   kinematics.retract(predicted, from.tangent, load_factor - start.load_factor);
-  const auto fail = [&](const State& at, Report report, const std::string& why) {
-    report.status = Status::not_converged, report.why = why;
+  const auto fail = [&](const State& at, Report report, const std::string& why = {}) {
+    if (!why.empty()) report.status = Status::not_converged, report.why = why;
     Equilibrium failed;
     failed.point.state = at, failed.point.report = std::move(report);
     return failed;
@@ -171,11 +169,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     state = predicted;
     report = newton.minimise(state);
   }
-  if (!report.converged()) {
-    Equilibrium failed;
-    failed.point.state = state, failed.point.report = report;
-    return failed;
-  }
+  if (!report.converged()) return fail(state, report);
   if (report.iterations > most_iterations || !stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
   if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");

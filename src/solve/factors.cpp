@@ -38,13 +38,13 @@ PivotedFactor& Factors::pivoted() {
 
 bool Factors::try_cholesky(double shift) {
   ++factorizations_;
-  if (std::exchange(cholesky_version_, energy_.pattern_version()) != energy_.pattern_version()) cholesky_.analyze(energy_.pattern());
+  if (std::exchange(cholesky_version_, energy_.pattern_version()) != energy_.pattern_version()) cholesky_.analyze(energy_.hessian());
   return cholesky_.factorize(energy_.hessian(), shift);
 }
 
 bool Factors::try_pivoted(double shift) {
   ++factorizations_;
-  if (std::exchange(pivoted_version_, energy_.pattern_version()) != energy_.pattern_version()) pivoted().analyze(energy_.pattern());
+  if (std::exchange(pivoted_version_, energy_.pattern_version()) != energy_.pattern_version()) pivoted().analyze(energy_.hessian());
   return pivoted().factorize(energy_.hessian(), shift);
 }
 

@@ -19,8 +19,7 @@ struct EigenPairs {
 };
 
 /// Both factorisations of one energy's Hessian with their symbolic analyses, which are made anew only when contacts change
-/// its pattern. All calls speak of the Hessian of the
-/// energy's last evaluation.
+/// its pattern. All calls speak of the Hessian of the energy's last evaluation.
 class Factors {
  public:
   explicit Factors(Energy& energy);

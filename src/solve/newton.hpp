@@ -2,6 +2,7 @@
 #include "solve/factors.hpp"
 #include "solve/report.hpp"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -52,8 +53,21 @@ class Newton {
   Factors& factors() { return factors_; }
 
  private:
-  struct Step;
-  struct Halt;
+  /// A step p = −M⁻¹g + (a direction of negative curvature), M = H + τI, with what the model predicts along it.
+  struct Step {
+    Vector p, g, hp;             // hp = H p
+    double energy, slope, curvature;
+    double energy_rounding = 0;
+    bool keep_direction = false; // corrections stay orthogonal to p: along a soft p they would overshoot
+    double predicted(double alpha) const { return alpha * slope + alpha * alpha / 2 * curvature; }
+    /// Rounding hides the change of energy that the step would make.
+    bool hidden(double alpha) const { return std::abs(predicted(alpha)) <= energy_rounding; }
+  };
+  /// Why a run ends.
+  struct Halt {
+    Status status;
+    std::string why;
+  };
   double residual() const;
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
@@ -71,6 +85,7 @@ class Newton {
   Energy& energy_;
   NewtonOptions options_;
   Factors factors_;
+  double extent_;                  // of everything there is: no step is longer
 };
 
 }  // namespace elamin

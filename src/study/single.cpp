@@ -47,7 +47,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   results.log(fmt::format("elamin {}: {}", version(), problem.file));
   Energy energy(model);
   results.log(fmt::format("{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
-                          model.particles(), model.bonds.size(), model.angles.size(), energy.dofs(), energy.pattern().nonZeros()));
+                          model.particles(), model.bonds.size(), model.angles.size(), energy.dofs(), energy.hessian().nonZeros()));
   const double setup = total.seconds();
 
   Progress progress(stdout, style, starting_load_factor(problem), problem.path.to);

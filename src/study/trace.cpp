@@ -57,7 +57,7 @@ Outcome trace_path(LoadSteps path, const Sink& sink) {
 // Whether supports and walls can go from one state to the other at once: no bond turns or stretches far, and nothing passes
 // through anything.
 bool reachable(const Energy& energy, const State& from, const State& to) {
-  const Field moved = (to.position - from.position) + (to.tail - from.tail);
+  const Field moved = displacement(from, to);
   for (const Bond& b : energy.model().bonds) {
     const auto [i, j] = b.particles;
     const double length = (from.at(j) - from.at(i)).hi.norm();

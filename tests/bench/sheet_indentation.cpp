@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
   const Model model = indented_sheet(rows, levels);
   Energy energy(model), again(model);
   std::printf("%d particles, %d dofs, %ld non-zeros\n", model.particles(), energy.dofs(),
-              long(energy.pattern().nonZeros()));
+              long(energy.hessian().nonZeros()));
   const Path path = press(energy, levels, 1), shared = press(again, levels, 2);
   const Assembly one = assemble(energy, path.state, 1), two = assemble(energy, path.state, 2);
   std::printf("\none assembly: %.2f ms on one thread, %.2f ms on two, ratio %.2f\n", 1e3 * one.seconds, 1e3 * two.seconds,

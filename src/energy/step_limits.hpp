@@ -1,0 +1,23 @@
+#pragma once
+// What bounds a step of a solver besides the energy itself.
+#include "energy/energy.hpp"
+
+namespace elamin {
+
+/// Largest |s_j − s_i|/|x_j − x_i| over the bonds: how much a step (dofs) turns or stretches what is glued.
+double distortion(const Energy& energy, const State& state, const Vector& step);
+
+/// Largest movement of a particle in its own diameters.
+double movement(const Energy& energy, const Vector& step);
+
+/// The extent of all particles and of the finite corners of walls where there are contacts or walls, else infinity: no
+/// single step should be longer. [length]
+double extent(const Model& model);
+
+/// What has moved farther than that from the start, "particle 7 of 'grains'"; else "".
+std::string escaped(const Model& model, const State& state, double far);
+
+/// The first grain that a force drives and no stiffness holds, at the last evaluation with Hessian; else "".
+std::string falling(const Energy& energy);
+
+}  // namespace elamin
