@@ -1,5 +1,6 @@
 // A law of one's own: a bond that stiffens, U = K (r − r₀)² + Q (r − r₀)⁴, in a chain of three particles pulled at its
-// end. Formula, derivatives and a group are all it takes; assembly and everything above it know laws by their concept only.
+// end. Formula, derivatives and a group are all it takes; assembly and everything above it know laws by their concept
+// only.
 #include "energy/law_group.hpp"
 
 #include <cstdio>

@@ -162,15 +162,15 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     if (energy.passage(start, predicted) < 1) predicted = driven;
   }
   State state = predicted;
-  Report report = newton.correct(state, from.zero_modes, &start);
+  Report report = newton.correct(state, from.zero_modes, &start, most_iterations);
   const bool meets = !energy.model().contacts.empty() || !energy.model().walls.empty();
   if (report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = predicted;
-    report = newton.minimise(state);
+    report = newton.minimise(state, Pace::long_steps, most_iterations);
   }
   if (!report.converged()) return fail(state, report);
-  if (report.iterations > most_iterations || !stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
+  if (!stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
   if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   return assess(newton, state, report);

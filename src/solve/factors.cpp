@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace elamin {
@@ -95,7 +96,10 @@ double Factors::make_positive(double guess) {
   const double sigma = zero_level();
   if (try_cholesky(sigma)) return sigma;
   double shift = std::max(guess, 16 * sigma);
-  while (!try_cholesky(shift)) shift *= 32;
+  while (!try_cholesky(shift)) {
+    shift *= 32;
+    if (!std::isfinite(shift)) throw std::runtime_error("the Hessian has entries that are not finite");
+  }
   return shift;
 }
 

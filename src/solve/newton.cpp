@@ -37,22 +37,23 @@ Report Newton::finish(const State& state, Report report, const Halt& halt) {
   return report;
 }
 
-std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& report) const {
+std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& report, int most) const {
   if (!std::isfinite(energy_.last_terms().total()))
     return Halt{Status::not_converged, "the energy is not finite here: particles coincide, or do not fit into a curved wall"};
   if (interrupted()) return Halt{Status::interrupted, "interrupted"};
   if (const std::string gone = escaped(energy_.model(), state, lost * extent_); !gone.empty())
     return Halt{Status::not_converged, gone + " moves away without end; hold it with a [[support]], or with a wall"};
-  if (report.iterations < options_.max_iterations) return {};
+  most = std::min(most, options_.max_iterations);
+  if (report.iterations < most) return {};
   const std::string grain = falling(energy_);
-  return Halt{Status::not_converged, fmt::format("{} iterations were not enough; the residual is {:.2g}{}", options_.max_iterations,
+  return Halt{Status::not_converged, fmt::format("{} iterations were not enough; the residual is {:.2g}{}", most,
                                                  report.residual, grain.empty() ? "" : "; " + grain + " flies freely under a force")};
 }
 
 // The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual.
 void Newton::polish(State& state, Report& report, const std::function<Vector(const Vector&)>& solve) {
-  constexpr int most = 4;
-  for (int k = 0; k < most && report.residual > 4 * epsilon; ++k) {
+  constexpr int most_polishing = 4;
+  for (int k = 0; k < most_polishing && report.residual > 4 * epsilon; ++k) {
     State next = state;
     energy_.kinematics().retract(next, solve(energy_.gradient()), -1);
     energy_.evaluate(next, false);
@@ -63,7 +64,7 @@ void Newton::polish(State& state, Report& report, const std::function<Vector(con
   }
 }
 
-Report Newton::minimise(State& state, Pace pace) {
+Report Newton::minimise(State& state, Pace pace, int most) {
   const Stopwatch watch;
   Report report;
   const int factorizations_before = factors_.factorizations();
@@ -94,7 +95,7 @@ Report Newton::minimise(State& state, Pace pace) {
         return end(Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance));
       }
     }
-    if (const auto halt = must_halt(state, report)) return end(halt->status, halt->why);
+    if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
 
     const Vector g = energy_.gradient();
     bool left;
@@ -129,7 +130,7 @@ Report Newton::minimise(State& state, Pace pace) {
   }
 }
 
-Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from) {
+Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most) {
   const Stopwatch watch;
   Report report;
   const int factorizations_before = factors_.factorizations();
@@ -147,7 +148,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     record(report, moved, 0);
     const bool settled = report.residual <= options_.tolerance;
     if (!settled || !std::isfinite(report.energy))
-      if (const auto halt = must_halt(state, report)) return end(halt->status, halt->why);
+      if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
     factors_.factorize_holding(held);
     if (settled) {
       polish(state, report, [&](const Vector& g) { return factors_.solve_holding(g); });

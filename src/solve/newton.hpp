@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace elamin {
@@ -37,13 +38,14 @@ class Newton {
 
   /// Finds a minimum: converged means a small residual and no negative eigenvalue. A saddle is left along its negative
   /// curvature. Steps lower the energy (Armijo on what was predicted); where rounding hides the energy's change, they
-  /// must lower the residual.
-  Report minimise(State& state, Pace pace = Pace::long_steps);
+  /// must lower the residual. Not more than `most` iterations, where that is less than the options allow.
+  Report minimise(State& state, Pace pace = Pace::long_steps, int most = std::numeric_limits<int>::max());
 
   /// Finds the stationary point near the state, stable or not. Directions in the columns of `held` (orthonormal,
   /// dofs × m) keep their value: zero modes, or the critical modes at an event. `from`: the equilibrium that a predictor
-  /// led here from, if one did. Not converged if the steps do not shrink.
-  Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr);
+  /// led here from, if one did. Not converged if the steps do not shrink, or after `most` iterations.
+  Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr,
+                 int most = std::numeric_limits<int>::max());
 
   /// Moves the state from a saddle down along ± direction (dofs), sign as given, until the energy rises or what is
   /// glued turns by a third of a radian. False if no lower energy is found.
@@ -71,7 +73,7 @@ class Newton {
   double residual() const;
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
-  std::optional<Halt> must_halt(const State& state, const Report& report) const;
+  std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
   double part_within_turn(const State& state, const Vector& p) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);

@@ -92,8 +92,10 @@ double Newton::make_convex(State& state, const Vector& g, double guess, bool set
       if (left) return std::abs(lowest.values[0]);
       energy_.evaluate(state);
     }
-    shift = -2 * lowest.values[0];
-    while (!factors_.try_cholesky(shift)) shift *= 2;
+    const double convex = shift;                                // with which there was a factor
+    shift = lowest.values[0] < 0 ? -2 * lowest.values[0] : convex;
+    while (shift < convex && !factors_.try_cholesky(shift)) shift *= 2;
+    if (shift >= convex) factors_.try_cholesky(shift = convex);
   } else if (shift > 0) {                                       // a zero mode: rounding alone would fill the step with it
     shift = 100 * sigma;
     factors_.try_cholesky(shift);

@@ -159,8 +159,8 @@ int main(int argc, char** argv) {
               long(energy.hessian().nonZeros()));
   const Path path = press(energy, levels, 1), shared = press(again, levels, 2);
   const Assembly one = assemble(energy, path.state, 1), two = assemble(energy, path.state, 2);
-  std::printf("\none assembly: %.2f ms on one thread, %.2f ms on two, ratio %.2f\n", 1e3 * one.seconds, 1e3 * two.seconds,
-              one.seconds / two.seconds);
+  std::printf("\none assembly: %.2f ms on one thread, %.2f ms on two, ratio %.2f\n", 1e3 * one.seconds,
+              1e3 * two.seconds, one.seconds / two.seconds);
   if (counted)
     std::printf("allocations in 20 assemblies: %ld on one thread, %ld on two\n", one.allocations, two.allocations);
   const bool threads_agree = same_bits(one, two) && same_bits(path.state, shared.state);
