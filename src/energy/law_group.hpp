@@ -38,6 +38,17 @@ class ElementGroup {
   static int packed(int row, int column) { return row * (row + 1) / 2 + column; }
 };
 
+/// Writes what a law gave for element e into the buffers of its group; hessian may be null.
+template <int n>
+void store(const Local<n>& u, std::int64_t e, double* value, double* gradient, double* hessian) {
+  value[e] = u.value;
+  Eigen::Map<Eigen::Matrix<double, 3 * n, 1>>(gradient + e * 3 * n) = u.gradient;
+  if (!hessian) return;
+  double* h = hessian + e * (3 * n * (3 * n + 1) / 2);
+  for (int r = 0; r < 3 * n; ++r)
+    for (int c = 0; c <= r; ++c) *h++ = u.hessian(r, c);
+}
+
 /// A law whose stiffness across depends on a force that a straight step of finite length falsifies (see HarmonicBond).
 template <class L>
 concept PredictingLaw = Law<L> && requires(const L& law, const Points<L::sites>& x) {
@@ -63,13 +74,7 @@ class LawGroup final : public ElementGroup {
 
   void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override {
     parallel_for(elements(), grain, [&](std::int64_t e) {
-      const Local<n> u = local(state, from, e);
-      value[e] = u.value;
-      Eigen::Map<Eigen::Matrix<double, 3 * n, 1>>(gradient + e * gradient_size()) = u.gradient;
-      if (!hessian) return;
-      double* h = hessian + e * hessian_size();
-      for (int r = 0; r < 3 * n; ++r)
-        for (int c = 0; c <= r; ++c) *h++ = u.hessian(r, c);
+      store(local(state, from, e), e, value, gradient, hessian);
     });
   }
 

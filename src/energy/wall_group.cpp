@@ -35,13 +35,7 @@ void WallGroup::values(const State& state, double* value) const {
 void WallGroup::derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const {
   const std::vector<WallContact>& walls = at(state.load_factor);
   parallel_for(elements(), grain, [&](std::int64_t e) {
-    const Local<1> u = walls[wall_[e]].derivatives(state.at(particle_[e]), model_.diameter[particle_[e]] / 2);
-    value[e] = u.value;
-    Eigen::Map<Vec3>(gradient + 3 * e) = u.gradient;
-    if (!hessian) return;
-    double* h = hessian + e * hessian_size();
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c <= r; ++c) *h++ = u.hessian(r, c);
+    store(walls[wall_[e]].derivatives(state.at(particle_[e]), model_.diameter[particle_[e]] / 2), e, value, gradient, hessian);
   });
 }
 

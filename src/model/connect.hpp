@@ -14,7 +14,7 @@ struct Connection {
   double rest_length = 0;                          // 0: as built
   double angle_stiffness = 0;                      // 0: no angles
   bool as_built = true;                            // angles at rest as built
-  double rest = 3.14159265358979323846;            // else: rest angle [rad]
+  double rest = pi;            // else: rest angle [rad]
 };
 
 /// Bonds every particle of `first` to those of `second` that are near, but not to itself nor where a bond is already.

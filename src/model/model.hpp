@@ -1,6 +1,7 @@
 #pragma once
 // A structure made of glued particles: what there is, how it is held and loaded. No mathematics, no input.
 #include "laws/region.hpp"
+#include "laws/section.hpp"
 #include "model/state.hpp"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace elamin {
 
 struct BondType { double stiffness, rest_length; };   // U = K (r − r₀)²: K [energy/length²], r₀ [length]
 /// U = B (1 − cos(θ − θ₀)): B [energy], θ₀ [rad]; θ₀ = π, straight, is LAMMPS's cosine, others its cosine/shift.
-struct AngleType { double stiffness, rest = 3.14159265358979323846; };
+struct AngleType { double stiffness, rest = pi; };
 struct Bond { int type; std::array<int, 2> particles; };    // particles by index from 0
 struct Angle { int type; std::array<int, 3> particles; };   // the middle one second
 
@@ -108,7 +109,7 @@ struct Model {
 
   int particles() const { return static_cast<int>(start.particles()); }
   /// Mass of particle i: density · π d³/6.
-  double mass(int i) const { return density[i] * 3.14159265358979323846 / 6 * diameter[i] * diameter[i] * diameter[i]; }
+  double mass(int i) const { return density[i] * pi / 6 * diameter[i] * diameter[i] * diameter[i]; }
 };
 
 }  // namespace elamin

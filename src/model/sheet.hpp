@@ -28,7 +28,7 @@ struct Sheet {
   double youngs_modulus = 0;                       // 0: not known
   double bond_stiffness = 0, angle_stiffness = 0;
   bool as_built = false;                           // angles at rest as built; of a cylinder an angle type a direction
-  double rest = 3.14159265358979323846;            // else: rest angle [rad]
+  double rest = pi;            // else: rest angle [rad]
 };
 
 /// How a cylinder's lattice closes: once around is n1 steps along a row and n2 along the direction 60° from it.

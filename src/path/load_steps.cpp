@@ -72,8 +72,13 @@ bool LoadSteps::begin() {
   Report report = newton_.correct(state);
   if (report.converged()) current_ = assess(newton_, state, report);
   if (!report.converged() || (current_.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::jump)) {
-    if (report.converged()) notes_.push_back(fmt::format("the starting state is unstable ({} negative eigenvalues); it falls to a minimum", current_.point.stability.negative));
-    else { state = start_; newton_.energy().kinematics().prescribe(state, interval_start_); }
+    if (report.converged()) {
+      notes_.push_back(fmt::format("the starting state is unstable ({} negative eigenvalues); it falls to a minimum",
+                                   current_.point.stability.negative));
+    } else {
+      state = start_;
+      newton_.energy().kinematics().prescribe(state, interval_start_);
+    }
     report = newton_.minimise(state);
     if (!report.converged()) {
       current_.point.state = state, current_.point.report = report;
@@ -156,7 +161,9 @@ bool LoadSteps::lose_stability(const Event& located, double target) {
     return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", label, at));
   if (options_.when_unstable == WhenUnstable::jump) return jump(event, target);
   if (event.kind == EventKind::limit)
-    return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond; use the arc-length method", label, at));
+    return end(Status::not_converged,
+               fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond; use the arc-length method",
+                           label, at));
   // Over the event along the tangent: the critical modes keep still, so that the branch is not left.
   Equilibrium start = event.at;
   start.zero_modes = event.modes;

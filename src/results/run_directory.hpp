@@ -23,9 +23,9 @@ class RunDirectory {
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
 
-  /// states/LABEL.data, and every closed contact (gap < 0; at an event also what just touches) as a row of contacts.csv: label, lambda, first (id of the
-  /// particle), second (id of the other one, or the wall's name), gap, force (its magnitude), fx, fy, fz (on the first),
-  /// x, y, z (of contact).
+  /// states/LABEL.data, and every closed contact (gap < 0; at an event also what just touches) as a row of contacts.csv:
+  /// label, lambda, first (id of the particle), second (id of the other one, or the wall's name), gap, force (its
+  /// magnitude), fx, fy, fz (on the first), x, y, z (of contact).
   void add_state(const std::string& label, const State& state, const std::vector<Touch>& touches);
 
   /// A row of modes.csv (mode, eigenvalue, zero_mode), modes/mode-K.csv (id, ux, uy, uz) and states/mode-K.data, the state

@@ -48,6 +48,8 @@ std::string describe_pair(const Model& model, const PairContact& c, int excluded
   return text + fmt::format("; {}\n  {}\n", left_out, overlaps.text("overlap"));
 }
 
+std::string listed(const Vec3& v) { return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", v[0], v[1], v[2]); }
+
 std::string shape_of(const Region& r) {
   const auto along = [&](const std::string& name) {
     const std::string ends = std::isfinite(r.axial_lo) || std::isfinite(r.axial_hi)
@@ -55,8 +57,8 @@ std::string shape_of(const Region& r) {
     return fmt::format("a {} along {}{}", name, "xyz"[r.axis], ends);
   };
   switch (r.shape) {
-    case Shape::plane: return fmt::format("a plane through [{:.10g}, {:.10g}, {:.10g}], normal [{:.10g}, {:.10g}, {:.10g}]", r.center[0], r.center[1], r.center[2], r.normal[0], r.normal[1], r.normal[2]);
-    case Shape::block: return fmt::format("a block from [{:.10g}, {:.10g}, {:.10g}] to [{:.10g}, {:.10g}, {:.10g}]", r.lo[0], r.lo[1], r.lo[2], r.hi[0], r.hi[1], r.hi[2]);
+    case Shape::plane: return fmt::format("a plane through {}, normal {}", listed(r.center), listed(r.normal));
+    case Shape::block: return fmt::format("a block from {} to {}", listed(r.lo), listed(r.hi));
     case Shape::sphere: return fmt::format("a sphere of radius {:.10g}", r.radius);
     case Shape::cylinder: return along("cylinder") + fmt::format(", radius {:.10g}", r.radius);
     case Shape::cone: return along("cone") + fmt::format(", radii {:.10g} and {:.10g}", r.radius_lo, r.radius_hi);
@@ -74,7 +76,8 @@ std::string describe_wall(const Wall& wall, const State& state, const Overlaps& 
                                  wall.curved ? "with the wall's curvature" : "the particle's");
   if (open > 0) text += fmt::format(", {} open face{}: both sides act", open, open == 1 ? "" : "s");
   text += fmt::format("\n  {}", overlaps.text("overlap"));
-  if (wrong > 0 && open == 0) text += fmt::format("; {} particle{} on the wrong side, which feel{} nothing", wrong, wrong == 1 ? "" : "s", wrong == 1 ? "s" : "");
+  if (wrong > 0 && open == 0)
+    text += fmt::format("; {} on the wrong side, feeling nothing", wrong == 1 ? "1 particle is" : std::to_string(wrong) + " particles are");
   return text + "\n";
 }
 

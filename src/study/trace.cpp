@@ -82,7 +82,8 @@ Report bring(Newton& newton, State& state, double load_factor) {
       if (step >= smallest) continue;
       newton.energy().evaluate(state, false);
       report.status = Status::not_converged, report.residual = newton.energy().relative(newton.energy().gradient());
-      report.why = fmt::format("supports or walls could not go on from load factor {:.10g}: something would pass through something else or be torn", state.load_factor);
+      report.why = fmt::format("supports or walls could not go on from load factor {:.10g}: something would pass through "
+                               "something else or be torn", state.load_factor);
       return report;
     }
     report = newton.minimise(next);
