@@ -55,6 +55,7 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["events"] = Json::array();
   for (const Row& row : events.rows) all["events"].push_back(object(events, row));
   all["final"] = path.rows.empty() ? Json(nullptr) : object(path, path.rows.back());
+  all["zero_modes"] = summary.zero_modes;
   all["times"] = object(summary.times);
   all["version"] = version();
   all["input"] = summary.input;

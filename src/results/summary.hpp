@@ -14,6 +14,7 @@ struct Summary {
   std::string input, input_sha256;                             // the problem file, and the hash of its bytes
   std::vector<std::pair<std::string, double>> times;           // what and seconds
   std::vector<std::pair<std::string, double>> tolerances;
+  std::vector<std::string> zero_modes;                         // of the last equilibrium, by name: rattlers, rigid motions
 };
 
 /// "done", "not_converged" or "interrupted".

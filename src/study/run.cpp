@@ -54,6 +54,7 @@ RunResult run_one(const PreparedRun& run, const RunOptions& options, const std::
   const SingleResult result = run_single(run.problem, run.model, directory, Progress::style_for(stdout, options.quiet));
   if (!options.quiet) {
     fmt::print("{}", closing_table(result.events));
+    for (const std::string& name : result.zero_modes) fmt::print("free at the end: {}\n", name);
     fmt::print("{}: {}\nwritten: {}\n", status_name(result.status), result.why, directory);
   } else if (result.status != Status::converged) {
     fmt::print(stderr, "{}: {}\n", status_name(result.status), result.why);

@@ -51,6 +51,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   const double setup = total.seconds();
 
   Progress progress(stdout, style, starting_load_factor(problem), problem.path.to);
+  Summary summary;
   const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
     if (last && point.label.empty()) point.label = "final";
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
@@ -62,6 +63,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     results.add(point, energy.forces(point.state), touches, eigenvalues);
     if (last && point.label != "final") results.add_state("final", point.state, touches);
     progress.show(point);
+    summary.zero_modes = point.stability.zero_modes;
   };
   const Sink sink{
       .point = [&](const PathPoint& point, bool last) { add(point, last, {}); },
@@ -76,14 +78,13 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   progress.finish();
   results.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
 
-  Summary summary;
   summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
   summary.input = problem.file, summary.input_sha256 = problem.sha256;
   summary.times = {{"setup", setup}, {"total", total.seconds()}};
   summary.tolerances = {{"residual", problem.solver.tolerance}};
   results.finish(summary);
 
-  SingleResult result{outcome.status, outcome.why, results.record().path(), results.record().events(), {}};
+  SingleResult result{outcome.status, outcome.why, results.record().path(), results.record().events(), summary.zero_modes, {}};
   result.verdicts = check_expectations(problem, result.path, result.events);
   return result;
 }

@@ -12,6 +12,7 @@ struct SingleResult {
   Status status = Status::converged;
   std::string why;
   Table path, events;
+  std::vector<std::string> zero_modes;     // of the last equilibrium, by name
   std::vector<Verdict> verdicts;
 };
 

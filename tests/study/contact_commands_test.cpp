@@ -270,3 +270,28 @@ type = "energy"
   for (std::size_t at = 0; (at = answer.text.find("free rigid motion:", at)) != std::string::npos; ++at) ++named;
   CHECK(named == 10);
 }
+
+TEST_CASE("grains that nothing holds are named at the end of a run", "[study]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("grains.toml", R"(
+[[grains]]
+name = "sand"
+positions = [[0, 0, 0.45], [5, 0, 3]]
+diameter = 1
+[[wall]]
+name = "floor"
+group = "sand"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+effective_modulus = 75
+[study]
+type = "equilibrium"
+)");
+  const Answer answer = elamin_says("'" + file + "' -o '" + (scratch / "out") + "'");
+  INFO(answer.text);
+  CHECK(answer.status == 0);
+  CHECK(answer.text.find("rattler: particle 2 touches nothing") != std::string::npos);
+  const auto summary = nlohmann::json::parse(text_of(scratch / "out/summary.json"));
+  CHECK(summary["zero_modes"].dump().find("rattler: particle 2 touches nothing") != std::string::npos);
+}
