@@ -40,7 +40,6 @@ class LammpsLines {
   void mistake(int line, int column, std::string key, std::string what);
   /// Throws InputError if there was a mistake.
   void finish() const;
-  bool clean() const { return mistakes_.empty(); }
 
   /// Word i as a finite number, or as an integer within [lo, hi]; else notes a mistake.
   std::optional<double> number(const DataLine& line, std::size_t i, const std::string& key);

@@ -120,7 +120,8 @@ Report Newton::minimise(State& state, Pace pace, int most) {
       alpha /= 2;
       if (alpha < 1e-12 * first)
         return end(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
-            std::abs(step.slope) <= step.energy_rounding ? "residual below rounding" : "energy", report.residual));
+            std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",
+            report.residual));
     }
     moved = alpha * infinity_norm(step.p);
     reach = free < 0.5 ? std::min(reach, 2 * first * infinity_norm(step.p)) : std::min(std::max(reach, 4 * moved), extent_);
