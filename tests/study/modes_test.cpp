@@ -142,3 +142,30 @@ value = 1
   CHECK(norm == Approx(1).epsilon(1e-12));
   CHECK(most == Approx(std::stod(shape[7][1])).epsilon(1e-6));     // the middle moves most, towards +x
 }
+
+TEST_CASE("free motions are modes, by name", "[study]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("free.toml", R"(
+[[beam]]
+name = "rod"
+particles = 6
+from = [0, 0, 0]
+to = [0, 0, 5]
+diameter = 1
+youngs_modulus = 100
+[study]
+type = "modes"
+[modes]
+count = 6
+[[expect]]
+observable = "negative"
+value = 0
+)");
+  const Answer answer = elamin_says("verify '" + file + "' -o '" + (scratch / "out") + "'");
+  INFO(answer.text);
+  CHECK(answer.status == 0);
+  const std::string modes = text_of(scratch / "out/modes.csv");
+  for (const char* name : {"translation of 'rod' along x", "translation of 'rod' along y", "translation of 'rod' along z",
+                           "rotation of 'rod' about x", "rotation of 'rod' about y"})
+    CHECK(modes.find(name) != std::string::npos);
+}
