@@ -1,5 +1,6 @@
 #include "catch.hpp"
 #include "scratch_directory.hpp"
+#include "study/column.hpp"
 #include "study/program.hpp"
 
 #include <nlohmann/json.hpp>
@@ -12,23 +13,7 @@
 namespace {
 
 // A clamped column of 14 particles in plane, pushed through its critical shortening 0.187 d.
-const std::string column = R"(
-plane = "xz"
-[[beam]]
-name = "column"
-particles = 14
-center = [0, 0, 0]
-axis = [0, 0, 1]
-diameter = 1e-3
-youngs_modulus = 0.96e6
-[[group]]
-name = "bottom"
-of = "column"
-first = 2
-[[group]]
-name = "top"
-of = "column"
-last = 2
+const std::string column = column_and_ends + R"(
 [[group]]
 name = "mid"
 of = "column"

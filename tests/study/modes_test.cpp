@@ -2,6 +2,7 @@
 #include "chain.hpp"
 #include "problem/lammps_data.hpp"
 #include "scratch_directory.hpp"
+#include "study/column.hpp"
 #include "study/modes.hpp"
 #include "study/program.hpp"
 
@@ -86,23 +87,7 @@ TEST_CASE("modes of an unstable state, and more modes than there are", "[modes]"
 
 TEST_CASE("the study of modes through the program", "[modes][study]") {
   const ScratchDirectory scratch;
-  const std::string problem = R"(
-plane = "xz"
-[[beam]]
-name = "column"
-particles = 14
-center = [0, 0, 0]
-axis = [0, 0, 1]
-diameter = 1e-3
-youngs_modulus = 0.96e6
-[[group]]
-name = "bottom"
-of = "column"
-first = 2
-[[group]]
-name = "top"
-of = "column"
-last = 2
+  const std::string problem = column_and_ends + R"(
 [[support]]
 group = "bottom"
 [[support]]

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+/// A column of 14 particles in the plane, with the groups of its two clamps: the beginning of problem files.
+inline const std::string column_and_ends = R"(
+plane = "xz"
+[[beam]]
+name = "column"
+particles = 14
+center = [0, 0, 0]
+axis = [0, 0, 1]
+diameter = 1e-3
+youngs_modulus = 0.96e6
+[[group]]
+name = "bottom"
+of = "column"
+first = 2
+[[group]]
+name = "top"
+of = "column"
+last = 2
+)";
