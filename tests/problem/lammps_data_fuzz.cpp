@@ -139,7 +139,11 @@ TEST_CASE("numbers that are far too large ask for no memory", "[lammps_data][fuz
       attempt(text);
     }
   CHECK(attempt.refused > 50);
+#ifndef __SANITIZE_ADDRESS__           // which keeps what was freed
   CHECK(memory() < before + 50e6);
+#else
+  (void)before;
+#endif
 }
 
 TEST_CASE("files of real cases, damaged", "[lammps_data][fuzz]") {
