@@ -28,7 +28,7 @@ int main() {
 
   Energy energy(model);
   Newton newton(energy);
-  LoadStepOptions options;
+  PathOptions options;
   options.to = 0.3, options.steps = 20, options.when_unstable = WhenUnstable::stop;
   LoadSteps path(newton, model.start, options);
   double found = 0;

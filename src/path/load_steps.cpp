@@ -17,7 +17,7 @@ constexpr std::int64_t whole = std::int64_t(1) << finest;
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a jump is made
 
 // Load factors to hit, in order: the even steps and the stops asked for.
-std::vector<double> targets_of(const LoadStepOptions& o) {
+std::vector<double> targets_of(const PathOptions& o) {
   std::vector<double> targets;
   const double sign = o.to > o.from ? 1 : -1, start = o.start.value_or(o.from);
   const double same = 1e-12 * std::max(std::abs(o.from), std::abs(o.to));
@@ -33,7 +33,7 @@ std::vector<double> targets_of(const LoadStepOptions& o) {
 
 }  // namespace
 
-LoadSteps::LoadSteps(Newton& newton, const State& start, LoadStepOptions options)
+LoadSteps::LoadSteps(Newton& newton, const State& start, PathOptions options)
     : newton_(newton), options_(std::move(options)), start_(start), targets_(targets_of(options_)),
       interval_start_(options_.start.value_or(options_.from)) {}
 

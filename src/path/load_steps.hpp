@@ -17,7 +17,7 @@ namespace elamin {
 /// is hit. The Morse index is known at every equilibrium; where it changes the event is located before going on.
 class LoadSteps {
  public:
-  LoadSteps(Newton& newton, const State& start, LoadStepOptions options);
+  LoadSteps(Newton& newton, const State& start, PathOptions options);
 
   /// The next equilibrium; nothing at the end.
   std::optional<PathPoint> next();
@@ -38,7 +38,7 @@ class LoadSteps {
   bool end(Status status, std::string why);
 
   Newton& newton_;
-  LoadStepOptions options_;
+  PathOptions options_;
   State start_;
   std::vector<double> targets_;
   std::size_t interval_ = 0;             // towards targets_[interval_]

@@ -1,8 +1,15 @@
 #pragma once
+#include "model/state.hpp"
+
+#include <functional>
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace elamin {
+
+enum class PathMethod { load_steps, arc_length };
 
 /// What a path does where its equilibria lose stability.
 enum class WhenUnstable {
@@ -11,13 +18,29 @@ enum class WhenUnstable {
   stop
 };
 
-struct LoadStepOptions {
-  double from = 0, to = 1;             // load factors
-  int steps = 100;                     // of equal length; halved where Newton fails, doubled again after
+/// An observable whose reaching of a value is an event, labelled NAME:1, NAME:2, …
+struct Watch {
+  std::string name;
+  std::function<double(const State&)> observable;
+  double value = 0;
+  bool stop = false;                     // the path ends there
+};
+
+struct PathOptions {
+  PathMethod method = PathMethod::load_steps;
+  double from = 0, to = 1;               // load factors
+  int steps = 100;                       // load steps: of equal length, halved where Newton fails, doubled again after;
+                                         // arc length: no step changes the load factor by more than such a length
   WhenUnstable when_unstable = WhenUnstable::jump;
-  std::optional<double> start;         // where on the way from `from` to `to` it starts; default `from`
-  std::vector<double> stops;           // load factors that must be hit besides
-  bool contacts = true;                // locate where contacts are made and lost
+  std::optional<double> start;           // where on the way from `from` to `to` it starts; default `from`
+  std::vector<double> stops;             // load factors that must be hit besides
+  bool limits = true, branch_points = true, contacts = true;   // events that are located
+  int branches = 0;                      // branch points to switch at, both ways
+  std::optional<double> lowest, highest; // arc length ends where the load factor leaves these; see ArcLength
+  int most_points = 0;                   // on one branch; 0: twenty times `steps`
+  std::vector<Watch> watches;
+  int deflate = 0;                       // further equilibria to look for …
+  std::vector<double> deflate_at;        // … at these load factors; none: at `to`
 };
 
 }  // namespace elamin

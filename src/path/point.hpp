@@ -12,6 +12,7 @@ namespace elamin {
 /// What the Hessian over the free dofs says of an equilibrium.
 struct Stability {
   int negative = 0;                       // Morse index: eigenvalues below zero by more than rounding
+  int negative_rigid = 0;                 // … among the motions on which the scaled loads do no work: under a rigid machine
   int zero = 0;                           // eigenvalues that are zero to rounding
   std::vector<std::string> zero_modes;    // names of the rigid motions or symmetries that they are
   bool stable = false;                    // no negative one, and every zero one is named
@@ -24,11 +25,16 @@ struct PathPoint {
   int step = 0;
   std::string label;
   int branch = 0;                         // 0: where the path started; one more after every jump or switch
+  std::string parent;                     // label of the event that the branch comes from; "" where the path started
   State state;                            // with its load factor
   EnergyTerms energy;
   Report report;
   Stability stability;
-  int multiplicity = 0;                   // of the zero eigenvalue, for an event
+  // Of an event besides:
+  int multiplicity = 0;                   // of the zero eigenvalue
+  int negative_before = -1, negative_after = -1;   // Morse index on both sides of it, along the path; -1: not an event
+  Eigen::MatrixXd modes;                  // null vectors, orthonormal (dofs × multiplicity)
+  std::string what;                       // one phrase: who touches whom, where a jump lands
 };
 
 }  // namespace elamin

@@ -123,7 +123,7 @@ Outcome trace(const Problem& problem, Energy& energy, const Sink& sink) {
     case StudyType::modes: return trace_modes(problem, newton, sink);
     case StudyType::path: break;
   }
-  const LoadStepOptions options{.from = problem.path.from, .to = problem.path.to, .steps = problem.path.steps,
+  const PathOptions options{.from = problem.path.from, .to = problem.path.to, .steps = problem.path.steps,
                                 .when_unstable = problem.path.when_unstable, .start = starting_load_factor(problem),
                                 .stops = expected_stops(problem), .contacts = locates(problem, "contact")};
   return trace_path(LoadSteps(newton, energy.model().restart.value_or(energy.model().start), options), sink);

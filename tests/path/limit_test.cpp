@@ -73,13 +73,13 @@ TEST_CASE("a path is the same from any stored point on", "[path]") {
   hold(model, 0, 1), hold(model, 12, 13, {true, true, true}, Vec3(0, 0, -2));
   Energy energy(model);
   Newton newton(energy);
-  const LoadStepOptions options{.from = 0, .to = 1, .steps = 10, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}};
+  const PathOptions options{.from = 0, .to = 1, .steps = 10, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}};
   LoadSteps whole(newton, model.start, options);
   std::vector<PathPoint> points;
   while (auto point = whole.next()) points.push_back(*point);
   REQUIRE(whole.status() == Status::converged);
   const PathPoint& middle = points[points.size() - 4];
-  LoadStepOptions rest = options;
+  PathOptions rest = options;
   rest.start = middle.state.load_factor;
   LoadSteps again(newton, middle.state, rest);
   again.next();                                                                       // the stored point itself
