@@ -31,7 +31,7 @@ struct Plate {
   void hold(const std::vector<std::array<bool, 3>>& held, const std::function<Vec3(const Vec3&)>& displacement) {
     for (int p = 0; p < model.particles(); ++p)
       if (held[p] != std::array<bool, 3>{})
-        model.supports.push_back({"", {p}, held[p], displacement(model.start.position.col(p)), false});
+        model.supports.push_back({"", {p}, held[p], displacement(model.start.position.col(p)), Scaling()});
   }
 };
 

@@ -186,25 +186,26 @@ void Assembler::sum_hessian() {
 
 void Assembler::add_drive(const State& state, Vector& out) const {
   for (const Drive& d : drives_) out[d.dof] += hessians_[d.place] * d.rate;
-  for (const auto& group : groups_) {
-    if (!group->moves()) continue;
-    std::vector<double> rate(std::size_t(group->elements()) * group->gradient_size());
-    group->load_rates(state, rate.data());
-    for (int e = 0; e < group->elements(); ++e)
-      for (int i = 0; i < group->gradient_size(); ++i)
-        if (const int dof = kinematics_.dof(group->stencil(e)[i / 3], i % 3); dof >= 0)
-          out[dof] += rate[std::size_t(e) * group->gradient_size() + i];
-  }
+  for (const auto& group : groups_) add_load_rates(*group, state, out);
+}
+
+void Assembler::add_load_rates(const ElementGroup& group, const State& state, Vector& out) const {
+  if (!group.moves()) return;
+  std::vector<double> rate(std::size_t(group.elements()) * group.gradient_size());
+  group.load_rates(state, rate.data());
+  for (int e = 0; e < group.elements(); ++e)
+    for (int i = 0; i < group.gradient_size(); ++i)
+      if (const int dof = kinematics_.dof(group.stencil(e)[i / 3], i % 3); dof >= 0)
+        out[dof] += rate[std::size_t(e) * group.gradient_size() + i];
 }
 
 namespace {
 
-// The part of v that an element sees: differences to its first site (energies do not change under translation), or v
-// itself where there is one site only.
-void relative_motion(const Field& v, std::span<const int> stencil, double* out) {
-  const bool alone = stencil.size() == 1;
+// The part of v that an element sees: differences to its first site, as its energy does not change under translation, or
+// v itself where it does.
+void relative_motion(const Field& v, std::span<const int> stencil, bool anchored, double* out) {
   for (std::size_t i = 0; i < stencil.size(); ++i)
-    for (int c = 0; c < 3; ++c) out[3 * i + c] = v(c, stencil[i]) - (alone ? 0.0 : v(c, stencil[0]));
+    for (int c = 0; c < 3; ++c) out[3 * i + c] = v(c, stencil[i]) - (anchored ? 0.0 : v(c, stencil[0]));
 }
 
 constexpr int most_local = 12;
@@ -226,7 +227,7 @@ void Assembler::multiply(const Field& v, Field& out) {
     const ElementGroup& group = *groups_[k];
     parallel_for(group.elements(), grain, [&](std::int64_t e) {
       double local[most_local];
-      relative_motion(v, group.stencil(e), local);
+      relative_motion(v, group.stencil(e), group.anchored(), local);
       packed_product(hessians_.data() + hessian_offset_[k] + e * group.hessian_size(), local, group.gradient_size(),
                      products_.data() + gradient_offset_[k] + e * group.gradient_size());
     });
@@ -240,11 +241,11 @@ double Assembler::quadratic_form(const Field& v) const {
     const ElementGroup& group = *groups_[k];
     for (int e = 0; e < group.elements(); ++e) {
       double local[most_local], product[most_local];
-      relative_motion(v, group.stencil(e), local);
+      relative_motion(v, group.stencil(e), group.anchored(), local);
       packed_product(hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size(), local,
                      group.gradient_size(), product);
       double q = 0;
-      for (int i = group.sites() == 1 ? 0 : 3; i < group.gradient_size(); ++i) q += local[i] * product[i];
+      for (int i = group.anchored() ? 0 : 3; i < group.gradient_size(); ++i) q += local[i] * product[i];
       sum.add(q);
     }
   }

@@ -36,6 +36,8 @@ class Assembler {
   /// ∂²U/∂q∂λ through the driven sites and the groups that move by themselves, added to `out` (dofs); from the last
   /// evaluation with Hessian, which was at `state`.
   void add_drive(const State& state, Vector& out) const;
+  /// ∂²U/∂q∂λ of one group that moves by itself, added to `out` (dofs); nothing if it does not.
+  void add_load_rates(const ElementGroup& group, const State& state, Vector& out) const;
   /// H v for a field v that is zero at prescribed coordinates (3 × sites), element by element on differences of v, so
   /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
   void multiply(const Field& v, Field& out);

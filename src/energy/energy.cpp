@@ -9,7 +9,7 @@ namespace elamin {
 
 namespace {
 
-enum Place { bonds, angles, contacts, cohesion, walls, places };   // in the list of groups
+enum Place { bonds, angles, contacts, cohesion, walls, pressures, places };   // in the list of groups
 
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, turn or overlap of order one.
 double stiffest(const Model& model) {
@@ -55,15 +55,19 @@ bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
 Energy::Energy(const Model& model)
     : model_(model), kinematics_(model), neighbours_(model), constant_load_(Field::Zero(3, model.particles())),
       scaled_load_(Field::Zero(3, model.particles())) {
+  const auto add = [&](int p, const Vec3& force, const Scaling& scaling) {
+    constant_load_.col(p) += scaling.fixed * force, scaled_load_.col(p) += scaling.rate * force;
+  };
   for (const Load& l : model.loads)
-    for (const int p : l.particles) (l.constant ? constant_load_ : scaled_load_).col(p) += l.force;
+    for (std::size_t k = 0; k < l.particles.size(); ++k) add(l.particles[k], l.on(k), l.scaling);
   for (const Gravity& g : model.gravity)
-    for (const int p : g.particles) (g.constant ? constant_load_ : scaled_load_).col(p) += model.mass(p) * g.acceleration;
+    for (const int p : g.particles) add(p, model.mass(p) * g.acceleration, g.scaling);
   force_floor_ = epsilon * stiffest(model);
   loose_ = loose_dofs(model, kinematics_);
   idle_.reserve(loose_.size());
   groups_.resize(places);
   groups_[bonds] = bond_group(model), groups_[angles] = angle_group(model), groups_[walls] = wall_group(model);
+  groups_[pressures] = pressure_group(model);
   neighbours_.refresh(model.restart.value_or(model.start));
   assemble_groups();
 }
@@ -82,7 +86,7 @@ void Energy::cover(const State& state) {
 
 EnergyTerms Energy::terms_of(const std::vector<double>& sums, const State& state) const {
   return {.bond = sums[bonds], .angle = sums[angles], .contact = sums[contacts], .wall = sums[walls],
-          .cohesion = sums[cohesion], .external = external(state)};
+          .cohesion = sums[cohesion], .external = external(state) + sums[pressures]};
 }
 
 double Energy::external(const State& state) const {
@@ -143,6 +147,17 @@ Vector Energy::load_derivative() const {
   Vector d = -kinematics_.restrict(scaled_load_);
   assembler_->add_drive(evaluated_, d);
   return d;
+}
+
+Vector Energy::load_force() const {
+  Vector pressed = Vector::Zero(dofs());
+  assembler_->add_load_rates(*groups_[pressures], evaluated_, pressed);
+  return kinematics_.restrict(scaled_load_) - pressed;
+}
+
+bool Energy::loads_scaled() const {
+  const auto pushes = [](const Pressure& p) { return p.scaling.rate * p.pressure != 0; };
+  return !scaled_load_.isZero(0) || std::any_of(model_.pressures.begin(), model_.pressures.end(), pushes);
 }
 
 Vector Energy::multiply(const Vector& v) const {

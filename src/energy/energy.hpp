@@ -10,8 +10,8 @@
 
 namespace elamin {
 
-/// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_wall(λ) − Σ F(λ)·x,   F(λ) = F₀ + λ F₁ (dead loads and
-/// weights). The topology is taken once from the model, which must outlive this; the candidates of contact are looked for
+/// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_wall(λ) + Σ p(λ) A − Σ F(λ)·x,   F(λ) = F₀ + λ F₁ (dead
+/// loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. The topology is taken once from the model, which must outlive this; the candidates of contact are looked for
 /// anew whenever a state is evaluated that the last list does not cover, so that no contact is ever missed. Not for use by
 /// several threads at once; inside, every evaluation is shared over the cores with the same bits for any number of them.
 class Energy {
@@ -44,8 +44,12 @@ class Energy {
   const std::vector<int>& idle() const { return idle_; }
   /// Grows by one whenever the pattern of the Hessian changes, with the candidates of contact.
   int pattern_version() const { return pattern_version_; }
-  /// ∂g/∂λ (dofs): −F₁ and what the driven points pull; exact.
+  /// ∂g/∂λ (dofs): −F₁, what the driven points pull, and of walls, pressures and changes; exact.
   Vector load_derivative() const;
+  /// The part of −∂g/∂λ (dofs) that is a force given from outside: of dead loads, weights and pressures.
+  Vector load_force() const;
+  /// Whether the load factor scales any such force.
+  bool loads_scaled() const;
   /// H v (dofs) and vᵀHv formed from differences of v element by element: more digits than the assembled Hessian has.
   Vector multiply(const Vector& v) const;
   double quadratic_form(const Vector& v) const { return assembler_->quadratic_form(kinematics_.extend(v)); }
@@ -80,12 +84,12 @@ class Energy {
   const Model& model_;
   Kinematics kinematics_;
   Neighbours neighbours_;
-  Assembler::Groups groups_;                                  // bonds, angles, contacts, cohesion, walls
+  Assembler::Groups groups_;                                  // bonds, angles, contacts, cohesion, walls, pressures
   std::unique_ptr<Assembler> assembler_;
   Field constant_load_, scaled_load_;                         // F₀, F₁: 3 × particles
   Field site_gradient_;
   Vector gradient_, row_sums_;
-  State evaluated_;                                           // where load_derivative() is asked for, if walls move
+  State evaluated_;                                           // where load_derivative() is asked for
   int pattern_version_ = 0;
   EnergyTerms terms_;
   double force_scale_ = 0, force_floor_ = 0;

@@ -1,8 +1,10 @@
 #include "energy/groups.hpp"
 
+#include "energy/changes.hpp"
 #include "energy/wall_group.hpp"
 #include "laws/cohesion.hpp"
 #include "laws/cosine_angle.hpp"
+#include "laws/edge_pressure.hpp"
 #include "laws/harmonic_bond.hpp"
 
 #include <numeric>
@@ -22,24 +24,85 @@ std::unique_ptr<ElementGroup> pair_group(const std::vector<IndexPair>& pairs, co
   return std::make_unique<LawGroup<L>>(std::move(laws), std::move(kind), std::move(stencils));
 }
 
+// In a plane a turn has a sign (see CosineAngle): the sites in the order in which they turn about the axis across the
+// plane as built, or as they are where they are in line.
+std::array<int, 3> in_its_sense(const Model& model, const std::array<int, 3>& sites) {
+  if (!model.plane_normal) return sites;
+  const auto edge = [&](int i, int j) { return model.start.at(sites[j]) - model.start.at(sites[i]); };
+  const bool against = cross(edge(0, 1), edge(1, 2))[*model.plane_normal].value() < 0;
+  return against ? std::array{sites[2], sites[1], sites[0]} : sites;
+}
+
 }  // namespace
 
 std::unique_ptr<ElementGroup> bond_group(const Model& model) {
   std::vector<HarmonicBond> laws;
   for (const BondType& t : model.bond_types) laws.push_back({t.stiffness, t.rest_length});
-  std::vector<int> kind;
   std::vector<std::array<int, 2>> stencils;
-  for (const Bond& b : model.bonds) kind.push_back(b.type), stencils.push_back(b.particles);
-  return std::make_unique<LawGroup<HarmonicBond>>(std::move(laws), std::move(kind), std::move(stencils));
+  for (const Bond& b : model.bonds) stencils.push_back(b.particles);
+  Kinds kinds = bond_kinds(model);
+  std::vector<int> kind = kinds.of;
+  if (!kinds.changed())
+    return std::make_unique<LawGroup<HarmonicBond>>(std::move(laws), std::move(kind), std::move(stencils));
+  const auto course = [&model, laws, kinds](const State& state) {
+    Course<HarmonicBond> now;
+    for (std::size_t k = 0; k < kinds.type.size(); ++k) {
+      const HarmonicBond& law = laws[kinds.type[k]];
+      const auto factor = [&](double Change::*part) { return change_factor(model, kinds.changes[k], part, state.load_factor); };
+      const auto rate = [&](double Change::*part) { return change_rate(model, kinds.changes[k], part); };
+      const Exact r0 = Exact{law.r0} * factor(&Change::rest_length);
+      now.laws.push_back({law.K * factor(&Change::bond_stiffness).value(), r0.hi, r0.lo});
+      now.rates.push_back({law.K * rate(&Change::bond_stiffness), law.r0 * rate(&Change::rest_length)});
+    }
+    return now;
+  };
+  return std::make_unique<LawGroup<HarmonicBond>>(course, std::move(kind), std::move(stencils));
 }
 
 std::unique_ptr<ElementGroup> angle_group(const Model& model) {
   std::vector<CosineAngle> laws;
-  for (const AngleType& t : model.angle_types) laws.push_back(CosineAngle{t.stiffness, t.rest});
-  std::vector<int> kind;
+  const int kept = model.plane_normal.value_or(-1);
+  for (const AngleType& t : model.angle_types) laws.push_back(CosineAngle{t.stiffness, t.rest, kept});
   std::vector<std::array<int, 3>> stencils;
-  for (const Angle& a : model.angles) kind.push_back(a.type), stencils.push_back(a.particles);
-  return std::make_unique<LawGroup<CosineAngle>>(std::move(laws), std::move(kind), std::move(stencils));
+  for (const Angle& a : model.angles) stencils.push_back(in_its_sense(model, a.particles));
+  Kinds kinds = angle_kinds(model);
+  std::vector<int> kind = kinds.of;
+  if (!kinds.changed())
+    return std::make_unique<LawGroup<CosineAngle>>(std::move(laws), std::move(kind), std::move(stencils));
+  const auto course = [&model, laws, kinds](const State& state) {
+    Course<CosineAngle> now;
+    for (std::size_t k = 0; k < kinds.type.size(); ++k) {
+      CosineAngle law = laws[kinds.type[k]], rate = law;
+      law.B *= change_factor(model, kinds.changes[k], &Change::angle_stiffness, state.load_factor).value();
+      rate.B *= change_rate(model, kinds.changes[k], &Change::angle_stiffness);
+      now.laws.push_back(law), now.rates.push_back(rate);
+    }
+    return now;
+  };
+  return std::make_unique<LawGroup<CosineAngle>>(course, std::move(kind), std::move(stencils));
+}
+
+std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
+  std::vector<int> kind;
+  std::vector<std::array<int, 2>> stencils;
+  for (std::size_t k = 0; k < model.pressures.size(); ++k) {
+    const std::vector<int>& row = model.pressures[k].particles;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      kind.push_back(static_cast<int>(k)), stencils.push_back({row[i], row[i + 1 < row.size() ? i + 1 : 0]});
+  }
+  if (kind.empty()) return std::make_unique<LawGroup<EdgePressure>>(std::vector<EdgePressure>{}, kind, stencils);
+  const auto course = [&model](const State& state) {
+    Course<EdgePressure> now;
+    for (const Pressure& p : model.pressures) {
+      // The middle of two particles that lie opposite: inside of a loop that is not far from round.
+      const ExactVector a = state.at(p.particles.front()), b = state.at(p.particles[p.particles.size() / 2]);
+      const ExactVector middle{(a.hi + b.hi) / 2, Vec3::Zero()};
+      now.laws.push_back({p.scaling.at(state.load_factor) * p.pressure, p.normal, middle});
+      now.rates.push_back({p.scaling.rate * p.pressure, p.normal, middle});
+    }
+    return now;
+  };
+  return std::make_unique<LawGroup<EdgePressure>>(course, std::move(kind), std::move(stencils));
 }
 
 HertzContact hertz_contact(const Model& model, int table, int i, int j) {

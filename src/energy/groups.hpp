@@ -8,8 +8,11 @@
 
 namespace elamin {
 
+/// One kind a type; where there are changes, one more for every type and choice of changes that act on it.
 std::unique_ptr<ElementGroup> bond_group(const Model& model);
 std::unique_ptr<ElementGroup> angle_group(const Model& model);
+/// Edges of the loops under pressure, one kind a loop.
+std::unique_ptr<ElementGroup> pressure_group(const Model& model);
 /// Hertz contacts of the candidate pairs, one law a pair: E_eff of its table, radii of its particles.
 std::unique_ptr<ElementGroup> contact_group(const Model& model, const Neighbours& neighbours);
 std::unique_ptr<ElementGroup> cohesion_group(const Model& model, const Neighbours& neighbours);

@@ -6,24 +6,24 @@ Kinematics::Kinematics(const Model& model)
     : dof_(Eigen::Matrix3Xi::Zero(3, model.particles())), reference_(model.start), drive_(Field::Zero(3, model.particles())) {
   if (model.plane_normal) dof_.row(*model.plane_normal).setConstant(-1);
   for (const Support& s : model.supports)
-    for (const int p : s.particles)
+    for (std::size_t k = 0; k < s.particles.size(); ++k)
       for (int c = 0; c < 3; ++c) {
+        const int p = s.particles[k];
         if (!s.held[c]) continue;
         dof_(c, p) = -1;
-        if (s.constant) {
-          const Exact x = Exact{model.start.position(c, p), model.start.tail(c, p)} + s.displacement[c];
-          reference_.position(c, p) = x.hi, reference_.tail(c, p) = x.lo;
-        } else {
-          drive_(c, p) = s.displacement[c];
-          driven_ = driven_ || s.displacement[c] != 0;
-        }
+        const ExactVector at = s.reference.empty() ? model.start.at(p) : s.reference[k];
+        const Exact x = Exact{at.hi[c], at.lo[c]} + two_product(s.scaling.fixed, s.displacement[c]);
+        reference_.position(c, p) = x.hi, reference_.tail(c, p) = x.lo;
+        drive_(c, p) = s.scaling.rate * s.displacement[c];
       }
   for (int p = 0; p < model.particles(); ++p)
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3; ++c) {
+      driven_ = driven_ || drive_(c, p) != 0;
       if (dof_(c, p) >= 0) {
         dof_(c, p) = static_cast<int>(site_of_.size());
         site_of_.push_back(p);
       }
+    }
 }
 
 void Kinematics::prescribe(State& state, double load_factor) const {

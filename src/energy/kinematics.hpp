@@ -4,7 +4,7 @@
 
 namespace elamin {
 
-/// Splits the coordinates of all particles into free dofs q and prescribed ones, x = X + λ d (+ constant part).
+/// Splits the coordinates of all particles into free dofs q and prescribed ones, x = X + s(λ) d.
 /// A coordinate of a particle is one or the other; ∂x/∂q is a unit vector and ∂²x/∂q² zero.
 class Kinematics {
  public:
@@ -32,7 +32,7 @@ class Kinematics {
  private:
   Eigen::Matrix3Xi dof_;
   std::vector<int> site_of_;
-  State reference_;                     // X, constant displacements included
+  State reference_;                     // X, what does not vary with λ included
   Field drive_;
   bool driven_ = false;
 };

@@ -5,6 +5,7 @@
 #include "model/state.hpp"
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -27,8 +28,10 @@ class ElementGroup {
   /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
   virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
 
-  /// Whether the energy depends on the load factor by itself, not through the sites: a moving wall. Then load_rates
-  /// gives ∂(∇U)/∂λ of every element (3·sites each).
+  /// Whether the energy of an element is another one where the element is moved as a whole.
+  virtual bool anchored() const { return sites() == 1; }
+  /// Whether the energy depends on the load factor by itself, not through the sites: a moving wall, growth. Then
+  /// load_rates gives ∂(∇U)/∂λ of every element (3·sites each).
   virtual bool moves() const { return false; }
   virtual void load_rates(const State&, double*) const {}
 
@@ -56,6 +59,13 @@ concept PredictingLaw = Law<L> && requires(const L& law, const Points<L::sites>&
   { law.unpredicted(x, x) } -> std::same_as<double>;
 };
 
+/// Laws that change with the load factor, or with the state as a whole: of every kind the law, and as another law the
+/// rates ∂/∂λ of its parameters.
+template <class L>
+struct Course {
+  std::vector<L> laws, rates;
+};
+
 template <Law L>
 class LawGroup final : public ElementGroup {
  public:
@@ -63,27 +73,47 @@ class LawGroup final : public ElementGroup {
   /// laws: one a kind; kind: which law each element has; stencils: its sites.
   LawGroup(std::vector<L> laws, std::vector<int> kind, std::vector<std::array<int, n>> stencils)
       : laws_(std::move(laws)), kind_(std::move(kind)), stencils_(std::move(stencils)) {}
+  /// The same with laws that change: `course` is asked once an evaluation.
+  using CourseAt = std::function<Course<L>(const State&)>;
+  LawGroup(CourseAt course, std::vector<int> kind, std::vector<std::array<int, n>> stencils) requires ChangingLaw<L>
+      : course_(std::move(course)), kind_(std::move(kind)), stencils_(std::move(stencils)) {}
 
   int elements() const override { return static_cast<int>(stencils_.size()); }
   int sites() const override { return n; }
   std::span<const int> stencil(int element) const override { return stencils_[element]; }
 
   void values(const State& state, double* value) const override {
+    at(state);
     parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].value(gather(state, e)); });
   }
 
   void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override {
+    at(state);
     parallel_for(elements(), grain, [&](std::int64_t e) {
       store(local(state, from, e), e, value, gradient, hessian);
     });
   }
 
   bool unpredicted(const State& state, const State& from, double* value) const override {
-    if constexpr (PredictingLaw<L>)
+    if constexpr (PredictingLaw<L>) {
+      at(state);
       parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].unpredicted(gather(state, e), gather(from, e)); });
-    else
+    } else
       (void)state, (void)from, (void)value;
     return PredictingLaw<L>;
+  }
+
+  bool anchored() const override { return AnchoredLaw<L>; }
+  bool moves() const override { return bool(course_); }
+  void load_rates(const State& state, double* rate) const override {
+    if constexpr (ChangingLaw<L>) {
+      const Course<L> course = course_(state);
+      parallel_for(elements(), grain, [&](std::int64_t e) {
+        Eigen::Map<Eigen::Matrix<double, 3 * n, 1>>(rate + e * 3 * n) =
+            course.laws[kind_[e]].gradient_rate(gather(state, e), course.rates[kind_[e]]);
+      });
+    } else
+      (void)state, (void)rate;
   }
 
  private:
@@ -102,7 +132,12 @@ class LawGroup final : public ElementGroup {
     return x;
   }
 
-  std::vector<L> laws_;
+  void at(const State& state) const {
+    if (course_) laws_ = course_(state).laws;
+  }
+
+  CourseAt course_;                              // none: the laws stay
+  mutable std::vector<L> laws_;                  // as they are at the state asked for last
   std::vector<int> kind_;
   std::vector<std::array<int, n>> stencils_;
 };

@@ -63,7 +63,7 @@ double distance(const Wall& wall, double load_factor, const ExactVector& x, doub
 double at_wall(const Model& model, const Wall& wall, const State& from, const State& to, const Field& u) {
   constexpr int most = 200;
   const double turn = to.load_factor - from.load_factor;
-  const double wall_speed = std::abs(turn) * (wall.displacement.norm() + std::abs(wall.radius_change));
+  const double wall_speed = std::abs(wall.scaling.rate * turn) * (wall.displacement.norm() + std::abs(wall.radius_change));
   double least = 1;
   for (const int p : wall.particles) {
     const double speed = u.col(p).norm() + wall_speed, r = model.diameter[p] / 2;

@@ -4,7 +4,7 @@
 namespace elamin {
 
 /// Energies by term [energy]; contact: Hertz between particles, wall: at walls, cohesion: Lennard-Jones;
-/// external = −Σ F·x of all loads and weights at the load factor in force.
+/// external = −Σ F·x of all loads and weights and Σ p A of the pressures at the load factor in force.
 struct EnergyTerms {
   double bond = 0, angle = 0, contact = 0, wall = 0, cohesion = 0, external = 0;
   double total() const { return bond + angle + contact + wall + cohesion + external; }

@@ -7,7 +7,8 @@ constexpr std::int64_t grain = 500;
 }
 
 WallContact wall_at(const Wall& wall, double load_factor) {
-  return {wall.region.moved(load_factor * wall.displacement, load_factor * wall.radius_change), wall.inside,
+  const double part = wall.scaling.at(load_factor);
+  return {wall.region.moved(part * wall.displacement, part * wall.radius_change), wall.inside,
           wall.effective_modulus, wall.curved};
 }
 
@@ -15,7 +16,8 @@ WallGroup::WallGroup(const Model& model) : model_(model) {
   walls_.reserve(model.walls.size());
   for (std::size_t w = 0; w < model.walls.size(); ++w) {
     for (const int p : model.walls[w].particles) particle_.push_back(p), wall_.push_back(static_cast<int>(w));
-    moves_ = moves_ || !model.walls[w].displacement.isZero(0) || model.walls[w].radius_change != 0;
+    const Wall& wall = model.walls[w];
+    moves_ = moves_ || (wall.scaling.rate != 0 && (!wall.displacement.isZero(0) || wall.radius_change != 0));
   }
 }
 
@@ -48,7 +50,7 @@ void WallGroup::load_rates(const State& state, double* rate) const {
     const double r = model_.diameter[particle_[e]] / 2;
     Vec3 v = -(law.derivatives(x, r).hessian * wall.displacement);
     if (wall.radius_change != 0) v += wall.radius_change * law.radius_rate(x, r);
-    Eigen::Map<Vec3>(rate + 3 * e) = v;
+    Eigen::Map<Vec3>(rate + 3 * e) = wall.scaling.rate * v;
   });
 }
 

@@ -6,11 +6,11 @@
 
 namespace elamin {
 
-/// The wall as it stands at the load factor λ: moved by λ d, its radius larger by λ ΔR.
+/// The wall as it stands at the load factor λ: moved by s(λ) d, its radius larger by s(λ) ΔR.
 WallContact wall_at(const Wall& wall, double load_factor);
 
 /// U of all walls. They move with the load factor themselves:
-///   ∂(∇U)/∂λ = −∇∇U d + ∂(∇U)/∂R ΔR.
+///   ∂(∇U)/∂λ = s′ (−∇∇U d + ∂(∇U)/∂R ΔR).
 class WallGroup final : public ElementGroup {
  public:
   explicit WallGroup(const Model& model);

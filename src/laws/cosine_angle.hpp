@@ -27,15 +27,20 @@ namespace elamin {
 /// S is formed as (|u × w| cos φ₀ − u·w sin φ₀)/(|u||w|) with about 30 digits and 1 − C as S²/(1 + C): both keep theirs
 /// however near the angle is to rest. The turn has no sign, so U has a conical point where the sites are in line, φ = 0
 /// or π: no direction to turn in, no force; the part with sin φ drops out of the derivatives there, they stay finite.
-/// ∇₀ = −∂/∂u, ∇₁ = ∂/∂u − ∂/∂w, ∇₂ = ∂/∂w in both cases.
+///
+/// In a plane, where all sites keep one coordinate, a turn has a sign: sin φ = (a × b)·e with e the unit vector of that
+/// coordinate, −π < φ ≤ π, and φ₀ = π − θ₀ is positive. The formulas are the same with m = e, smooth everywhere, so that
+/// a curved beam may be bent straight and beyond; the parts with m mᵀ, which lead out of the plane, are left out.
+/// ∇₀ = −∂/∂u, ∇₁ = ∂/∂u − ∂/∂w, ∇₂ = ∂/∂w in all cases.
 /// Source: Guerra 2021, eq. (9); LAMMPS, angle_style cosine and cosine/shift (its coefficient is Umin = 2B).
 struct CosineAngle {
   static constexpr int sites = 3;
   double B;
 
-  /// B [energy], rest = θ₀ [rad], exactly `pi`: straight.
-  explicit CosineAngle(double stiffness, double rest = pi)
-      : B(stiffness), straight_(rest == pi), cos_rest_(std::cos(pi - rest)), sin_rest_(std::sin(pi - rest)) {}
+  /// B [energy], rest = θ₀ [rad], exactly `pi`: straight; kept: the coordinate that the sites keep in a plane, or −1.
+  explicit CosineAngle(double stiffness, double rest = pi, int kept = -1)
+      : B(stiffness), straight_(rest == pi), kept_(straight_ ? -1 : kept), cos_rest_(std::cos(pi - rest)),
+        sin_rest_(std::sin(pi - rest)) {}
 
   double value(const Points<3>& x) const {
     const Turn t(x, *this);
@@ -54,11 +59,11 @@ struct CosineAngle {
     Vec3 g_u, g_w;
     Mat3 uu, ww, uw;
     if (t.inclined) {
-      const Vec3 m = t.n / t.sine, p = m.cross(t.a), q = t.b.cross(m);
+      const Vec3 m = kept_ >= 0 ? Vec3(Vec3::Unit(kept_)) : Vec3(t.n / t.sine), p = m.cross(t.a), q = t.b.cross(m);
       g_u = -Bu * t.S * p, g_w = -Bw * t.S * q;
       const Mat3 pp = p * p.transpose(), qq = q * q.transpose(), pq = p * q.transpose(), mm = m * m.transpose();
       const Mat3 ap = t.a * p.transpose(), bq = t.b * q.transpose();
-      const double across = t.S / t.sine;
+      const double across = kept_ >= 0 ? 0 : t.S / t.sine;
       uu = Bu / t.length_u * (t.C * pp + t.S * (ap + ap.transpose()) + across * t.cosine * mm);
       ww = Bw / t.length_w * (t.C * qq + t.S * (bq + bq.transpose()) + across * t.cosine * mm);
       uw = Bu / t.length_w * (t.C * pq - across * mm);
@@ -90,13 +95,19 @@ struct CosineAngle {
     return U;
   }
 
+  /// ∂(∇U)/∂λ where B changes with a parameter λ: as ∇U, with ∂B/∂λ instead of B.
+  Eigen::Matrix<double, 9, 1> gradient_rate(const Points<3>& x, const CosineAngle& rate) const {
+    return rate.derivatives(x).gradient;
+  }
+
  private:
   bool straight_;
+  int kept_;
   double cos_rest_, sin_rest_;                           // of φ₀
 
   struct Turn {
     bool defined = false;
-    bool inclined = false;                               // not straight at rest, and the sites not in line
+    bool inclined = false;                               // not straight at rest; the sites not in line, or in a plane
     double length_u = 0, length_w = 0, cosine = 0;       // cosine = a·b = cos φ = −cos θ
     double sine = 0, S = 0, C = 0;                       // sin φ, sin(φ − φ₀), cos(φ − φ₀); where inclined
     double versine = 0;                                  // 1 − cos(φ − φ₀)
@@ -109,7 +120,7 @@ struct CosineAngle {
       defined = true;
       a = u.hi / length_u, b = w.hi / length_w;
       cosine = a.dot(b);
-      law.straight_ ? from_straight(u, w) : from_rest(u, w, law.cos_rest_, law.sin_rest_);
+      law.straight_ ? from_straight(u, w) : from_rest(u, w, law);
     }
 
     /// 1 − cos φ = sin²φ/(1 + cos φ), without cancellation.
@@ -119,14 +130,14 @@ struct CosineAngle {
       versine = cosine > 0 ? n.squaredNorm() / (1 + cosine) : 1 - cosine;
     }
 
-    void from_rest(const ExactVector& u, const ExactVector& w, double cos_rest, double sin_rest) {
+    void from_rest(const ExactVector& u, const ExactVector& w, const CosineAngle& law) {
       const ExactVector normal = cross(u, w);
-      const Exact across = length(normal), along = dot(u, w);
+      const Exact across = law.kept_ >= 0 ? normal[law.kept_] : length(normal), along = dot(u, w);
       const double product = length_u * length_w;
       n = normal.hi / product, sine = across.value() / product;
-      inclined = sine > 0;
-      S = (across * Exact{cos_rest} - along * Exact{sin_rest}).value() / product;
-      C = cosine * cos_rest + sine * sin_rest;
+      inclined = law.kept_ >= 0 || sine > 0;
+      S = (across * Exact{law.cos_rest_} - along * Exact{law.sin_rest_}).value() / product;
+      C = cosine * law.cos_rest_ + sine * law.sin_rest_;
       versine = C > 0 ? S * S / (1 + C) : 1 - C;
     }
   };

@@ -6,13 +6,14 @@ namespace elamin {
 /// Harmonic bond  U = K (r − r₀)²,  r = |x₁ − x₀|.
 ///   ∇₁U = 2K (r − r₀) n = −∇₀U,   n = (x₁ − x₀)/r
 ///   ∇₁∇₁U = 2K [ n nᵀ + (1 − r₀/r)(I − n nᵀ) ] = ∇₀∇₀U = −∇₀∇₁U
+/// Where K and r₀ change with a parameter λ:  ∂(∇₁U)/∂λ = 2 (K' (r − r₀) − K r₀') n.
 /// K [energy/length²] (no factor ½, as in LAMMPS), r₀ [length].  Smooth but for r = 0, where U = K r₀² and, as in LAMMPS,
 /// there is no force; the Hessian is taken as that of r₀ = 0 there.
 /// The stretch is formed as (r² − r₀²)/(r + r₀) with r² − r₀² exact, so a strain of 1e-12 keeps all its digits.
 /// Source: Guerra 2021, eq. (6).
 struct HarmonicBond {
   static constexpr int sites = 2;
-  double K, r0;
+  double K, r0, r0_tail = 0;                    // r₀ = r0 + r0_tail where r0 alone would round a small change of it away
 
   double value(const Points<2>& x) const {
     const double e = stretch(x.edge(0, 1));
@@ -36,6 +37,16 @@ struct HarmonicBond {
   double unpredicted(const Points<2>& x, const Points<2>& from) const {
     const double e = stretch(x.edge(0, 1)) - linearised(x, from);
     return K * e * e;
+  }
+
+  /// ∂(∇U)/∂λ for given ∂K/∂λ and ∂r₀/∂λ.
+  Eigen::Matrix<double, 6, 1> gradient_rate(const Points<2>& x, const HarmonicBond& rate) const {
+    const ExactVector d = x.edge(0, 1);
+    const double r = d.hi.norm();
+    Eigen::Matrix<double, 6, 1> g = Eigen::Matrix<double, 6, 1>::Zero();
+    if (r > 0) g.tail<3>() = 2 * (rate.K * stretch(d) - K * rate.r0) / r * d.hi;
+    g.head<3>() = -g.tail<3>();
+    return g;
   }
 
  private:
@@ -67,7 +78,7 @@ struct HarmonicBond {
   double stretch(const ExactVector& d) const {                       // r − r₀
     const double r = d.hi.norm();
     const Exact excess = dot(d, d) - two_product(r0, r0);            // r² − r₀²
-    return r + r0 > 0 ? excess.value() / (r + r0) : 0.0;
+    return r + r0 > 0 ? (excess.hi + (excess.lo - 2 * r0 * r0_tail)) / (r + r0) : 0.0;
   }
 };
 

@@ -42,4 +42,14 @@ concept Law = requires(const L& law, const Points<L::sites>& x) {
   { law.derivatives(x) } -> std::same_as<Local<L::sites>>;
 };
 
+/// A law whose elements stand in space, like weights: only the sum of all of them may be free of where that is.
+template <class L>
+concept AnchoredLaw = Law<L> && (L::sites == 1 || requires { requires L::anchored; });
+
+/// A law with parameters that may change: ∂(∇U)/∂λ for given rates ∂/∂λ of its parameters, which are those of `rate`.
+template <class L>
+concept ChangingLaw = Law<L> && requires(const L& law, const L& rate, const Points<L::sites>& x) {
+  { law.gradient_rate(x, rate) } -> std::same_as<Eigen::Matrix<double, 3 * L::sites, 1>>;
+};
+
 }  // namespace elamin

@@ -1,43 +1,36 @@
 #include "model/beam.hpp"
 
 #include "model/append.hpp"
+#include "model/distinct.hpp"
 #include "model/geometry.hpp"
 
 namespace elamin {
 
-ExactVector point_between(const ExactVector& from, const ExactVector& to, int i, int n) {
-  if (i == n) return to;
-  const Exact part = exact(i) / exact(n);
-  ExactVector x;
-  for (int c = 0; c < 3; ++c) x.set(c, from[c] + (to[c] - from[c]) * part);
-  return x;
-}
-
-Exact distance(const ExactVector& a, const ExactVector& b) { return norm(b - a); }
-
-std::array<ExactVector, 2> ends_of_row(const Vec3& center, const Vec3& axis, double spacing, int n) {
-  // Half the row along the unit axis: a/|a| · s n/2.
-  const Vec3 direction = scaled(axis);
-  const Exact size = norm(exact(direction)), half = two_product(spacing, n / 2.0);
-  std::array<ExactVector, 2> ends;
-  for (int c = 0; c < 3; ++c) {
-    const Exact offset = exact(direction[c]) * half / size;
-    ends[0].set(c, -offset + center[c]);
-    ends[1].set(c, offset + center[c]);
-  }
-  return ends;
-}
-
-void add_beams(Model& model, const std::vector<StraightBeam>& beams) {
+void add_beams(Model& model, const std::vector<Beam>& beams) {
   int more = 0;
-  for (const StraightBeam& beam : beams) more += beam.particles;
+  for (const Beam& beam : beams) more += static_cast<int>(beam.centers.size());
   Appender append(model, more);
-  for (const StraightBeam& beam : beams) {
-    const int n = beam.particles, first = append.together(n, beam.diameter, beam.density), end = first + n;
-    for (int i = 0; i < n; ++i) model.start.set(first + i, point_between(beam.from, beam.to, i, n - 1));
-    const int bond_type = add_type(model, beam.bond), angle_type = add_type(model, beam.angle);
+  for (const Beam& beam : beams) {
+    const int n = static_cast<int>(beam.centers.size());
+    const int first = append.together(n, beam.diameter, beam.density), end = first + n;
+    for (int i = 0; i < n; ++i) model.start.set(first + i, beam.centers[i]);
+    const int bond_type = add_type(model, beam.bond);
     for (int i = first; i + 1 < end; ++i) model.bonds.push_back({bond_type, {i, i + 1}});
-    for (int i = first; i + 2 < end; ++i) model.angles.push_back({angle_type, {i, i + 1, i + 2}});
+    const int angle_type = static_cast<int>(model.angle_types.size());
+    std::vector<double> rests;
+    if (beam.as_built)
+      for (int i = 1; i + 1 < n; ++i) rests.push_back(angle_at(beam.centers[i], beam.centers[i - 1], beam.centers[i + 1]));
+    const Distinct types = distinct(rests, angle_type, 16 * epsilon, 0);
+    for (const double rest : types.value) add_type(model, AngleType{beam.angle.stiffness, rest});
+    if (types.value.empty()) add_type(model, beam.angle);
+    for (int i = 0; i + 2 < n; ++i)
+      model.angles.push_back({rests.empty() ? angle_type : types.type[i], {first + i, first + i + 1, first + i + 2}});
+    const auto double_up = [&](Angle& angle) {
+      const AngleType& type = model.angle_types[angle.type];
+      angle.type = add_type(model, AngleType{2 * type.stiffness, type.rest});
+    };
+    if (beam.clamped.from) double_up(*(model.angles.end() - (n - 2)));
+    if (beam.clamped.to) double_up(model.angles.back());
     model.structures.push_back({beam.name, "beam", first, n, beam.youngs_modulus, bond_type, angle_type});
   }
 }

@@ -1,6 +1,7 @@
 #include "model/connect.hpp"
 
 #include "model/append.hpp"
+#include "model/distinct.hpp"
 #include "model/geometry.hpp"
 
 #include <algorithm>
@@ -88,41 +89,6 @@ std::vector<std::vector<int>> bonded(const Model& model) {
   return to;
 }
 
-/// Types of values, numbered from `first` as they come; one type holds what lies within the tolerance above its smallest
-/// value, and has the value that comes first.
-struct Distinct {
-  std::vector<int> type;
-  std::vector<double> value;
-};
-Distinct distinct(const std::vector<double>& values, int first, double absolute, double relative) {
-  std::vector<int> order(values.size()), cluster(values.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return values[a] < values[b]; });
-  int clusters = 0;
-  double smallest = 0;
-  for (const int v : order) {
-    if (clusters == 0 || values[v] > smallest + absolute + relative * smallest) smallest = values[v], ++clusters;
-    cluster[v] = clusters - 1;
-  }
-  std::vector<int> type_of(clusters, -1);
-  Distinct d;
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    int& type = type_of[cluster[v]];
-    if (type < 0) type = first + static_cast<int>(d.value.size()), d.value.push_back(values[v]);
-    d.type.push_back(type);
-  }
-  return d;
-}
-
-/// Angle at j [rad].
-double angle_at(const State& state, int i, int j, int k) {
-  const ExactVector a = state.at(i) - state.at(j), b = state.at(k) - state.at(j);
-  if (a.hi.isZero(0) || b.hi.isZero(0)) return exact_pi.hi;    // in one place: there is no angle
-  const Vec3 u = scaled(a.hi).normalized(), w = scaled(b.hi).normalized();
-  const double angle = 2 * std::atan2((u - w).norm(), (u + w).norm());
-  return exact_pi.hi - angle < 1e-9 ? exact_pi.hi : angle;
-}
-
 }  // namespace
 
 int connect(Model& model, const Connection& connection) {
@@ -168,7 +134,7 @@ int connect(Model& model, const Connection& connection) {
   std::vector<double> rests(triples.size(), connection.rest);
   if (connection.as_built)
     for (std::size_t a = 0; a < triples.size(); ++a)
-      rests[a] = angle_at(model.start, triples[a][0], triples[a][1], triples[a][2]);
+      rests[a] = angle_at(model.start.at(triples[a][1]), model.start.at(triples[a][0]), model.start.at(triples[a][2]));
   const Distinct angle_types = distinct(rests, static_cast<int>(model.angle_types.size()), 1e-12, 0);
   for (const double rest : angle_types.value) add_type(model, AngleType{connection.angle_stiffness, rest});
   for (std::size_t a = 0; a < triples.size(); ++a) model.angles.push_back({angle_types.type[a], triples[a]});

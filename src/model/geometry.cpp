@@ -69,6 +69,14 @@ Exact turns(double angle) {
   return exact(angle) / (exact_pi * exact(2));
 }
 
+double angle_at(const ExactVector& at, const ExactVector& a, const ExactVector& b) {
+  const ExactVector to_a = a - at, to_b = b - at;
+  if (to_a.hi.isZero(0) || to_b.hi.isZero(0)) return exact_pi.hi;
+  const Vec3 u = scaled(to_a.hi).normalized(), w = scaled(to_b.hi).normalized();
+  const double angle = 2 * std::atan2((u - w).norm(), (u + w).norm());
+  return exact_pi.hi - angle < 1e-9 ? exact_pi.hi : angle;
+}
+
 ExactVector Frame::point(const Vec3& center, Exact u, Exact v, Exact w) const {
   ExactVector x;
   for (int c = 0; c < 3; ++c) x.set(c, u * e1[c] + v * e2[c] + w * n[c] + center[c]);

@@ -27,6 +27,10 @@ CosineSine cosine_sine(Exact turns);
 /// angle/2π, angle in rad; a multiple of 30° that only went through the rounding of radians is taken as what it was.
 Exact turns(double angle);
 
+/// The angle at a point between the directions to two others [rad]; exactly π within 1e-9 of straight, and where two of
+/// them are in one place.
+double angle_at(const ExactVector& at, const ExactVector& a, const ExactVector& b);
+
 /// An orthonormal frame.
 struct Frame {
   ExactVector e1, e2, n;

@@ -23,29 +23,62 @@ struct Group {
   std::vector<int> particles;
 };
 
-/// Particles whose chosen coordinates are prescribed: x = X + λ d, or X + d if constant.
+/// How much of a condition acts at load factor λ: fixed + rate λ. What is scaled has {0, 1}, what is constant {1, 0}.
+struct Scaling {
+  double fixed = 0, rate = 1;
+  constexpr Scaling() = default;
+  constexpr Scaling(double fixed_part, double rate_of_change) : fixed(fixed_part), rate(rate_of_change) {}
+  static constexpr Scaling constant() { return {1, 0}; }
+  constexpr double at(double load_factor) const { return fixed + rate * load_factor; }
+  bool operator==(const Scaling&) const = default;
+};
+
+/// Particles whose chosen coordinates are prescribed: x = X + s(λ) d, X where they are in Model::start or in `reference`.
 struct Support {
   std::string group;
   std::vector<int> particles;
   std::array<bool, 3> held{true, true, true};   // x, y, z
   Vec3 displacement = Vec3::Zero();             // [length]
-  bool constant = false;
+  Scaling scaling;
+  std::vector<ExactVector> reference = {};      // of each of the particles, unless empty
 };
 
-/// Dead load on each of these particles: energy −λ F·x, or −F·x if constant.
+/// Dead load on each of these particles: energy −s(λ) Σ F·x.
 struct Load {
   std::string group;
   std::vector<int> particles;
-  Vec3 force = Vec3::Zero();                    // on every particle
-  bool constant = false;
+  Vec3 force = Vec3::Zero();                    // on every particle …
+  Scaling scaling;
+  Field own = {};                               // … and besides, unless empty, on each its own: 3 × particles
+  Vec3 on(std::size_t k) const { return own.size() ? Vec3(force + own.col(static_cast<Eigen::Index>(k))) : force; }
 };
 
-/// Weight: energy −λ m a·x, or −m a·x if constant.
+/// Weight: energy −s(λ) m a·x.
 struct Gravity {
   std::string group;
   std::vector<int> particles;
   Vec3 acceleration = Vec3::Zero();
-  bool constant = true;
+  Scaling scaling = Scaling::constant();
+};
+
+/// Pressure from outside on a closed row of particles, in a plane: energy s(λ) p A with the area inside, projected along
+/// the plane's normal n, A = ½ Σ n·(xᵢ × xᵢ₊₁), positive for a row that runs counterclockwise about n. It stays normal
+/// to the row: hydrostatic.
+struct Pressure {
+  std::string loop;
+  std::vector<int> particles;                   // in the order of the row
+  Vec3 normal = Vec3::UnitZ();                  // of length 1
+  double pressure = 0;                          // p [force/length]
+  Scaling scaling;
+};
+
+/// Growth and stiffening: r₀, K and B times 1 + s(λ) c, each with its c, of the bonds and angles whose particles are all
+/// among these. Where several act on one, their s c add up.
+struct Change {
+  std::string group;
+  std::vector<int> particles;
+  double rest_length = 0, bond_stiffness = 0, angle_stiffness = 0;
+  Scaling scaling;
 };
 
 /// What two particles feel of each other that are not glued: Hertz's contact or Lennard-Jones's cohesion.
@@ -60,16 +93,17 @@ struct PairContact {
   std::optional<int> exclude_bonds;             // pairs this many bonds apart or nearer feel nothing; see Energy
 };
 
-/// A rigid surface that the particles of a group touch.
+/// A rigid surface that the particles of a group touch: moved by s(λ) d, its radius larger by s(λ) ΔR.
 struct Wall {
   std::string name, group;
   std::vector<int> particles;
-  Region region;                                // at load factor 0
+  Region region;                                // where s(λ) = 0
   bool inside = true;                           // the particles are inside of the region; else outside
   double effective_modulus = 0;                 // E_eff
   bool curved = false;                          // effective radius with the wall's curvature; else the particle's radius
-  Vec3 displacement = Vec3::Zero();             // of the wall at load factor 1 [length]
-  double radius_change = 0;                     // of its radius (of a cone: of both) at load factor 1 [length]
+  Vec3 displacement = Vec3::Zero();             // d of the wall [length]
+  double radius_change = 0;                     // ΔR of its radius (of a cone: of both) [length]
+  Scaling scaling;
 };
 
 /// Drag −γ v: no energy; matters in dynamics and in the forces of a moving state.
@@ -104,6 +138,8 @@ struct Model {
   std::vector<Wall> walls;
   std::vector<Load> loads;
   std::vector<Gravity> gravity;
+  std::vector<Pressure> pressures;
+  std::vector<Change> changes;
   std::vector<Viscosity> viscosity;
   std::optional<int> plane_normal;              // 0, 1, 2: the coordinate that every particle keeps
 

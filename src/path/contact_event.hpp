@@ -1,9 +1,10 @@
 #pragma once
 // Where between two equilibria a contact is made or lost.
-#include "path/equilibrium.hpp"
+#include "path/segment.hpp"
 
 #include <optional>
 #include <set>
+#include <string>
 
 namespace elamin {
 
@@ -17,15 +18,18 @@ using ContactSet = std::set<ContactKey>;
 /// The contacts whose surfaces overlap at the state.
 ContactSet closed_contacts(Energy& energy, const State& state);
 
-struct ContactEvent {
+struct ContactChange {
   bool found = false;                  // else: something changes, but an equilibrium between could not be computed
+  double at_parameter = 0;
   Equilibrium at;
-  ContactSet after;                    // what is closed beyond the event
+  ContactSet after;                    // what is closed beyond
+  std::string what;                    // who touches or leaves whom
 };
 
-/// The first change of the closed contacts between two equilibria of one branch, located at the zero of the gap that changes
-/// sign, to rounding. `before`: what is closed from `a` on, which at an event differs from what overlaps at `a` itself.
+/// The first change of the closed contacts on a segment from `a` to `b`, located at the zero of the gap that changes sign,
+/// to rounding. `before`: what is closed from `a` on, which at an event differs from what overlaps at `a` itself.
 /// Contacts that change together are one event. Nothing if none changes.
-std::optional<ContactEvent> locate_contact(Newton& newton, const ContactSet& before, const Equilibrium& a, const Equilibrium& b);
+std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
+                                            const Equilibrium& b);
 
 }  // namespace elamin

@@ -95,20 +95,16 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
 
 constexpr int most_iterations = 12;           // of a corrector that stays on its branch
 
-// Whether the corrector moved so little that the branch is still the same: less than the predictor did, all in all. Where
-// there are contacts: every particle by less than half of the predictor's largest movement, and, as what touches is pushed
-// along by supports and walls whatever the tangent was before the touch, thrice the largest of these movements.
-bool stays(const Energy& energy, const Equilibrium& from, const State& driven, const State& predicted, const State& corrected) {
-  const State& start = from.point.state;
-  const double change = std::abs(predicted.load_factor - start.load_factor);
-  const Field moved = displacement(predicted, corrected);
-  const Model& model = energy.model();
-  if (model.contacts.empty() && model.walls.empty())
-    return energy.kinematics().restrict(moved).norm() <= change * from.tangent.norm();
-  double pushed = displacement(start, driven).colwise().norm().maxCoeff();
-  for (const Wall& w : model.walls) pushed = std::max(pushed, change * (w.displacement.norm() + std::abs(w.radius_change)));
-  const double predicted_most = change * energy.kinematics().extend(from.tangent).colwise().norm().maxCoeff();
-  return moved.colwise().norm().maxCoeff() <= predicted_most / 2 + 3 * pushed;
+// Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
+// tell, but for a part. A branch that bends like a parabola into a limit point, from there to its vertex, has one half.
+bool same_branch(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b) {
+  constexpr double largest_part = 0.45;
+  const Vector moved = kinematics.restrict(displacement(a.point.state, b.point.state));
+  const double change = b.point.state.load_factor - a.point.state.load_factor;
+  const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
+               by_both = (moved - change / 2 * (a.tangent + b.tangent)).norm();
+  const double rounding = 1e-12 * b.point.state.position.norm();
+  return std::min({by_a, by_b, by_both}) <= largest_part * moved.norm() + rounding;
 }
 
 }  // namespace
@@ -120,6 +116,11 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   e.point.report = report;
   energy.evaluate(state);
   e.point.energy = energy.last_terms();
+  e.tangent = Vector::Zero(energy.dofs());
+  if (energy.dofs() == 0) {
+    e.point.stability.stable = true;
+    return e;
+  }
   const Inertia inertia = newton.factors().inertia();
   Stability& s = e.point.stability;
   s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
@@ -130,12 +131,15 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     e.zero_modes = lowest.vectors.rightCols(inertia.zero);
     named = name_zero_modes(energy, state, e.zero_modes, s.zero_modes);
   }
+  s.critical = named ? 0 : inertia.zero;
   s.stable = s.negative == 0 && named;
-  if (inertia.positive_definite()) {          // with the factor of H − σI that has just told so
-    e.tangent = newton.factors().cholesky().solve(Vector(-energy.load_derivative()));
-  } else {
-    newton.factors().factorize_holding(e.zero_modes);
-    e.tangent = newton.factors().solve_holding(-energy.load_derivative());
+  if (inertia.zero > 0) newton.factors().factorize_holding(e.zero_modes);   // else there is a factor that has just told so
+  e.tangent = newton.factors().solve_holding(-energy.load_derivative());
+  // Where f·H⁻¹f < 0, f = −∂g/∂λ of the loads, one of the negative directions is one on which they do work.
+  s.negative_rigid = s.negative;
+  if (s.negative > 0 && energy.loads_scaled()) {
+    const Vector f = energy.load_force();
+    if (f.dot(newton.factors().solve_holding(f)) < 0) --s.negative_rigid;
   }
   return e;
 }
@@ -170,10 +174,11 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     report = newton.minimise(state, Pace::long_steps, most_iterations);
   }
   if (!report.converged()) return fail(state, report);
-  if (!stays(energy, from, driven, predicted, state)) return fail(state, report, "the corrector went further than the predictor");
   if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
-  return assess(newton, state, report);
+  Equilibrium e = assess(newton, state, report);
+  if (!same_branch(kinematics, from, e)) return fail(state, report, "the corrector went to another branch");
+  return e;
 }
 
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {

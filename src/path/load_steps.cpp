@@ -1,6 +1,10 @@
 #include "path/load_steps.hpp"
 
 #include "core/interrupt.hpp"
+#include "path/arc_length.hpp"
+#include "path/jump.hpp"
+#include "path/locate.hpp"
+#include "path/start.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +16,8 @@ namespace elamin {
 namespace {
 
 constexpr int finest = 20;                          // halvings of a step
-constexpr int seek_limit = 8, seek_again = 6;       // halvings after which a limit point is looked for, and every so many more
+constexpr int explore_first = 3, explore_again = 6; // halvings after which the branch is explored in arc length, and every so many more
+constexpr int most_explored = 400;                  // steps in arc length then
 constexpr std::int64_t whole = std::int64_t(1) << finest;
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a jump is made
 
@@ -33,150 +38,199 @@ std::vector<double> targets_of(const PathOptions& o) {
 
 }  // namespace
 
-LoadSteps::LoadSteps(Newton& newton, const State& start, PathOptions options)
-    : newton_(newton), options_(std::move(options)), start_(start), targets_(targets_of(options_)),
+LoadSteps::LoadSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
+    : Path(numbering), newton_(newton), options_(std::move(options)), start_(start), targets_(targets_of(options_)),
       interval_start_(options_.start.value_or(options_.from)) {}
 
-std::optional<PathPoint> LoadSteps::next() {
-  while (ready_.empty() && !ended_) {
-    if (!begun_) begun_ = begin();
-    else step();
-  }
-  if (ready_.empty()) return {};
-  PathPoint point = std::move(ready_.front());
-  ready_.pop_front();
-  return point;
+void LoadSteps::advance() {
+  if (!begun_) begin();
+  else step();
 }
 
-bool LoadSteps::end(Status status, std::string why) {
-  ended_ = true, status_ = status, why_ = std::move(why);
-  return false;
+void LoadSteps::begin() {
+  begun_ = true;
+  std::string sentence;
+  Equilibrium first = first_equilibrium(newton_, start_, interval_start_, options_.when_unstable, sentence);
+  if (!sentence.empty()) note(sentence);
+  if (!first.point.report.converged()) return end(first.point.report.status, first.point.report.why);
+  first.point.label = "initial";
+  emit(first.point);
+  first.point.label.clear();
+  settle(std::move(first), interval_start_);
+  if (negative_ > 0 && options_.when_unstable == WhenUnstable::stop) end(Status::converged, "the starting state is unstable");
 }
 
-void LoadSteps::emit(PathPoint point) {
-  point.step = steps_++;
-  point.branch = branch_;
-  ready_.push_back(std::move(point));
-}
-
-void LoadSteps::emit(Event& event) {
-  PathPoint& point = event.at.point;
-  point.label = event.kind == EventKind::limit ? fmt::format("limit:{}", ++limit_points_) : fmt::format("branch:{}", ++branch_points_);
-  emit(point);
-}
-
-// The first equilibrium: at `from`, from the given state; the minimum if the stationary point nearby is not stable.
-bool LoadSteps::begin() {
-  State state = start_;
-  newton_.energy().kinematics().prescribe(state, interval_start_);
-  Report report = newton_.correct(state);
-  if (report.converged()) current_ = assess(newton_, state, report);
-  if (!report.converged() || (current_.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::jump)) {
-    if (report.converged()) {
-      notes_.push_back(fmt::format("the starting state is unstable ({} negative eigenvalues); it falls to a minimum",
-                                   current_.point.stability.negative));
-    } else {
-      state = start_;
-      newton_.energy().kinematics().prescribe(state, interval_start_);
-    }
-    report = newton_.minimise(state);
-    if (!report.converged()) {
-      current_.point.state = state, current_.point.report = report;
-      begun_ = true;
-      return end(report.status, fmt::format("no equilibrium at the start, load factor {:.10g}: {}", interval_start_, report.why));
-    }
-    current_ = assess(newton_, state, report);
-  }
-  current_.point.label = "initial";
+// Goes on from here; the interval's halving counts from this load factor.
+void LoadSteps::settle(Equilibrium at, double load_factor) {
+  current_ = std::move(at);
+  negative_ = current_.point.stability.negative;
   closed_ = closed_contacts(newton_.energy(), current_.point.state);
-  emit(current_.point);
-  if (current_.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop)
-    end(Status::converged, "the starting state is unstable");
-  return true;
+  side_.clear();
+  for (const Watch& w : options_.watches) side_.push_back(w.observable(current_.point.state) - w.value);
+  interval_start_ = load_factor, done_ = 0;
+  if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
 }
 
-bool LoadSteps::step() {
+void LoadSteps::step() {
+  const double here = current_.point.state.load_factor;
   if (interval_ == targets_.size()) return end(Status::converged, fmt::format("load factor {:.10g} reached", options_.to));
-  if (interrupted()) return end(Status::interrupted, fmt::format("interrupted at load factor {:.10g}", current_.point.state.load_factor));
+  if (interrupted()) return end(Status::interrupted, fmt::format("interrupted at load factor {:.10g}", here));
   const std::int64_t part = whole >> halvings_;
   const std::int64_t arrived = done_ + part;
   const double goal = targets_[interval_];
   const double target = arrived == whole ? goal : interval_start_ + (goal - interval_start_) * (static_cast<double>(arrived) / whole);
 
   Equilibrium candidate = continue_to(newton_, current_, target);
+  Segment segment{here, target, [this](double t, const Equilibrium& nearest) { return continue_to(newton_, nearest, t); }};
   std::optional<Event> event;
-  std::optional<ContactEvent> contact;
+  std::optional<ContactChange> contact;
   bool accepted = candidate.point.report.converged();
-  if (accepted && options_.contacts && (contact = locate_contact(newton_, closed_, current_, candidate))) {
-    if (contact->found) candidate = contact->at;
-    else accepted = halvings_ == finest, contact.reset();       // shorter steps, as long as there are
+  if (accepted && options_.contacts && (contact = locate_contact(newton_, segment, closed_, current_, candidate))) {
+    accepted = contact->found;
+    if (accepted) candidate = contact->at, segment.b = contact->at_parameter;
   }
-  if (accepted && candidate.point.stability.negative != current_.point.stability.negative) {
-    event = locate_crossing(newton_, current_, candidate);
-    accepted = event.has_value();
+  if (accepted && candidate.point.stability.negative != negative_) {
+    event = locate_crossing(newton_, segment, current_, negative_, candidate);
+    accepted = event && event->kind == EventKind::branch && event->modes.cols() > 0;
   }
   if (!accepted) {
     if (candidate.point.report.status == Status::interrupted) return end(Status::interrupted, "interrupted");
-    if (halvings_ >= seek_limit && (halvings_ - seek_limit) % seek_again == 0) {
-      if (std::optional<Event> limit = locate_limit(newton_, current_, target)) return lose_stability(*limit, goal);
+    if (halvings_ >= explore_first && (halvings_ - explore_first) % explore_again == 0 && explore(target)) return;
+    if (halvings_ < finest) {
+      ++halvings_;
+      return;
     }
-    if (halvings_ == finest && options_.when_unstable == WhenUnstable::jump && fall(target)) return true;
-    if (halvings_ == finest)
-      return end(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}",
-          current_.point.state.load_factor, std::abs(target - current_.point.state.load_factor), candidate.point.report.why));
-    ++halvings_;
-    return true;
+    if (options_.when_unstable == WhenUnstable::jump && fall(target)) return;
+    const std::string why = candidate.point.report.converged() ? "an event could not be located" : candidate.point.report.why;
+    return end(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}", here,
+                                                  std::abs(target - here), why));
   }
-  if (event) return lose_stability(*event, target);
+  if (event) return lose_stability(std::move(*event), goal);
+  if (std::optional<Event> seen = watched(segment, candidate)) return reach(std::move(*seen));
   if (contact) return meet(std::move(*contact));
 
-  current_ = std::move(candidate);
-  closed_ = closed_contacts(newton_.energy(), current_.point.state);
-  done_ = arrived;
+  const std::int64_t done = arrived;
+  const double start = interval_start_;
+  emit(candidate.point);
+  settle(std::move(candidate), start);
+  done_ = done;
   if (done_ == whole) ++interval_, interval_start_ = goal, done_ = 0;
   if (halvings_ > 0 && done_ % (2 * part) == 0) --halvings_;
-  emit(current_.point);
-  return true;
+}
+
+// The first watch whose observable passes its value on the segment.
+std::optional<Event> LoadSteps::watched(const Segment& given, const Equilibrium& candidate) {
+  std::optional<Event> first;
+  Segment segment = given;
+  Equilibrium last = candidate;
+  for (std::size_t k = 0; k < options_.watches.size(); ++k) {
+    const Watch& w = options_.watches[k];
+    const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
+    if ((side_[k] < 0) == (f(last) < 0) || (f(current_) < 0) != (side_[k] < 0)) continue;
+    std::optional<Event> event = locate_root(segment, current_, last, f);
+    if (!event) continue;
+    event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
+    event->before = event->after = negative_;
+    segment.b = event->at_parameter, last = event->at;
+    first = std::move(event);
+  }
+  return first;
+}
+
+void LoadSteps::reach(Event event) {
+  emit(event);
+  const double here = event.at.point.state.load_factor;
+  const std::size_t k = event.watch;
+  const double side = side_[k];
+  event.at.point.label.clear();
+  settle(std::move(event.at), here);
+  side_[k] = -side;
+  if (options_.watches[k].stop) end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, here));
 }
 
 // A contact made or lost: a point of the path, which goes on from there.
-bool LoadSteps::meet(ContactEvent event) {
-  current_ = std::move(event.at);
-  closed_ = std::move(event.after);
-  current_.point.label = fmt::format("contact:{}", ++contact_events_);
-  interval_start_ = current_.point.state.load_factor, done_ = 0;
-  if (interval_start_ == targets_[interval_]) ++interval_;
-  emit(current_.point);
-  current_.point.label.clear();
-  return true;
+void LoadSteps::meet(ContactChange change) {
+  Event event;
+  event.kind = EventKind::contact, event.what = change.what;
+  event.at = std::move(change.at);
+  event.before = event.after = negative_;
+  emit(event);
+  const double here = event.at.point.state.load_factor;
+  event.at.point.label.clear();
+  settle(std::move(event.at), here);
+  closed_ = std::move(change.after);
+}
+
+// What stops the steps, told by following the branch in arc length: an event that load steps cannot meet themselves, or an
+// equilibrium beyond. False if nothing came of it.
+bool LoadSteps::explore(double target) {
+  const double here = current_.point.state.load_factor, way = target - here;
+  PathOptions local = options_;
+  local.from = here, local.to = target, local.steps = 4;
+  const Metric metric = metric_for(newton_.energy(), current_, local);
+  WalkOptions w;
+  w.load_step = std::abs(way), w.turn = 0.1, w.contacts = options_.contacts;
+  w.stops = {target, here - 100 * way};
+  const Direction towards{Vector::Zero(current_.tangent.size()), way > 0 ? metric.load : -metric.load};
+  Walk walk(newton_, current_, direction_of(current_, metric, towards), negative_, closed_, metric, w);
+  for (int k = 0; k < most_explored; ++k) {
+    std::optional<Waypoint> next = walk.next();
+    if (!next) return false;
+    const double load = next->at.point.state.load_factor;
+    if (next->event) {
+      Event& event = *next->event;
+      if (event.kind == EventKind::contact) {
+        meet({true, 0, std::move(event.at), std::move(event.closed), event.what});
+        return true;
+      }
+      if (event.kind == EventKind::limit && event.before > 0 && options_.when_unstable != WhenUnstable::follow) return false;
+      lose_stability(std::move(event), targets_[interval_]);
+      return true;
+    }
+    if (next->stop && load != target) return false;
+    const bool beyond = (load - target) * way >= 0;
+    emit(next->at.point);
+    settle(std::move(next->at), load);
+    halvings_ = std::max(0, halvings_ - 1);
+    if (beyond) return true;
+  }
+  return false;
 }
 
 // What comes after an event: the end, the other side of the same branch, or a fall.
-bool LoadSteps::lose_stability(const Event& located, double target) {
-  Event event = located;
-  emit(event);
+void LoadSteps::lose_stability(Event event, double target) {
+  if ((event.kind == EventKind::limit && options_.limits) || (event.kind == EventKind::branch && options_.branch_points)) emit(event);
   const double at = event.at.point.state.load_factor;
-  const std::string& label = event.at.point.label;
-  if (options_.when_unstable == WhenUnstable::stop)
-    return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", label, at));
-  if (options_.when_unstable == WhenUnstable::jump) return jump(event, target);
-  if (event.kind == EventKind::limit)
+  const std::string label = event.at.point.label.empty() ? "the loss of stability" : event.at.point.label;
+  const bool loses = event.after > event.before;
+  if (loses && options_.when_unstable == WhenUnstable::stop) return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", label, at));
+  if (event.kind == EventKind::limit) {
+    if (options_.when_unstable == WhenUnstable::jump) return jump(event, target);
     return end(Status::not_converged,
-               fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond; use the arc-length method",
-                           label, at));
-  // Over the event along the tangent: the critical modes keep still, so that the branch is not left.
+               fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond; use path.method = \"arc_length\"", label, at));
+  }
+  if (loses && options_.when_unstable == WhenUnstable::jump) return jump(event, target);
+  pass(event, target);
+}
+
+// Over a branch point along the tangent: the critical modes keep still, so that the branch is not left.
+void LoadSteps::pass(const Event& event, double target) {
+  const double at = event.at.point.state.load_factor;
   Equilibrium start = event.at;
-  start.zero_modes = event.modes;
-  start.tangent -= event.modes * (event.modes.transpose() * start.tangent);
-  const double past = at + std::min(beyond_event, 1.0) * (target - at);
-  Equilibrium next = continue_to(newton_, start, past);
-  if (!next.point.report.converged())
-    return end(Status::not_converged, fmt::format("the branch is lost behind {}, load factor {:.10g}: {}", label, at, next.point.report.why));
-  next.zero_modes = current_.zero_modes;
-  current_ = next;
-  closed_ = closed_contacts(newton_.energy(), current_.point.state);
-  interval_start_ = past, done_ = 0;
-  return true;
+  Eigen::MatrixXd held(event.modes.rows(), start.zero_modes.cols() + event.modes.cols());
+  if (start.zero_modes.cols() > 0) held.leftCols(start.zero_modes.cols()) = start.zero_modes;
+  held.rightCols(event.modes.cols()) = event.modes;
+  const Eigen::MatrixXd zero_modes = start.zero_modes;
+  start.zero_modes = held;
+  Equilibrium next;
+  for (double part = beyond_event; part > 1e-6; part /= 4) {
+    const double past = at + part * (target - at);
+    next = continue_to(newton_, start, past);
+    if (!next.point.report.converged()) continue;
+    if (next.zero_modes.cols() == held.cols()) next.zero_modes = zero_modes;
+    return settle(std::move(next), past);
+  }
+  end(Status::not_converged, fmt::format("the branch is lost behind {}, load factor {:.10g}: {}", event.at.point.label, at, next.point.report.why));
 }
 
 // Where the branch ends within the finest step, at an event that could not be resolved: the minimum that is reached by going
@@ -188,47 +242,33 @@ bool LoadSteps::fall(double target) {
   if (newton_.energy().passage(current_.point.state, state) < 1) return false;
   const Report report = newton_.minimise(state, Pace::downhill);
   if (!report.converged()) return false;
-  current_ = assess(newton_, state, report);
-  closed_ = closed_contacts(newton_.energy(), state);
-  ++branch_;
-  notes_.push_back(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
-                               at, before, report.energy));
-  interval_start_ = target, done_ = 0;
-  if (target == targets_[interval_]) ++interval_;
-  emit(current_.point);
+  note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
+                   at, before, report.energy));
+  Equilibrium landed = assess(newton_, state, report);
+  branch_ = ++numbering().branches, parent_.clear();
+  landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
+  landed.point.what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target);
+  landed.point.negative_before = negative_, landed.point.negative_after = landed.point.stability.negative;
+  emit(landed.point);
+  landed.point.label.clear();
+  settle(std::move(landed), target);
   return true;
 }
 
-// Just past the event the branch has turned unstable or ended: the state falls along the critical mode, to the minimum
-// that is reached by going down from there.
-bool LoadSteps::jump(const Event& event, double target) {
+// Just past the event the branch has turned unstable or ended: the state falls to the minimum below.
+void LoadSteps::jump(const Event& event, double target) {
   const double at = event.at.point.state.load_factor, past = at + beyond_event * (target - at);
-  State state = event.at.point.state;
-  newton_.energy().kinematics().prescribe(state, past);
-  newton_.energy().kinematics().retract(state, event.at.tangent, event.kind == EventKind::branch ? past - at : 0.0);
-  State jumped_from = state;
-  if (event.kind == EventKind::branch) {
-    const Report report = newton_.correct(state, event.modes, &event.at.point.state);   // the unstable equilibrium beyond
-    jumped_from = state;
-    if (report.converged() && !newton_.leave_saddle(state, event.modes.col(0)))
-      notes_.push_back(fmt::format("{}: no lower energy along the critical mode just beyond", event.at.point.label));
-  }
-  newton_.energy().evaluate(jumped_from);
-  const double before = newton_.energy().last_terms().total();
-  Report report = newton_.minimise(state, Pace::downhill);
-  if (report.status == Status::not_converged) report = newton_.minimise(state);
-  if (!report.converged()) {
-    current_.point.state = state, current_.point.report = report;
-    return end(report.status, fmt::format("no minimum was found after {} at load factor {:.10g}: {}", event.at.point.label, at, report.why));
-  }
-  current_ = assess(newton_, state, report);
-  closed_ = closed_contacts(newton_.energy(), state);
-  ++branch_;
-  notes_.push_back(fmt::format("jump at {}: load factor {:.10g}, energy {:.10g} to {:.10g} after {} iterations",
-                               event.at.point.label, at, before, report.energy, report.iterations));
-  interval_start_ = past, done_ = 0;
-  emit(current_.point);
-  return true;
+  std::string what;
+  Equilibrium landed = jump_from(newton_, event, past, what);
+  note(fmt::format("jump at {}: {}", event.at.point.label, what));
+  if (!landed.point.report.converged()) return end(landed.point.report.status, landed.point.report.why);
+  branch_ = ++numbering().branches, parent_ = event.at.point.label;
+  landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
+  landed.point.what = what;
+  landed.point.negative_before = event.before, landed.point.negative_after = landed.point.stability.negative;
+  emit(landed.point);
+  landed.point.label.clear();
+  settle(std::move(landed), past);
 }
 
 }  // namespace elamin

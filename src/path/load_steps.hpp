@@ -1,41 +1,32 @@
 #pragma once
-#include "path/contact_event.hpp"
-#include "path/locate.hpp"
-#include "path/options.hpp"
-
-#include <deque>
-#include <string>
-#include <utility>
+#include "path/path.hpp"
 
 namespace elamin {
 
-/// A path in steps of the load factor: an iterator that yields equilibria and, between them, located events.
-///   LoadSteps path(newton, start, options);
-///   while (const auto point = path.next()) …;
-///   path.status(), path.why()
-/// Steps that fail are halved, down to 2⁻²⁰ of a step; halved steps double again, so that every multiple of the step
-/// is hit. The Morse index is known at every equilibrium; where it changes the event is located before going on.
-class LoadSteps {
+/// A branch in steps of the load factor. Steps that fail are halved, down to 2⁻²⁰ of a step; halved steps double again, so
+/// that every multiple of the step is hit. The Morse index is known at every equilibrium; where it changes the event is
+/// located before going on. Where steps fail, the branch is followed in arc length to see what is there: a limit point, a
+/// branch point that is reached along a side branch, or only a sharp bend.
+class LoadSteps : public Path {
  public:
-  LoadSteps(Newton& newton, const State& start, PathOptions options);
+  LoadSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering = nullptr);
 
-  /// The next equilibrium; nothing at the end.
-  std::optional<PathPoint> next();
-  Status status() const { return status_; }
-  const std::string& why() const { return why_; }
-  /// What happened besides, one sentence each (jumps), for the log; emptied by the call.
-  std::vector<std::string> notes() { return std::exchange(notes_, {}); }
+ protected:
+  void advance() override;
 
  private:
-  bool begin();
-  bool step();
-  bool meet(ContactEvent event);
-  bool lose_stability(const Event& event, double target);
+  void begin();
+  void step();
+  void arrive(Equilibrium candidate);
+  bool explore(double target);
+  void meet(ContactChange change);
+  void reach(Event watched);
+  void lose_stability(Event event, double target);
+  void pass(const Event& event, double target);
   bool fall(double target);
-  bool jump(const Event& event, double target);
-  void emit(PathPoint point);
-  void emit(Event& event);
-  bool end(Status status, std::string why);
+  void jump(const Event& event, double target);
+  void settle(Equilibrium at, double load_factor);
+  std::optional<Event> watched(const Segment& segment, const Equilibrium& candidate);
 
   Newton& newton_;
   PathOptions options_;
@@ -46,13 +37,10 @@ class LoadSteps {
   std::int64_t done_ = 0;                // of 2^finest parts of the interval
   int halvings_ = 0;
   Equilibrium current_;
+  int negative_ = 0;                     // Morse index from current_ on
   ContactSet closed_;                    // contacts from current_ on
-  bool begun_ = false, ended_ = false;
-  int steps_ = 0, branch_ = 0, branch_points_ = 0, limit_points_ = 0, contact_events_ = 0;
-  std::deque<PathPoint> ready_;
-  Status status_ = Status::converged;
-  std::string why_;
-  std::vector<std::string> notes_;
+  std::vector<double> side_;             // of every watch: observable − value from current_ on
+  bool begun_ = false;
 };
 
 }  // namespace elamin

@@ -1,6 +1,5 @@
 #include "path/locate.hpp"
 
-#include "path/bordered.hpp"
 #include "path/root.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -30,8 +29,23 @@ EigenPairs lowest_but(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& kno
 
 // The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
 double eigenvalue(Newton& newton, Equilibrium& e, int index) {
-  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1).values;
+  constexpr int more = 2;                                      // partners of a multiple one, so that a neighbour knows them
+  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1 + more).values;
   return values.size() == 0 ? 0.0 : values[std::min<Eigen::Index>(index, values.size() - 1)];
+}
+
+// The same near to its zero, from the eigenvectors of a neighbour: it is then among those nearest to zero, and which it is
+// the Morse index tells.
+double critical_value(Newton& newton, Equilibrium& e, int index) {
+  newton.energy().evaluate(e.point.state);
+  Eigen::MatrixXd start = e.lowest.vectors;
+  if (e.zero_modes.cols() > 0) start -= e.zero_modes * (e.zero_modes.transpose() * start);
+  e.lowest = newton.factors().nearest_zero(start, e.zero_modes);
+  const Vector& values = e.lowest.values;
+  Eigen::Index least = 0;
+  if (values.cwiseAbs().minCoeff(&least) <= 4 * newton.factors().zero_level()) return values[least];
+  const Eigen::Index k = index - (e.point.stability.negative - (values.array() < 0).count());
+  return k >= 0 && k < values.size() ? values[k] : eigenvalue(newton, e, index);
 }
 
 // Eigenvectors whose eigenvalues are zero beside `scale`, without the zero modes that were there before.
@@ -44,6 +58,7 @@ Eigen::MatrixXd critical_modes(Newton& newton, Equilibrium& e, int index, double
       modes.conservativeResize(Eigen::NoChange, modes.cols() + 1);
       modes.rightCols(1) = pairs.vectors.col(j);
     }
+  if (modes.cols() > 0) modes = newton.factors().nearest_zero(modes, known).vectors;
   return canonical_modes(newton.energy().kinematics(), modes);
 }
 
@@ -52,79 +67,167 @@ Eigen::MatrixXd persistent(const Equilibrium& a, const Equilibrium& b) {
   return a.zero_modes.cols() <= b.zero_modes.cols() ? a.zero_modes : b.zero_modes;
 }
 
-Event finish(Newton& newton, Equilibrium at, EventKind kind, int index, double scale, const Eigen::MatrixXd& known) {
+// The load does work along a critical mode: then the branch turns there.
+bool is_limit(const Eigen::MatrixXd& modes, const Vector& load_derivative) {
+  constexpr double orthogonal = 1e-5;
+  return modes.cols() == 1 && modes.rows() > 0 && (modes.transpose() * load_derivative).norm() > orthogonal * load_derivative.norm();
+}
+
+// Of the eigenvectors that are known of an equilibrium those with eigenvalues up to ± `most`, orthogonal to the zero modes.
+Eigen::MatrixXd soft_modes(const Equilibrium& e, double most, const Eigen::MatrixXd& known) {
+  Eigen::MatrixXd modes(e.lowest.vectors.rows(), 0);
+  for (Eigen::Index j = 0; j < e.lowest.values.size(); ++j) {
+    if (std::abs(e.lowest.values[j]) > most) continue;
+    Vector v = e.lowest.vectors.col(j);
+    if (known.cols() > 0) v -= known * (known.transpose() * v);
+    if (v.norm() < 0.5) continue;                              // one of those that are known
+    modes.conservativeResize(Eigen::NoChange, modes.cols() + 1);
+    modes.rightCols(1) = v.normalized();
+  }
+  return modes;
+}
+
+Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
+  if (a.cols() > 0) both.leftCols(a.cols()) = a;
+  if (b.cols() > 0) both.rightCols(b.cols()) = b;
+  return both;
+}
+
+void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, const Eigen::MatrixXd& modes) {
+  newton.energy().evaluate(e.point.state);
+  newton.factors().factorize_holding(side_by_side(known, modes));
+  e.tangent = newton.factors().solve_holding(-newton.energy().load_derivative());
+}
+
+Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known) {
   Event event;
-  event.kind = kind;
   event.modes = critical_modes(newton, at, index, scale, known);
+  newton.energy().evaluate(at.point.state);
+  event.kind = is_limit(event.modes, newton.energy().load_derivative()) ? EventKind::limit : EventKind::branch;
+  hold_modes(newton, at, known, event.kind == EventKind::branch ? event.modes : Eigen::MatrixXd());
   at.point.multiplicity = static_cast<int>(event.modes.cols());
   at.point.stability.stable = false;
+  at.zero_modes = known;
   event.at = std::move(at);
   return event;
 }
 
 }  // namespace
 
-std::optional<Event> locate_crossing(Newton& newton, const Equilibrium& a, const Equilibrium& b) {
-  const int before = a.point.stability.negative, after = b.point.stability.negative;
+std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b) {
+  const int after = b.point.stability.negative;
   const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
   const Eigen::MatrixXd known = persistent(a, b);
   Equilibrium first = a, second = b;
   first.zero_modes = second.zero_modes = known;
-  Sample lower{a.point.state.load_factor, eigenvalue(newton, first, index), first};
-  if (std::abs(lower.f) <= newton.factors().zero_level() && a.zero_modes.cols() > known.cols())   // a is the event itself
-    return finish(newton, first, EventKind::branch, index, newton.factors().zero_level(), known);
-  Sample upper{b.point.state.load_factor, eigenvalue(newton, second, index), second};
-  if ((lower.f < 0) == (upper.f < 0)) return {};
+  const auto done = [&](Event event, double parameter) {
+    event.at_parameter = parameter, event.before = before;
+    event.after = before + (after > before ? 1 : -1) * std::max(1, static_cast<int>(event.modes.cols()));
+    return event;
+  };
+  Sample lower{segment.a, eigenvalue(newton, first, index), first};
+  if (std::abs(lower.f) <= newton.factors().zero_level() && a.point.stability.critical > 0)       // a is the event itself
+    return done(finish(newton, first, index, newton.factors().zero_level(), known), segment.a);
+  Sample upper{segment.b, eigenvalue(newton, second, index), second};
+  if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
-  const double resolution = 1e-14 * std::max(std::abs(lower.t), std::abs(upper.t));
+  const double resolution = 1e-13 * std::abs(segment.b - segment.a);
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
-    Equilibrium start = from.e;
-    if (std::abs(from.f) < 1e-6 * scale) {                     // close by, the critical modes stay as they are
-      const Eigen::MatrixXd modes = critical_modes(newton, start, index, 1e-5 * scale, known);
-      start.zero_modes.resize(modes.rows(), known.cols() + modes.cols());
-      if (known.cols() > 0) start.zero_modes.leftCols(known.cols()) = known;
-      start.zero_modes.rightCols(modes.cols()) = modes;
+    // The critical modes of a branch point keep still along the branch. Held there, the equations are regular.
+    Equilibrium start = from.e, e;
+    const Eigen::MatrixXd modes = soft_modes(start, 2 * std::abs(from.f), known);
+    newton.energy().evaluate(start.point.state);
+    if (modes.cols() > 0 && !is_limit(modes, newton.energy().load_derivative())) {
+      start.zero_modes = side_by_side(known, modes);
       start.tangent -= modes * (modes.transpose() * start.tangent);
+      e = segment.at(t, start);
     }
-    Equilibrium e = continue_to(newton, start, t);
+    if (!e.point.report.converged()) e = segment.at(t, from.e);
     if (!e.point.report.converged()) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
-    return Sample{t, eigenvalue(newton, e, index), std::move(e)};
+    const double value = critical_value(newton, e, index);
+    return Sample{t, value, std::move(e)};
   });
   if (!zero || std::abs(zero->f) > 1e-6 * scale) return {};
-  return finish(newton, zero->e, EventKind::branch, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known);
+  return done(finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known), zero->t);
 }
 
-std::optional<Event> locate_limit(Newton& newton, const Equilibrium& a, double reach) {
-  const int index = a.point.stability.negative;
-  const Eigen::MatrixXd known = a.zero_modes;
-  const ArcStep arc(newton.energy(), a, reach > a.point.state.load_factor ? 1 : -1);
-  Equilibrium first = a;
-  Sample lower{0, eigenvalue(newton, first, index), first};
-  const auto evaluate = [&](double s, const Sample& from) -> std::optional<Sample> {
-    Equilibrium e = arc.equilibrium(newton, s);
+std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
+                                 const std::function<double(const Equilibrium&)>& f) {
+  const Sample lower{segment.a, f(a), a}, upper{segment.b, f(b), b};
+  if ((lower.f < 0) == (upper.f < 0)) return {};
+  const double resolution = 1e-13 * std::abs(segment.b - segment.a);
+  const auto zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
+    const Equilibrium e = segment.at(t, from.e);
     if (!e.point.report.converged()) return {};
-    e.zero_modes = known, e.lowest = from.e.lowest;
-    return Sample{s, eigenvalue(newton, e, index), std::move(e)};
-  };
-  constexpr int most = 60;
-  double s = 1e-3 * std::abs(reach - a.point.state.load_factor);
-  std::optional<Sample> upper;
-  for (int k = 0; k < most; ++k) {
-    std::optional<Sample> next = evaluate(s, lower);
-    if (next && (next->f < 0) != (lower.f < 0)) {
-      upper = next;
-      break;
-    }
-    if (next && k < 40) s *= 2;
-    else if (!next) s /= 3;
-    if (s < 1e-14 * std::abs(reach - a.point.state.load_factor)) return {};
-  }
-  if (!upper) return {};
-  const double scale = std::abs(lower.f);
-  const std::optional<Sample> zero = find_zero(lower, *upper, 1e-9 * upper->t, evaluate);
+    return Sample{t, f(e), e};
+  });
   if (!zero) return {};
-  return finish(newton, zero->e, EventKind::limit, index, std::max(1e-4 * scale, 4 * std::abs(zero->f)), known);
+  Event event;
+  event.at_parameter = zero->t;
+  event.at = zero->e;
+  return event;
+}
+
+std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
+                                    const std::function<double(const Equilibrium&)>& slope,
+                                    const std::function<double(const State&)>& position) {
+  Energy& energy = newton.energy();
+  const Kinematics& kinematics = energy.kinematics();
+  const Eigen::MatrixXd known = persistent(a, b);
+  Sample lower{segment.a, slope(a), a}, upper{segment.b, slope(b), b};
+  if ((lower.f < 0) == (upper.f < 0)) return {};
+  const auto zero_of = [](const Sample& x, const Sample& y) { return x.t - x.f * (y.t - x.t) / (y.f - x.f); };
+  constexpr int most = 6;
+  constexpr double near = 1e-3;                                // of the segment
+  for (int k = 0; k < most && upper.t - lower.t > near * (segment.b - segment.a); ++k) {
+    // Samples on both sides, near, but not where the equations are singular.
+    const double zero = zero_of(lower, upper), margin = 0.1 * (upper.t - lower.t);
+    const double t = zero - lower.t > upper.t - zero ? std::min(zero - margin, (lower.t + 3 * zero) / 4) : std::max(zero + margin, (upper.t + 3 * zero) / 4);
+    if (!(t > lower.t && t < upper.t)) break;
+    const Equilibrium e = segment.at(t, zero - t > 0 ? lower.e : upper.e);
+    if (!e.point.report.converged()) break;
+    const Sample next{t, slope(e), e};
+    ((next.f < 0) == (lower.f < 0) ? lower : upper) = next;
+  }
+  // Hermite's cubic between the two, with dx/ds = dλ/ds dx/dλ.
+  const double width = upper.t - lower.t, u = (zero_of(lower, upper) - lower.t) / width;
+  const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
+  const Vector moved = kinematics.restrict(displacement(lower.e.point.state, upper.e.point.state));
+  State state = lower.e.point.state;
+  const double load = state.load_factor + h01 * (upper.e.point.state.load_factor - state.load_factor) + h10 * lower.f + h11 * upper.f;
+  kinematics.prescribe(state, load);
+  kinematics.retract(state, h01 * moved + h10 * lower.f * lower.e.tangent + h11 * upper.f * upper.e.tangent);
+  // The branch that is met: there, and a little to both sides.
+  energy.evaluate(state);
+  Equilibrium at = lower.e;
+  at.point.state = state;
+  const int count = a.point.stability.negative + 1;
+  const EigenPairs pairs = lowest_but(newton, at, known, count);
+  Eigen::Index critical = 0;
+  pairs.values.cwiseAbs().minCoeff(&critical);
+  const Eigen::MatrixXd held = side_by_side(known, pairs.vectors.col(critical));
+  const Report report = newton.correct(state, held);
+  if (!report.converged()) return {};
+  at = assess(newton, state, report);
+  hold_modes(newton, at, held, Eigen::MatrixXd());
+  at.zero_modes = known;                                       // beside the point the critical mode is free, and comes to rest
+  double part = 0.1 * std::max(std::abs(a.point.state.load_factor - load), std::abs(b.point.state.load_factor - load));
+  for (int k = 0; k < 8; ++k, part *= 2) {
+    Equilibrium before = continue_to(newton, at, load - part), after = continue_to(newton, at, load + part);
+    if (!before.point.report.converged() || !after.point.report.converged()) return {};
+    if (before.point.stability.negative == after.point.stability.negative) continue;
+    const Segment along{load - part, load + part, [&](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); }};
+    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after);
+    if (!event || event->kind == EventKind::limit) return {};
+    event->at_parameter = position(event->at.point.state);
+    if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};
+    event->before = a.point.stability.negative, event->after = b.point.stability.negative;
+    event->arrival = true;
+    return event;
+  }
+  return {};
 }
 
 }  // namespace elamin

@@ -1,27 +1,28 @@
 #pragma once
-// Where between two equilibria an eigenvalue crosses zero: branch points and limit points.
-#include "path/equilibrium.hpp"
+// Where between two equilibria an eigenvalue crosses zero, or touches it: branch points and limit points.
+#include "path/event.hpp"
+#include "path/segment.hpp"
 
 #include <optional>
 
 namespace elamin {
 
-/// An equilibrium at which the Hessian is singular, located to rounding, with its critical modes (dofs × multiplicity).
-struct Event {
-  EventKind kind = EventKind::branch;
-  Equilibrium at;
-  Eigen::MatrixXd modes;
-};
+/// The first change of the Morse index on a segment from `a`, beyond which it is `before`, to `b`: root finding (Illinois,
+/// bracketed) on the sorted eigenvalue that changes sign, at equilibria that the corrector itself computes. A limit point if
+/// the load does work along the critical mode, else a branch point. Nothing if that eigenvalue does not go through zero:
+/// then `b` is on another branch than `a`, or `a` itself is the event.
+std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b);
 
-/// The first change of the Morse index between two equilibria of one branch, by root finding (Illinois, bracketed) on
-/// the sorted eigenvalue that changes sign, at equilibria that the corrector itself computes.
-/// Nothing if that eigenvalue does not go through zero: then `b` is on another branch than `a`.
-std::optional<Event> locate_crossing(Newton& newton, const Equilibrium& a, const Equilibrium& b);
+/// The root of a function of the equilibria of a segment that has different signs at its ends, or nothing.
+std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
+                                 const std::function<double(const Equilibrium&)>& f);
 
-/// The limit point that stops load steps behind `a`: steps in arc length
-///   w t_x·(x − x̂) + t_λ (λ − λ̂) = 0,   w = 1/|dx/dλ|²,
-/// until the lowest positive eigenvalue changes sign, then root finding in the arc length. `reach`: the load factor that
-/// could not be got to. Nothing if no eigenvalue changes sign within the steps tried.
-std::optional<Event> locate_limit(Newton& newton, const Equilibrium& a, double reach);
+/// The branch point that a side branch arrives at between `a` and `b`, where the load factor turns although no eigenvalue
+/// changes sign. `slope`: dλ/ds, which changes sign. On the side branch the equations are singular there; so the place is
+/// told from equilibria beside it (cubic Hermite interpolation), the branch that is met is stepped on by holding the
+/// critical mode, and the zero of the eigenvalue located along that one. `position`: the parameter of a state.
+std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
+                                    const std::function<double(const Equilibrium&)>& slope,
+                                    const std::function<double(const State&)>& position);
 
 }  // namespace elamin

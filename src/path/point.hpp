@@ -14,11 +14,12 @@ struct Stability {
   int negative = 0;                       // Morse index: eigenvalues below zero by more than rounding
   int negative_rigid = 0;                 // … among the motions on which the scaled loads do no work: under a rigid machine
   int zero = 0;                           // eigenvalues that are zero to rounding
+  int critical = 0;                       // of these, where they are not all explained by zero_modes
   std::vector<std::string> zero_modes;    // names of the rigid motions or symmetries that they are
   bool stable = false;                    // no negative one, and every zero one is named
 };
 
-enum class EventKind { limit, branch, contact };
+enum class EventKind { limit, branch, contact, watch };
 
 /// One equilibrium on a path; label "" unless it is an event, "initial" or "final".
 struct PathPoint {

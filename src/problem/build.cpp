@@ -6,6 +6,9 @@
 #include "problem/build_groups.hpp"
 #include "problem/build_structures.hpp"
 #include "problem/lammps_data.hpp"
+#include "problem/stages.hpp"
+#include "problem/state_tail.hpp"
+#include "problem/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -34,7 +37,7 @@ class Builder {
     holding = add_supports(p_, groups, model_, mistakes_) && holding;
     add_loads(p_, groups, model_, mistakes_);
     holding = add_contacts(p_, groups, model_, mistakes_) && holding;
-    if (holding && whole_) check_held(p_, model_, mistakes_);
+    if (holding && whole_) check_all_held();
     if (holding && whole_) check_modes(p_, model_, mistakes_);
     model_.groups = groups.groups();
     if (whole_ && !p_.path.start.empty() && !p_.path.place.broken) restart();
@@ -79,6 +82,21 @@ class Builder {
     model_.structures.push_back({"lammps", "lammps", 0, n, 0, -1, -1});
   }
 
+  /// Held in every stage.
+  void check_all_held() {
+    if (p_.stages.empty()) return check_held(p_, model_, mistakes_);
+    Stages stages(p_);
+    Model all = model_;
+    for (const StageTable& table : p_.stages) {
+      std::string unclear;
+      const Stage stage = stages.enter(unclear);
+      Mistakes of_stage(p_.file);
+      check_held(p_, model_in(stage, all, model_.start), of_stage);
+      for (const Mistake& m : of_stage.list()) mistakes_.add(table.place, m.key + ": " + m.what);
+      stages.leave(stage.path.to);
+    }
+  }
+
   void restart() {
     const auto data = read(p_.path.start, "");
     if (!data) return;
@@ -93,6 +111,27 @@ class Builder {
     check_plane(p_, model_, data->position, p_.path.place, mistakes_);
     model_.restart = State(data->position);
     model_.restart->load_factor = p_.path.start_lambda.value_or(p_.path.from);
+    try {
+      if (const auto stored = read_tail(p_.path.start)) {
+        take_tail(stored->tail);
+        if (stored->stage && !p_.stages.empty() && !Stages(p_).resume(*stored->stage))
+          mistakes_.add(p_.path.place, "start", fmt::format("is a state of the stage {}, and the problem has no such stage or "
+                                                            "other tables", quoted(stored->stage->name)));
+      }
+    } catch (const InputError& e) {
+      mistakes_.add(e.mistakes());
+    }
+  }
+
+  /// The tails of the restart's positions, each of them less than half a unit in the last place.
+  void take_tail(const Field& tail) {
+    State& state = *model_.restart;
+    if (tail.cols() != state.position.cols() || state.position + tail != state.position)
+      mistakes_.add(p_.path.place, "start",
+                    fmt::format("and {} beside it are not of one state; take the latter away, or both from one run",
+                                quoted(tail_file(p_.path.start))));
+    else
+      state.tail = tail;
   }
 
   const Problem& p_;

@@ -8,7 +8,8 @@ namespace elamin {
 /// Returns whether all of them could be built.
 bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
-/// Adds loads, gravity and viscosity. A mistake: a force out of the plane; gravity on particles without density.
+/// Adds loads, gravity, viscosity, pressures and changes. A mistake: a force out of the plane; a radial one on the axis;
+/// gravity on particles without density; a change of nothing, or to nothing.
 void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
 }  // namespace elamin

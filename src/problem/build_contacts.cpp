@@ -2,6 +2,7 @@
 
 #include "model/connect.hpp"
 #include "problem/build_structures.hpp"
+#include "problem/conditions.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
@@ -59,11 +60,11 @@ class ContactBuilder {
     return true;
   }
 
-  bool add(const WallTable& t) {
+  bool add(const WallTable& t, const Scaling& scaling) {
     const std::vector<int>* particles = t.place.broken ? nullptr : groups_.find(t.place, "group", t.group);
     if (!particles) return false;
     Wall w{t.name, t.group, *particles, with_unit_normal(t.region), t.inside, effective_modulus(t), t.curved,
-           t.displacement, t.radius_change};
+           t.displacement, t.radius_change, scaling};
     if (!has_number(t.place, w.effective_modulus)) return false;
     if (w.effective_modulus > 0 && !round(t.place, "group", w.particles)) return false;
     model_.walls.push_back(std::move(w));
@@ -137,7 +138,7 @@ State start_at(const Model& model, double load_factor) {
     for (const int i : s.particles)
       for (int c = 0; c < 3; ++c)
         if (s.held[c])
-          state.position(c, i) = model.start.position(c, i) + (s.constant ? 1 : load_factor) * s.displacement[c];
+          state.position(c, i) = model.start.position(c, i) + s.scaling.at(load_factor) * s.displacement[c];
   return state;
 }
 
@@ -181,7 +182,8 @@ bool add_contacts(const Problem& problem, Groups& groups, Model& model, Mistakes
   ContactBuilder builder(groups, model, mistakes);
   bool whole = true;
   for (const ContactTable& t : problem.contacts) whole = builder.add(t) && whole;
-  for (const WallTable& t : problem.walls) whole = builder.add(t) && whole;
+  for (std::size_t k = 0; k < problem.walls.size(); ++k)
+    whole = builder.add(problem.walls[k], scaling_of(problem, condition_of("wall", problem.walls, k))) && whole;
   if (whole) check_gaps(problem, groups, model, mistakes);
   return whole;
 }
@@ -200,8 +202,8 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
     if (w.region.any_open() || w.effective_modulus == 0) continue;
     const auto wrong = [&](int i) {
       return std::all_of(states.begin(), states.end(), [&](const State& state) {
-        const double factor = state.load_factor;
-        return w.region.moved(factor * w.displacement, factor * w.radius_change).contains(state.at(i)) != w.inside;
+        const double part = w.scaling.at(state.load_factor);
+        return w.region.moved(part * w.displacement, part * w.radius_change).contains(state.at(i)) != w.inside;
       });
     };
     const auto first = std::find_if(w.particles.begin(), w.particles.end(), wrong);

@@ -77,14 +77,14 @@ class Parts {
 std::vector<bool> driven(const Model& model, const Parts& parts) {
   struct Forces { std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()}; double size = 0; };   // scaled, constant
   std::vector<Forces> forces(model.particles());
-  const auto add = [&](int i, const Vec3& force, bool constant) {
+  const auto add = [&](int i, const Vec3& force, const Scaling& scaling) {
     Forces& f = forces[parts.cluster(i)];
-    f.sum[constant] += force, f.size += force.cwiseAbs().maxCoeff();
+    f.sum[0] += scaling.rate * force, f.sum[1] += scaling.fixed * force, f.size += force.cwiseAbs().maxCoeff();
   };
   for (const Load& l : model.loads)
-    for (const int i : l.particles) add(i, l.force, l.constant);
+    for (std::size_t k = 0; k < l.particles.size(); ++k) add(l.particles[k], l.on(k), l.scaling);
   for (const Gravity& g : model.gravity)
-    for (const int i : g.particles) add(i, model.mass(i) * g.acceleration, g.constant);
+    for (const int i : g.particles) add(i, model.mass(i) * g.acceleration, g.scaling);
   std::vector<bool> left(model.particles());
   for (std::size_t k = 0; k < forces.size(); ++k)
     for (const Vec3& sum : forces[k].sum) left[k] = left[k] || sum.cwiseAbs().maxCoeff() > 1e-9 * forces[k].size;

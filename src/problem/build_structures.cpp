@@ -30,26 +30,17 @@ double sheet_angle_stiffness(double E, double t) { return E * t * t * t / (8 * s
 
 class Builder {
  public:
-  explicit Builder(Mistakes& mistakes) : mistakes_(mistakes) {}
+  Builder(const std::string& plane, Mistakes& mistakes) : plane_(plane), mistakes_(mistakes) {}
 
-  std::optional<StraightBeam> built(const BeamTable& table) {
-    const int intervals = table.particles - 1;
-    const double thickness = table.thickness.value_or(table.diameter), E = table.youngs_modulus.value_or(0);
-    StraightBeam b{table.name, {}, {}, table.particles, table.diameter, table.density.value_or(0), E, {}, {}};
-    if (table.from)
-      b.from.hi = *table.from, b.to.hi = *table.to;
-    else
-      std::tie(b.from, b.to) =
-          std::tuple_cat(ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter), intervals));
-    const double spacing = (distance(b.from, b.to) / Exact{static_cast<double>(intervals), 0}).value();
-    if (!std::isfinite(spacing)) {
-      mistakes_.add(table.place, "its length is beyond what numbers can hold");
-      return std::nullopt;
-    }
-    if (lost(table.place, "spacing", spacing, std::max(largest(b.from.hi), largest(b.to.hi)))) return std::nullopt;
-    b.bond.rest_length = table.rest_length.value_or(spacing);
-    section_stiffness(table, thickness, b.bond, b.angle);
+  std::optional<Beam> built(const BeamTable& table) {
+    const Clamped clamped = clamped_ends(table);
+    const std::optional<Centerline> line = centerline(table, clamped);
+    if (!line) return std::nullopt;
+    Beam b{table.name, line->centers, table.diameter, table.density.value_or(0), table.youngs_modulus.value_or(0), {}, {}};
+    b.bond.rest_length = table.rest_length.value_or(line->spacing);
+    row_stiffness(table, b.bond, b.angle);
     b.angle.rest = rest_angle(table.rest, pi);
+    b.as_built = table.rest.as_built, b.clamped = clamped;
     if (!stiff(table.place, b.bond.stiffness, b.angle.stiffness)) return std::nullopt;
     return b;
   }
@@ -63,7 +54,7 @@ class Builder {
     const double spacing = chord(r.radius, r.particles);
     if (lost(table.place, "spacing", spacing, largest(r.center) + r.radius)) return std::nullopt;
     r.bond.rest_length = table.rest_length.value_or(spacing);
-    section_stiffness(table, table.thickness.value_or(table.diameter), r.bond, r.angle);
+    row_stiffness(table, r.bond, r.angle);
     r.angle.rest = rest_angle(table.rest, ring_angle(r.particles));
     if (!stiff(table.place, r.bond.stiffness, r.angle.stiffness)) return std::nullopt;
     return r;
@@ -135,6 +126,73 @@ class Builder {
 
  private:
   static double largest(const Vec3& x) { return x.cwiseAbs().maxCoeff(); }
+
+  static Clamped clamped_ends(const BeamTable& table) {
+    const bool both = table.clamped == ClampedEnds::both;
+    return {both || table.clamped == ClampedEnds::from, both || table.clamped == ClampedEnds::to};
+  }
+
+  /// Where the particles of a beam are; none, and said why, if they cannot be there.
+  std::optional<Centerline> centerline(const BeamTable& table, Clamped clamped) {
+    std::vector<ExactVector> corners;
+    if (table.through)
+      for (const Vec3& x : *table.through) corners.push_back({x, Vec3::Zero()});
+    else if (table.from)
+      corners = {{*table.from, Vec3::Zero()}, {*table.to, Vec3::Zero()}};
+    else
+      for (const ExactVector& x : ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter), table.particles - 1))
+        corners.push_back(x);
+    double length = 0, farthest = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      farthest = std::max(farthest, largest(corners[i].hi));
+      if (i > 0) length += distance(corners[i - 1], corners[i]).value();
+    }
+    if (table.rise) length += std::abs(*table.rise), farthest += std::abs(*table.rise);
+    if (!std::isfinite(length)) {
+      mistakes_.add(table.place, "its length is beyond what numbers can hold");
+      return std::nullopt;
+    }
+    if (lost(table.place, "spacing", length / (table.particles - 1), farthest)) return std::nullopt;
+    if (table.rise || table.angle) return arch(table, length, clamped);
+    if (!table.through) return row(corners.front(), corners.back(), table.particles, clamped);
+    std::optional<Centerline> line = polyline(*table.through, table.particles, clamped);
+    if (!line) not_on_corners(table, clamped);
+    return line;
+  }
+
+  std::optional<Centerline> arch(const BeamTable& table, double size, Clamped clamped) {
+    Arch a{*table.from, *table.to, table.toward.value_or(Vec3::Zero())};
+    if (!table.toward) {                           // a quarter turn of from → to in the plane
+      const int u = plane_[0] - 'x', v = plane_[1] - 'x';
+      a.toward[u] = -(a.to - a.from)[v], a.toward[v] = (a.to - a.from)[u];
+    }
+    const double chord = (a.to - a.from).norm();
+    if (!rises(a) || chord <= 1e-12 * size) {
+      mistakes_.add(table.place, "to", "is no place to which an arch leads from here; from and to must lie apart in the plane");
+      return std::nullopt;
+    }
+    if (table.profile == Profile::sine) {
+      std::optional<Centerline> line = half_sine(a, *table.rise, table.particles);
+      if (!line) mistakes_.add(table.place, "rise", "is too high for so few particles on a sine; take more of them, or a circle");
+      return line;
+    }
+    if (table.angle) return arc(a, exact_degrees(*table.angle), table.particles, clamped);
+    if (*table.rise < 0) a.toward = -a.toward;
+    return arc(a, turns_of_rise(chord, std::abs(*table.rise)), table.particles, clamped);
+  }
+
+  void not_on_corners(const BeamTable& table, Clamped clamped) {
+    const auto [below, above] = fitting(*table.through, table.particles, clamped);
+    std::string nearest;
+    for (const int n : {below, above})
+      if (n > 0) nearest += fmt::format("{}{}", nearest.empty() ? "" : " and ", n);
+    mistakes_.add(table.place, "particles",
+                  fmt::format("{} evenly along through put none on a corner; {}", table.particles,
+                              nearest.empty() ? "no number near it does: the lengths between corners must have a common measure"
+                                              : "the nearest that do: " + nearest));
+  }
+
+  static Exact exact_degrees(double degrees) { return Exact{degrees, 0} / Exact{360, 0}; }
   static Sheet::Shape shape_of(SheetShape shape) {
     return shape == SheetShape::rectangle ? Sheet::Shape::rectangle
            : shape == SheetShape::circle  ? Sheet::Shape::circle
@@ -153,11 +211,15 @@ class Builder {
     return true;
   }
 
-  template <class Table>
-  static void section_stiffness(const Table& table, double thickness, BondType& bond, AngleType& angle) {
-    const double E = table.youngs_modulus.value_or(0), q = bond.rest_length;
-    bond.stiffness = table.bond_stiffness.value_or(bond_stiffness(table.section, E, thickness, q));
-    angle.stiffness = table.angle_stiffness.value_or(angle_stiffness(table.section, E, thickness, q));
+  /// K = EA/(2q₀) and B = EI/q₀, of the section where nothing else is given.
+  template <class Table> static void row_stiffness(const Table& table, BondType& bond, AngleType& angle) {
+    const double E = table.youngs_modulus.value_or(0), q = bond.rest_length, t = table.thickness.value_or(table.diameter);
+    bond.stiffness = table.bond_stiffness    ? *table.bond_stiffness
+                     : table.axial_stiffness ? *table.axial_stiffness / (2 * q)
+                                             : bond_stiffness(table.section, E, t, q);
+    angle.stiffness = table.angle_stiffness     ? *table.angle_stiffness
+                      : table.bending_stiffness ? *table.bending_stiffness / q
+                                                : angle_stiffness(table.section, E, t, q);
   }
 
   bool stiff(const TablePlace& place, double bond, double angle) {
@@ -169,6 +231,7 @@ class Builder {
     return true;
   }
 
+  const std::string& plane_;
   Mistakes& mistakes_;
 };
 
@@ -190,7 +253,7 @@ std::vector<Built> all_built(Builder& builder, const std::vector<Table>& tables,
 }  // namespace
 
 bool add_structures(const Problem& problem, Model& model, std::vector<std::string>& left_out, Mistakes& mistakes) {
-  Builder builder(mistakes);
+  Builder builder(problem.plane, mistakes);
   const auto sheets = all_built<Sheet>(builder, problem.sheets, left_out);
   const auto grains = all_built<Grains>(builder, problem.grains, left_out);
   double rows = 0, total = model.particles();
@@ -220,7 +283,7 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
       return false;
     }
   }
-  const auto beams = all_built<StraightBeam>(builder, problem.beams, left_out);
+  const auto beams = all_built<Beam>(builder, problem.beams, left_out);
   const auto loops = all_built<Ring>(builder, problem.loops, left_out);
   if (!beams.empty()) add_beams(model, beams);
   if (!loops.empty()) add_loops(model, loops);

@@ -73,26 +73,6 @@ void check_support(SupportTable& s, Mistakes& mistakes) {
                                                         "give 0 there or hold that direction", "xyz"[c], d));
 }
 
-void check_load(LoadTable& l, Mistakes& mistakes) {
-  const bool tried = l.place.keys.count("force") || l.place.keys.count("total_force");
-  if (l.force && l.total_force)
-    mistakes.add(l.place, "total_force", "force is there too; give one of them");
-  else if (!l.force && !l.total_force && !tried)
-    mistakes.add(l.place, "force or total_force is missing; give one of them, a list of three numbers [x, y, z]");
-}
-
-void check_path(PathTable& t, bool is_path, Mistakes& mistakes) {
-  if (t.place.broken) return;
-  if (t.from == t.to)
-    mistakes.add(t.place, "to",
-                 fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
-  if (t.start_lambda && t.start.empty())
-    mistakes.add(t.place, "start_lambda", "is of no use without start, the state to start from");
-  if (is_path && t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
-    mistakes.add(t.place, "start_lambda",
-                 fmt::format("is the load factor where the path ends, {}; a path leads from one to another", t.to));
-}
-
 }  // namespace
 
 void check_problem(Problem& problem, const std::vector<std::string>& other_names, Mistakes& mistakes) {
@@ -103,13 +83,9 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
     names.refer(s.place, "group", s.group);
     check_support(s, mistakes);
   }
-  for (LoadTable& l : problem.loads) {
-    names.refer(l.place, "group", l.group);
-    check_load(l, mistakes);
-  }
-  for (GravityTable& g : problem.gravity) names.refer(g.place, "group", g.group);
+  check_loads(problem, names, mistakes);
   for (ViscosityTable& v : problem.viscosity) names.refer(v.place, "group", v.group);
-  check_path(problem.path, problem.study == StudyType::path, mistakes);
+  check_path(problem, mistakes);
   check_interactions(problem, names, mistakes);
   check_results(problem, names, mistakes);
 }

@@ -3,6 +3,7 @@
 #include "problem/mistakes.hpp"
 #include "problem/problem.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,16 @@ const std::vector<std::string>& standing_columns();
 
 /// Columns that a study of modes has besides: eigenvalue_1, …
 std::vector<std::string> eigenvalue_columns(int count);
+
+/// The `at` of an expectation about all runs of a sweep together: the threshold that a bisection finds.
+inline constexpr const char* at_sweep = "sweep";
+
+/// The load factor of "lambda=0.5"; nothing of another `at`.
+std::optional<double> load_factor_of(const std::string& at);
+
+/// Why an observable is no column of numbers at `at` (see ExpectTable), or ""; and why no row of a run is meant by `at`.
+std::string wrong_observable(const Problem& problem, const std::string& observable, const std::string& at);
+std::string wrong_at(const Problem& problem, const std::string& at);
 
 /// Whether a name is "type" and a number: the groups of a LAMMPS data file.
 bool is_type_group(const std::string& name);

@@ -1,5 +1,6 @@
 #include "problem/check_parts.hpp"
 #include "problem/check_region.hpp"
+#include "problem/conditions.hpp"
 #include "problem/schema_words.hpp"
 
 #include <fmt/format.h>
@@ -42,12 +43,6 @@ void check_region(TablePlace& place, const Region& region, bool flat, Mistakes& 
 
 namespace {
 
-/// Load factors between which a study moves.
-std::vector<double> load_factors(const Problem& p) {
-  if (p.study != StudyType::path || p.path.place.broken) return {0, 1};
-  return {p.path.from, p.path.to, p.path.start_lambda.value_or(p.path.from)};
-}
-
 class CheckInteractions {
  public:
   CheckInteractions(const Problem& problem, Names& names, Mistakes& mistakes)
@@ -78,7 +73,7 @@ class CheckInteractions {
                                                  : "are two numbers for one modulus; give one, or two moduli");
   }
 
-  void check(WallTable& w) {
+  void check(WallTable& w, const Scaling& scaling) {
     const bool whole = !w.place.broken;
     names_.refer(w.place, "group", w.group);
     if (!whole) return;
@@ -89,7 +84,7 @@ class CheckInteractions {
     else if (!E)
       mistakes_.add(w.place, "youngs_modulus", "is missing; it must be a positive number, or give effective_modulus");
     check_region(w.place, w.region, false, mistakes_);
-    radius(w);
+    radius(w, scaling);
   }
 
  private:
@@ -101,14 +96,14 @@ class CheckInteractions {
   }
 
   /// The radius must stay one at every load factor in use.
-  void radius(WallTable& w) {
+  void radius(WallTable& w, const Scaling& scaling) {
     if (w.radius_change == 0) return;
     const Region& r = w.region;
     if (r.shape == Shape::plane || r.shape == Shape::block)
       return mistakes_.add(w.place, "radius_change", fmt::format("a {} has no radius; leave it out", name_of(r.shape)));
     const bool cone = r.shape == Shape::cone;
     for (const double lambda : load_factors(problem_)) {
-      const double change = lambda * w.radius_change;
+      const double change = scaling.at(lambda) * w.radius_change;
       const double smallest = cone ? std::min(r.radius_lo, r.radius_hi) + change : r.radius + change;
       const double largest = cone ? std::max(r.radius_lo, r.radius_hi) + change : smallest;
       if (smallest >= 0 && largest > 0) continue;
@@ -130,7 +125,8 @@ void check_interactions(Problem& problem, Names& names, Mistakes& mistakes) {
   CheckInteractions interactions(problem, names, mistakes);
   for (ConnectTable& c : problem.connections) interactions.check(c);
   for (ContactTable& c : problem.contacts) interactions.check(c);
-  for (WallTable& w : problem.walls) interactions.check(w);
+  for (std::size_t k = 0; k < problem.walls.size(); ++k)
+    interactions.check(problem.walls[k], scaling_of(problem, condition_of("wall", problem.walls, k)));
 }
 
 }  // namespace elamin

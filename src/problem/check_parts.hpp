@@ -47,6 +47,12 @@ void check_groups(Problem& problem, Names& names, Mistakes& mistakes);
 /// Connections, contacts and walls.
 void check_interactions(Problem& problem, Names& names, Mistakes& mistakes);
 
+/// Loads, gravity, pressures, changes; the names of conditions, and those that [path] parameter chooses.
+void check_loads(Problem& problem, Names& names, Mistakes& mistakes);
+
+/// The path, its stages and the events that are looked for on it.
+void check_path(Problem& problem, Mistakes& mistakes);
+
 /// What is observed and expected.
 void check_results(Problem& problem, Names& names, Mistakes& mistakes);
 

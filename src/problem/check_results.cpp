@@ -15,7 +15,8 @@ const std::vector<std::string>& standing_columns() {
   static const std::vector<std::string> columns{"step",     "label",    "branch",     "lambda",   "energy", "bond",
                                                 "angle",    "contact",  "wall",       "cohesion", "external",
                                                 "residual", "iterations", "negative", "stable",   "multiplicity",
-                                                "status"};
+                                                "status",   "parent",   "negative_rigid", "negative_before",
+                                                "negative_after", "what", "stage"};
   return columns;
 }
 
@@ -31,14 +32,19 @@ bool is_in(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+/// The columns of a problem's tables besides its observables.
+std::vector<std::string> columns_of(const Problem& p) {
+  std::vector<std::string> columns = standing_columns();
+  if (p.study != StudyType::modes) return columns;
+  const std::vector<std::string> eigenvalues = eigenvalue_columns(p.modes.count);
+  columns.insert(columns.end(), eigenvalues.begin(), eigenvalues.end());
+  return columns;
+}
+
 class CheckResults {
  public:
   CheckResults(const Problem& problem, Names& names, Mistakes& mistakes)
-      : p_(problem), names_(names), mistakes_(mistakes), columns_(standing_columns()) {
-    if (p_.study != StudyType::modes) return;
-    const std::vector<std::string> eigenvalues = eigenvalue_columns(p_.modes.count);
-    columns_.insert(columns_.end(), eigenvalues.begin(), eigenvalues.end());
-  }
+      : p_(problem), names_(names), mistakes_(mistakes), columns_(columns_of(problem)) {}
 
   void check(ObserveTable& o) {
     names_.refer(o.place, "group", o.group, true);
@@ -54,15 +60,10 @@ class CheckResults {
   }
 
   void check(ExpectTable& e) {
-    const bool event = e.at.find(':') != std::string::npos;
-    std::vector<std::string> columns;
-    for (const std::string& c : columns_)
-      if (c != "label" && c != "status" && (event || c != "multiplicity")) columns.push_back(c);
-    columns.insert(columns.end(), observables_.begin(), observables_.end());
-    if (e.place.keys.count("observable") && !(e.observable.empty() && e.place.broken) && !is_in(columns, e.observable))
-      mistakes_.add(e.place, "observable", quoted(e.observable) + " is no column of numbers there; there are: " +
-                                               listed(columns) + did_you_mean(e.observable, columns));
-    if (const std::string wrong = wrong_at(e.at); !wrong.empty()) mistakes_.add(e.place, "at", wrong);
+    if (e.place.keys.count("observable") && !(e.observable.empty() && e.place.broken))
+      if (const std::string wrong = wrong_observable(p_, e.observable, e.at); !wrong.empty())
+        mistakes_.add(e.place, "observable", wrong);
+    if (const std::string wrong = wrong_at(p_, e.at); !wrong.empty()) mistakes_.add(e.place, "at", wrong);
   }
 
  private:
@@ -76,35 +77,6 @@ class CheckResults {
       mistakes_.add(o.place, "reduce", quoted(o.group) + " is a wall, which has one value; leave reduce out");
   }
 
-  /// Why there is no such row, or "".
-  std::string wrong_at(const std::string& at) const {
-    if (at == "final" || (at == "initial" && p_.study == StudyType::path)) return "";
-    if (p_.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + quoted(at);
-    const std::string allowed =
-        "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", or "
-        "\"lambda=0.5\", is " + quoted(at);
-    if (at.compare(0, 7, "lambda=") == 0) {
-      double lambda = 0;
-      const auto [end, error] = std::from_chars(at.data() + 7, at.data() + at.size(), lambda);
-      if (error != std::errc() || end != at.data() + at.size() || !std::isfinite(lambda)) return allowed;
-      const auto [lo, hi] = std::minmax(p_.path.from, p_.path.to);
-      if (lo < hi && (lambda < lo || lambda > hi))
-        return fmt::format("lies outside the path, whose load factors run from {} to {}", lo, hi);
-      return "";
-    }
-    const std::size_t colon = at.find(':');
-    if (colon == std::string::npos)
-      return allowed + did_you_mean(at, {"initial", "final", "branch:1", "limit:1", "contact:1"});
-    const std::string kind = at.substr(0, colon), number = at.substr(colon + 1);
-    if (kind != "branch" && kind != "limit" && kind != "contact") return allowed;
-    if (number.empty() || number.size() > 9 || number[0] == '0' ||
-        number.find_first_not_of("0123456789") != std::string::npos)
-      return allowed;
-    if (!p_.path.place.broken && !is_in(p_.path.locate, kind))
-      return quoted(kind) + " is not among path.locate; only located events have a row";
-    return "";
-  }
-
   const Problem& p_;
   Names& names_;
   Mistakes& mistakes_;
@@ -112,6 +84,62 @@ class CheckResults {
 };
 
 }  // namespace
+
+std::optional<double> load_factor_of(const std::string& at) {
+  double lambda = 0;
+  if (at.compare(0, 7, "lambda=") != 0) return std::nullopt;
+  const auto [end, error] = std::from_chars(at.data() + 7, at.data() + at.size(), lambda);
+  if (error != std::errc() || end != at.data() + at.size() || !std::isfinite(lambda)) return std::nullopt;
+  return lambda;
+}
+
+std::string wrong_observable(const Problem& p, const std::string& observable, const std::string& at) {
+  const std::vector<std::string> no_numbers{"label", "status", "parent", "what", "stage"},
+      of_events{"multiplicity", "negative_before", "negative_after"};
+  if (at == at_sweep) return observable == "threshold" ? "" : "must be \"threshold\" at = \"sweep\", is " + quoted(observable);
+  const bool event = at.find(':') != std::string::npos;
+  std::vector<std::string> columns;
+  for (const std::string& c : columns_of(p))
+    if (!is_in(no_numbers, c) && (event || !is_in(of_events, c))) columns.push_back(c);
+  for (const ObserveTable& o : p.observe)
+    if (!o.name.empty() && !is_in(columns, o.name)) columns.push_back(o.name);
+  if (is_in(columns, observable)) return "";
+  return quoted(observable) + " is no column of numbers there; there are: " + listed(columns) + did_you_mean(observable, columns);
+}
+
+std::string wrong_at(const Problem& p, const std::string& at) {
+  if (at == at_sweep || at == "final" || (at == "initial" && p.study == StudyType::path)) return "";
+  if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + quoted(at);
+  const std::string allowed =
+      "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", " +
+      std::string(p.stages.empty() ? "" : "a stage's name, ") + "or \"lambda=0.5\", is " + quoted(at);
+  if (at.compare(0, 7, "lambda=") == 0) {
+    const auto lambda = load_factor_of(at);
+    if (!lambda) return allowed;
+    if (p.path.method == PathMethod::arc_length || !p.stages.empty()) return "";
+    const auto [lo, hi] = std::minmax(p.path.from, p.path.to);
+    if (lo < hi && (*lambda < lo || *lambda > hi))
+      return fmt::format("lies outside the path, whose load factors run from {} to {}", lo, hi);
+    return "";
+  }
+  for (const StageTable& s : p.stages)
+    if (at == s.name) return "";
+  const std::size_t colon = at.find(':');
+  std::vector<std::string> labels{"initial", "final", "branch:1", "limit:1", "contact:1"};
+  for (const EventTable& e : p.events) labels.push_back(e.name + ":1");
+  for (const StageTable& s : p.stages) labels.push_back(s.name);
+  if (colon == std::string::npos) return allowed + did_you_mean(at, labels);
+  const std::string kind = at.substr(0, colon), number = at.substr(colon + 1);
+  const bool watched = std::any_of(p.events.begin(), p.events.end(), [&](const EventTable& e) { return e.name == kind; });
+  if (!watched && kind != "branch" && kind != "limit" && kind != "contact" && kind != "jump" && kind != "deflated")
+    return allowed + did_you_mean(at, labels);
+  if (number.empty() || number.size() > 9 || number[0] == '0' ||
+      number.find_first_not_of("0123456789") != std::string::npos)
+    return allowed;
+  if (!watched && kind != "jump" && kind != "deflated" && !p.path.place.broken && !is_in(p.path.locate, kind))
+    return quoted(kind) + " is not among path.locate; only located events have a row";
+  return "";
+}
 
 void check_results(Problem& problem, Names& names, Mistakes& mistakes) {
   CheckResults results(problem, names, mistakes);

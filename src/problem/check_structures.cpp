@@ -1,3 +1,4 @@
+#include "model/centerline.hpp"
 #include "problem/check_parts.hpp"
 #include "problem/check_region.hpp"
 #include "problem/schema_words.hpp"
@@ -9,13 +10,18 @@ namespace {
 
 class CheckStructures {
  public:
-  explicit CheckStructures(Mistakes& mistakes) : mistakes_(mistakes) {}
+  CheckStructures(const std::string& plane, Mistakes& mistakes) : in_plane_(!plane.empty()), mistakes_(mistakes) {}
 
   void check(BeamTable& b) {
     const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
     const bool ends = written("from") || written("to"), middle = written("center") || written("axis");
-    if (ends && middle) {
+    if (written("through") && (ends || middle)) {
+      mistakes_.add(b.place, "through", "gives the place; leave out from, to, center and axis");
+    } else if (ends && middle) {
       mistakes_.add(b.place, "has from or to as well as center or axis; give from and to, or center, axis and spacing");
+    } else if (written("through")) {
+      if (written("spacing")) mistakes_.add(b.place, "spacing", "follows from through and particles; leave it out");
+      if (b.through) corners(b.place, *b.through);
     } else if (ends) {
       if (!written("from"))
         mistakes_.add(b.place, "from", "is missing beside to; it must be a list of three numbers [x, y, z]");
@@ -31,14 +37,22 @@ class CheckStructures {
         mistakes_.add(b.place, "axis", "is missing beside center; it must be a list of three numbers [x, y, z]");
       if (b.axis) check_direction(b.place, "axis", *b.axis, mistakes_);
     } else {
-      mistakes_.add(b.place, "its place is missing; give from and to, or center, axis and spacing");
+      mistakes_.add(b.place, "its place is missing; give from and to, or center, axis and spacing, or through");
     }
-    stiffness(b.place);
+    arch(b);
+    if (b.clamped) {
+      const int least = 2 + (*b.clamped == ClampedEnds::both ? 2 : 1);
+      if (middle)
+        mistakes_.add(b.place, "clamped", "needs ends; give from and to, or through");
+      else if (b.particles > 0 && b.particles < least)
+        mistakes_.add(b.place, "particles", fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
+    }
+    row_stiffness(b.place);
   }
 
   void check(LoopTable& l) {
     check_direction(l.place, "normal", l.normal, mistakes_);
-    stiffness(l.place);
+    row_stiffness(l.place);
   }
 
   void check(SheetTable& s) {
@@ -56,6 +70,50 @@ class CheckStructures {
   }
 
  private:
+  void corners(TablePlace& place, const std::vector<Vec3>& through) {
+    if (through.size() < 2)
+      mistakes_.add(place, "through", "must be a list of two points at least, [[x, y, z], [x, y, z]]");
+    for (std::size_t i = 1; i < through.size(); ++i)
+      if (through[i] == through[i - 1]) {
+        mistakes_.add(place, "through", fmt::format("has points {} and {} in the same place", i, i + 1));
+        break;
+      }
+  }
+
+  void arch(BeamTable& b) {
+    const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
+    const bool is_arch = written("rise") || written("angle");
+    if (is_arch && !(written("from") && written("to")))
+      mistakes_.add(b.place, written("rise") ? "rise" : "angle", "is of an arch, which stands on from and to; give both");
+    for (const char* key : {"toward", "profile"})
+      if (written(key) && !is_arch)
+        mistakes_.add(b.place, key, "is of an arch; give rise or angle too, or leave it out");
+    if (!is_arch) return;
+    if (written("rise") && written("angle")) mistakes_.add(b.place, "angle", "follows from rise; give one of them");
+    if (b.rise && *b.rise == 0) mistakes_.add(b.place, "rise", "must not be 0; leave it out for a straight beam");
+    if (!written("toward") && !in_plane_ && written("from") && written("to"))
+      mistakes_.add(b.place, "toward", "is missing; the arch rises to this side of from and to. In a plane it may be left out");
+    if (b.from && b.to && b.toward && *b.from != *b.to && !rises({*b.from, *b.to, *b.toward}))
+      mistakes_.add(b.place, "toward", "leads to no side of the line between from and to");
+    if (b.particles == 2) mistakes_.add(b.place, "particles", "must be at least 3 for an arch");
+    if (b.profile != Profile::sine) return;
+    if (!written("rise")) mistakes_.add(b.place, "profile", "of a sine needs rise");
+    if (b.clamped) mistakes_.add(b.place, "clamped", "is not for a sine; hold its ends with a [[support]] and leave this out");
+  }
+
+  void row_stiffness(TablePlace& place) {
+    const auto written = [&](const char* key) { return place.keys.count(key) > 0; };
+    for (const auto& [whole, part] : {std::pair("axial_stiffness", "bond_stiffness"), {"bending_stiffness", "angle_stiffness"}})
+      if (written(whole) && written(part))
+        mistakes_.add(place, whole, fmt::format("stands beside {}; give one of them", part));
+    const bool bonds = written("bond_stiffness") || written("axial_stiffness");
+    const bool angles = written("angle_stiffness") || written("bending_stiffness");
+    if (!written("youngs_modulus") && !(bonds && angles))
+      mistakes_.add(place, "youngs_modulus",
+                    "is missing; it must be a positive number, or give axial_stiffness and bending_stiffness, or "
+                    "bond_stiffness and angle_stiffness");
+  }
+
   void stiffness(TablePlace& place) {
     const auto written = [&](const char* key) { return place.keys.count(key) > 0; };
     if (!written("youngs_modulus") && !(written("bond_stiffness") && written("angle_stiffness")))
@@ -63,13 +121,14 @@ class CheckStructures {
                     "is missing; it must be a positive number, or give bond_stiffness and angle_stiffness");
   }
 
+  bool in_plane_;
   Mistakes& mistakes_;
 };
 
 }  // namespace
 
 void check_structures(Problem& problem, Names& names, Mistakes& mistakes) {
-  CheckStructures structures(mistakes);
+  CheckStructures structures(problem.plane, mistakes);
   double particles = 0;
   const auto all = [&](auto& tables) {
     for (auto& table : tables) {

@@ -30,10 +30,13 @@ class Keys {
   explicit Keys(KeyTree& tree) : tree_(tree) {}
   template <class T> void may(const char* key, T&, Range = {}) { add(key); }
   template <class T> void must(const char* key, T&, Range = {}) { add(key); }
+  template <class T> void one_or_more(const char* key, T&) { add(key); }
+  template <class T> void must_one_or_more(const char* key, T&) { add(key); }
   void one_or_two(const char* key, std::vector<double>&, Range) { add(key); }
   void center(const char* key, Vec3&, int) { add(key); }
   void foreign(const char* key, const std::string&) { add(key); }
   void name(const char* key, std::string&) { add(key); }
+  void may_name(const char* key, std::string&) { add(key); }
   void file(const char* key, std::string&) { add(key); }
   void may_file(const char* key, std::string&) { add(key); }
   void raw(const char* key, std::vector<std::string>&) { add(key); }

@@ -32,19 +32,28 @@ struct Rest {
   bool operator==(const Rest&) const = default;
 };
 
+enum class Profile { circle, sine };           // of an arch
+enum class ClampedEnds { from, to, both };
+
 struct BeamTable {
   TablePlace place;
   std::string name;
   Section section = Section::cylinder;
   int particles = 0;
   std::optional<Vec3> from, to;                 // either these …
-  std::optional<Vec3> center, axis;             // … or these, with spacing
+  std::optional<Vec3> center, axis;             // … or these, with spacing …
   std::optional<double> spacing;                // default: the diameter
+  std::optional<std::vector<Vec3>> through;     // … or the corners
+  std::optional<double> rise, angle;            // of an arch between from and to: its height, or the degrees of the arc
+  std::optional<Vec3> toward;                   // the side it rises to; default: in the plane, to the left
+  std::optional<Profile> profile;               // of an arch, default a circle
+  std::optional<ClampedEnds> clamped;           // ends with a particle beyond, to be held
   double diameter = 0;
   std::optional<double> thickness;              // default: the diameter
   std::optional<double> youngs_modulus;         // needed unless both stiffnesses are given
   std::optional<double> density;
   std::optional<double> bond_stiffness, angle_stiffness, rest_length;
+  std::optional<double> axial_stiffness, bending_stiffness;   // EA and EI
   Rest rest;
   bool operator==(const BeamTable&) const = default;
 };
@@ -60,6 +69,7 @@ struct LoopTable {
   std::optional<double> thickness;              // default: the diameter
   std::optional<double> youngs_modulus, density;
   std::optional<double> bond_stiffness, angle_stiffness, rest_length;   // rest length: default the chord
+  std::optional<double> axial_stiffness, bending_stiffness;             // EA and EI
   Rest rest;
   bool operator==(const LoopTable&) const = default;
 };
@@ -113,6 +123,7 @@ struct ContactTable {
   std::optional<double> effective_modulus;
   std::optional<int> exclude_bonds;
   std::optional<double> epsilon, sigma, cutoff;
+  std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const ContactTable&) const = default;
 };
 
@@ -125,6 +136,7 @@ struct WallTable {
   bool curved = false;                          // effective_radius = "curved"
   Vec3 displacement = Vec3::Zero();
   double radius_change = 0;
+  std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const WallTable&) const = default;
 };
 
@@ -151,26 +163,52 @@ struct GroupTable {
 
 struct SupportTable {
   TablePlace place;
+  std::string name;                             // "" here and below: it has none but its number
   std::string group, directions = "xyz";
   Vec3 displacement = Vec3::Zero();
   bool constant = false;
+  std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const SupportTable&) const = default;
 };
 
 struct LoadTable {
   TablePlace place;
-  std::string group;
-  std::optional<Vec3> force, total_force;
+  std::string name, group;
+  std::optional<Vec3> force, total_force;       // one of these …
+  std::optional<double> radial;                 // … or this: on every particle away from an axis
+  std::optional<Vec3> center, axis;             // of radial; default: the mean of the group, the normal of the plane
   bool constant = false;
+  std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const LoadTable&) const = default;
 };
 
 struct GravityTable {
   TablePlace place;
-  std::string group = "all";
+  std::string name, group = "all";
   Vec3 acceleration = Vec3::Zero();
   bool constant = true;
+  std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const GravityTable&) const = default;
+};
+
+/// A pressure from outside on a [[loop]], in its plane.
+struct PressureTable {
+  TablePlace place;
+  std::string name, loop;
+  double pressure = 0;                          // [force/length]
+  bool constant = false;
+  std::string from_stage;                       // in force from that stage on; "": from the start
+  bool operator==(const PressureTable&) const = default;
+};
+
+/// Growth and stiffening of what is between the particles of a group: relative changes.
+struct ChangeTable {
+  TablePlace place;
+  std::string name, group;
+  std::optional<double> rest_length, bond_stiffness, angle_stiffness;
+  bool constant = false;
+  std::string from_stage;                       // in force from that stage on; "": from the start
+  bool operator==(const ChangeTable&) const = default;
 };
 
 struct ViscosityTable {
@@ -190,12 +228,18 @@ struct ModesTable {
 
 struct PathTable {
   TablePlace place;
-  std::string method = "load_steps";
+  std::vector<std::string> parameter;           // tables that the load factor scales; none: all but the constant ones
+  PathMethod method = PathMethod::load_steps;
   int steps = 100;
   double from = 0, to = 1;
-  WhenUnstable when_unstable = WhenUnstable::jump;
-  int branches = 0;
+  std::optional<WhenUnstable> when_unstable;    // default: jump; of arc_length: follow
+  int branches = 0;                             // branch points to switch at
   std::vector<std::string> locate{"limit", "branch", "contact"};
+  std::optional<std::vector<double>> stops;     // load factors that are met besides
+  std::optional<double> lowest, highest;        // load factors that end a branch in arc length
+  std::optional<int> points;                    // most points of such a branch; default 20 · steps
+  int deflate = 0;                              // further equilibria to look for …
+  std::optional<std::vector<double>> deflate_at;   // … at these load factors; default: at `to`
   std::string start;                            // a states/LABEL.data to restart from, made absolute
   std::optional<double> start_lambda;           // with start; default: `from`
   bool operator==(const PathTable&) const = default;
@@ -222,12 +266,36 @@ struct ObserveTable {
   bool operator==(const ObserveTable&) const = default;
 };
 
+/// An observable whose reaching of a value is located on a path.
+struct EventTable {
+  TablePlace place;
+  std::string name, observable;                 // the name of an [[observe]]
+  double value = 0;
+  bool stop = false;                            // the path ends there
+  bool operator==(const EventTable&) const = default;
+};
+
+/// A part of a path with conditions of its own; what is left out is as in [path].
+struct StageTable {
+  TablePlace place;
+  std::string name;
+  std::optional<std::vector<std::string>> vary; // tables that the load factor scales; default: all that are scaled
+  std::vector<std::string> off;                 // tables that are not in force
+  std::optional<double> from, to;               // default of `from`: the factor that the varied tables have by then
+  std::optional<int> steps;
+  std::optional<PathMethod> method;
+  std::optional<WhenUnstable> when_unstable;
+  bool operator==(const StageTable&) const = default;
+};
+
 struct ExpectTable {
   TablePlace place;
   std::string observable, at = "final";         // a column of path.csv; "final", an event's label, or "lambda=VALUE"
   double value = 0;
   double rtol = 1e-8, atol = 0;
   std::string source;
+  std::optional<int> extrapolate;               // over the runs of a sweep, each with half the spacing of the one before,
+                                                // errors in powers of the spacing: 1: all of them, 2: even ones
   bool operator==(const ExpectTable&) const = default;
 };
 
@@ -247,6 +315,8 @@ struct Problem {
   std::vector<SupportTable> supports;
   std::vector<LoadTable> loads;
   std::vector<GravityTable> gravity;
+  std::vector<PressureTable> pressures;
+  std::vector<ChangeTable> changes;
   std::vector<ContactTable> contacts;
   std::vector<WallTable> walls;
   std::vector<ViscosityTable> viscosity;
@@ -255,6 +325,8 @@ struct Problem {
   ModesTable modes;
   SolverTable solver;
   std::vector<ObserveTable> observe;
+  std::vector<EventTable> events;
+  std::vector<StageTable> stages;
   std::vector<ExpectTable> expect;
   bool operator==(const Problem&) const = default;
 };

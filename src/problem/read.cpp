@@ -3,6 +3,7 @@
 #include "problem/build.hpp"
 #include "problem/check.hpp"
 #include "problem/reader.hpp"
+#include "problem/state_tail.hpp"
 #include "problem/tables.hpp"
 
 #include <algorithm>
@@ -13,6 +14,9 @@ namespace {
 
 /// Defaults that are the values of other keys.
 void complete(Problem& p) {
+  const bool arc_length = p.path.method == PathMethod::arc_length;
+  if (!p.path.when_unstable) p.path.when_unstable = arc_length ? WhenUnstable::follow : WhenUnstable::jump;
+  if ((arc_length || p.path.branches > 0) && !p.path.points) p.path.points = 20 * p.path.steps;
   for (BeamTable& b : p.beams) {
     if (!b.thickness) b.thickness = b.diameter;
     if (b.center && !b.spacing) b.spacing = b.diameter;
@@ -23,7 +27,14 @@ void complete(Problem& p) {
     if (!s.thickness) s.thickness = s.spacing;
     if (!s.diameter) s.diameter = s.spacing;
   }
-  if (!p.path.start.empty() && !p.path.start_lambda) p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
+  if (!p.path.start.empty() && !p.path.start_lambda) {
+    p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
+    try {
+      if (const auto stored = read_tail(p.path.start)) p.path.start_lambda = stored->load_factor;
+    } catch (const InputError&) {
+      // told where the state is read
+    }
+  }
 }
 
 /// Names inside tables that the schema does not know.

@@ -166,6 +166,19 @@ bool Reader::read(const char* key, const Node& node, Rest& value, Range limits) 
   return true;
 }
 
+void Reader::one_or_more(const char* key, std::vector<std::string>& values) {
+  const Node* node = find(key);
+  if (!node) return;
+  values.clear();
+  const auto* list = std::get_if<List>(&node->value);
+  const auto is_text = [](const Node& n) { return std::holds_alternative<std::string>(n.value); };
+  if (list ? !std::all_of(list->begin(), list->end(), is_text) : !is_text(*node))
+    return wrong(key, *node, "a string or a list of strings");
+  if (!list) read(key, *node, values.emplace_back(), range::any);
+  else
+    for (const Node& n : *list) read(key, n, values.emplace_back(), range::any);
+}
+
 void Reader::one_or_two(const char* key, std::vector<double>& values, Range limits) {
   const Node* node = find(key);
   if (!node) return;

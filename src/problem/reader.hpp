@@ -42,10 +42,21 @@ class Reader {
     else
       missing(key, wanted(T{}, limits));
   }
+  void one_or_more(const char* key, std::vector<std::string>& list);
+  void one_or_more(const char* key, std::optional<std::vector<std::string>>& list) {
+    if (find(key)) one_or_more(key, list.emplace());
+  }
+  void must_one_or_more(const char* key, std::vector<std::string>& list) {
+    if (find(key)) one_or_more(key, list);
+    else missing(key, "a string or a list of strings");
+  }
   void one_or_two(const char* key, std::vector<double>& values, Range limits);
   void center(const char* key, Vec3& value, int axis);
   void foreign(const char* key, const std::string& what);
   void name(const char* key, std::string& value);
+  void may_name(const char* key, std::string& value) {
+    if (find(key)) name(key, value);
+  }
   void file(const char* key, std::string& value);
   void may_file(const char* key, std::string& value) {
     if (find(key)) file(key, value);

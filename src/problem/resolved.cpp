@@ -18,6 +18,9 @@ class Writer {
     if (value) line(key, toml(*value));
   }
   template <class T> void must(const char* key, const std::optional<T>& value, Range = {}) { may(key, value); }
+  void one_or_more(const char* key, const std::vector<std::string>& list) { line(key, toml(list)); }
+  void must_one_or_more(const char* key, const std::vector<std::string>& list) { one_or_more(key, list); }
+  void one_or_more(const char* key, const std::optional<std::vector<std::string>>& list) { may(key, list); }
   void one_or_two(const char* key, const std::vector<double>& values, Range) {
     if (!values.empty()) line(key, values.size() == 1 ? toml(values[0]) : toml(values));
   }
@@ -26,6 +29,9 @@ class Writer {
   }
   void foreign(const char*, const std::string&) {}
   void name(const char* key, const std::string& value) { line(key, toml(value)); }
+  void may_name(const char* key, const std::string& value) {
+    if (!value.empty()) name(key, value);
+  }
   void file(const char* key, const std::string& value) { line(key, toml(value)); }
   void may_file(const char* key, const std::string& value) {
     if (!value.empty()) line(key, toml(value));

@@ -3,9 +3,10 @@
 // read by the Reader (TOML → structs), the Writer (structs → resolved.toml) and the Keys (which key there is, for
 // --set).
 //
-// io.must(key, value, range)       the key has to be there        io.name(key, value)        a name of something new
+// io.must(key, value, range)       the key has to be there        io.name(key, value)        a name of something new; also may_name
 // io.may(key, value, range)        left as it is if absent        io.file(key, value)        a file; also may_file
 // io.word(key, value, words)       one of some words; also must_word and (any of them, each once) words
+// io.one_or_more(key, list)        a string or a list of them; also must_one_or_more
 // io.one_or_two(key, list, range)  a number or a list of two      io.center(key, x, axis)    with or without x[axis]
 // io.foreign(key, what)            must not be here: it does not belong to `what`
 // io.table(key, value)             [key], may be absent           io.tables(key, list)       [[key]], any number
@@ -14,12 +15,17 @@
 
 namespace elamin {
 
-/// One [[sweep]]: the key and either the values or a range.
+/// One [[sweep]]: the key and the values, a range, or two values between which an outcome changes.
 struct Sweep {
   TablePlace place;
-  std::string key, zip;
+  std::vector<std::string> keys;         // all get the same value
+  std::string zip;
   std::vector<std::string> values;       // as TOML
   std::vector<double> range;             // first, last, step
+  std::vector<std::string> between;      // two values as TOML, to halve …
+  std::string bisect, at = "final";      // … where this observable there passes
+  double level = 0;
+  std::optional<double> tolerance;       // of the key; default: a thousandth of what is between
 };
 
 /// What a file holds: the problem, and the sweeps over its keys.
@@ -36,13 +42,20 @@ struct StudyTable {
 template <class IO> void describe(IO& io, StudyTable& t) { io.word("type", t.type, study_words); }
 
 template <class IO> void describe(IO& io, PathTable& t) {
+  io.one_or_more("parameter", t.parameter);
   io.word("method", t.method, path_method_words);
   io.may("steps", t.steps, Range{1, most_steps});
   io.may("from", t.from);
   io.may("to", t.to);
   io.word("when_unstable", t.when_unstable, when_unstable_words);
-  io.may("branches", t.branches, Range{0, 0});
+  io.may("branches", t.branches, Range{0, most_branches});
   io.words("locate", t.locate, event_words);
+  io.may("stops", t.stops);
+  io.may("lowest", t.lowest);
+  io.may("highest", t.highest);
+  io.may("points", t.points, Range{1, 20.0 * most_steps});
+  io.may("deflate", t.deflate, Range{0, most_branches});
+  io.may("deflate_at", t.deflate_at);
   io.may_file("start", t.start);
   io.may("start_lambda", t.start_lambda);
 }
@@ -65,6 +78,24 @@ template <class IO> void describe(IO& io, ObserveTable& t) {
   io.word("reduce", t.reduce, reduce_words);
 }
 
+template <class IO> void describe(IO& io, EventTable& t) {
+  io.name("name", t.name);
+  io.must("observable", t.observable);
+  io.must("value", t.value);
+  io.may("stop", t.stop);
+}
+
+template <class IO> void describe(IO& io, StageTable& t) {
+  io.name("name", t.name);
+  io.one_or_more("vary", t.vary);
+  io.one_or_more("off", t.off);
+  io.may("from", t.from);
+  io.may("to", t.to);
+  io.may("steps", t.steps, Range{1, most_steps});
+  io.word("method", t.method, path_method_words);
+  io.word("when_unstable", t.when_unstable, when_unstable_words);
+}
+
 template <class IO> void describe(IO& io, ExpectTable& t) {
   io.must("observable", t.observable);
   io.may("at", t.at);
@@ -72,13 +103,19 @@ template <class IO> void describe(IO& io, ExpectTable& t) {
   io.may("rtol", t.rtol, range::not_negative);
   io.may("atol", t.atol, range::not_negative);
   io.may("source", t.source);
+  io.may("extrapolate", t.extrapolate, Range{1, 2});
 }
 
 template <class IO> void describe(IO& io, Sweep& t) {
-  io.must("key", t.key);
+  io.must_one_or_more("key", t.keys);
   io.may("zip", t.zip);
   io.raw("values", t.values);
   io.may("range", t.range);
+  io.raw("between", t.between);
+  io.may("bisect", t.bisect);
+  io.may("at", t.at);
+  io.may("level", t.level);
+  io.may("tolerance", t.tolerance, range::positive);
 }
 
 template <class IO> void describe(IO& io, ProblemFile& f) {
@@ -95,18 +132,22 @@ template <class IO> void describe(IO& io, ProblemFile& f) {
   io.tables("support", p.supports);
   io.tables("load", p.loads);
   io.tables("gravity", p.gravity);
+  io.tables("pressure", p.pressures);
+  io.tables("change", p.changes);
   io.tables("contact", p.contacts);
   io.tables("wall", p.walls);
   io.tables("viscosity", p.viscosity);
   if constexpr (IO::reading)
-    p.study = io.has("path") ? StudyType::path : io.has("modes") ? StudyType::modes : StudyType::equilibrium;
+    p.study = io.has("path") || io.has("stage") ? StudyType::path : io.has("modes") ? StudyType::modes : StudyType::equilibrium;
   StudyTable study{{}, p.study};
   io.table("study", study);
   p.study = study.type;
   io.table("path", p.path);
   io.table("modes", p.modes);
   io.table("solver", p.solver);
+  io.tables("stage", p.stages);
   io.tables("observe", p.observe);
+  io.tables("event", p.events);
   io.tables("expect", p.expect);
   io.tables("sweep", f.sweeps);
 }

@@ -83,27 +83,55 @@ template <class IO> void describe(IO& io, GroupTable& t) {
 }
 
 template <class IO> void describe(IO& io, SupportTable& t) {
+  io.may_name("name", t.name);
   io.must("group", t.group);
   io.may("directions", t.directions);
   io.may("displacement", t.displacement);
   io.may("constant", t.constant);
+  io.may("from_stage", t.from_stage);
 }
 
 template <class IO> void describe(IO& io, LoadTable& t) {
+  io.may_name("name", t.name);
   io.must("group", t.group);
   io.may("force", t.force);
   io.may("total_force", t.total_force);
+  io.may("radial", t.radial);
+  io.may("center", t.center);
+  io.may("axis", t.axis);
   io.may("constant", t.constant);
+  io.may("from_stage", t.from_stage);
 }
 
 template <class IO> void describe(IO& io, GravityTable& t) {
+  io.may_name("name", t.name);
   io.may("group", t.group);
   io.must("acceleration", t.acceleration);
   io.may("constant", t.constant);
+  io.may("from_stage", t.from_stage);
+}
+
+template <class IO> void describe(IO& io, PressureTable& t) {
+  io.may_name("name", t.name);
+  io.must("loop", t.loop);
+  io.must("pressure", t.pressure);
+  io.may("constant", t.constant);
+  io.may("from_stage", t.from_stage);
+}
+
+template <class IO> void describe(IO& io, ChangeTable& t) {
+  io.may_name("name", t.name);
+  io.must("group", t.group);
+  io.may("rest_length", t.rest_length);
+  io.may("bond_stiffness", t.bond_stiffness);
+  io.may("angle_stiffness", t.angle_stiffness);
+  io.may("constant", t.constant);
+  io.may("from_stage", t.from_stage);
 }
 
 template <class IO> void describe(IO& io, ContactTable& t) {
   io.must("between", t.between);
+  io.may("from_stage", t.from_stage);
   if (!io.word("law", t.law, law_words)) return io.skip_the_rest();   // other keys belong to other laws
   if (t.law == "hertz") {
     io.one_or_two("youngs_modulus", t.youngs_modulus, range::positive);
@@ -131,6 +159,7 @@ template <class IO> void describe(IO& io, WallTable& t) {
   io.word("effective_radius", t.curved, effective_radius_words);
   io.may("displacement", t.displacement);
   io.may("radius_change", t.radius_change);
+  io.may("from_stage", t.from_stage);
   describe_region(io, t.region);
 }
 

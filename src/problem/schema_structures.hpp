@@ -20,17 +20,30 @@ template <class IO, class Table> void describe_stiffness(IO& io, Table& t) {
   io.may("rest", t.rest, range::degrees);
 }
 
+/// What a row of particles may say besides: EA and EI instead of a section.
+template <class IO, class Table> void describe_row_stiffness(IO& io, Table& t) {
+  io.may("axial_stiffness", t.axial_stiffness, range::positive);
+  io.may("bending_stiffness", t.bending_stiffness, range::positive);
+}
+
 template <class IO> void describe(IO& io, BeamTable& t) {
   io.name("name", t.name);
   io.word("section", t.section, section_words);
   io.must("particles", t.particles, Range{2, most_particles});
   io.may("from", t.from);
   io.may("to", t.to);
+  io.may("rise", t.rise);
+  io.may("angle", t.angle, Range{0, 359, true});
+  io.may("toward", t.toward);
+  io.word("profile", t.profile, profile_words);
+  io.may("through", t.through);
+  io.word("clamped", t.clamped, clamped_words);
   io.may("center", t.center);
   io.may("axis", t.axis);
   io.may("spacing", t.spacing, range::positive);
   io.must("diameter", t.diameter, range::positive);
   describe_stiffness(io, t);
+  describe_row_stiffness(io, t);
 }
 
 template <class IO> void describe(IO& io, LoopTable& t) {
@@ -42,6 +55,7 @@ template <class IO> void describe(IO& io, LoopTable& t) {
   io.must("radius", t.radius, range::positive);
   io.must("diameter", t.diameter, range::positive);
   describe_stiffness(io, t);
+  describe_row_stiffness(io, t);
 }
 
 template <class IO> void describe(IO& io, SheetTable& t) {

@@ -11,7 +11,7 @@ struct Range {
   double lo = -std::numeric_limits<double>::max(), hi = std::numeric_limits<double>::max();
   bool above = false;
 };
-inline constexpr int most_particles = 100'000'000, most_steps = 1'000'000;
+inline constexpr int most_particles = 100'000'000, most_steps = 1'000'000, most_branches = 1000;
 namespace range {
 inline constexpr Range any{}, positive{0, any.hi, true}, not_negative{0}, count{1, most_particles};
 inline constexpr Range id{1, std::numeric_limits<int>::max()};
@@ -24,6 +24,9 @@ template <class T> struct Word {
   T value;
 };
 inline constexpr Word<Section> section_words[]{{"cylinder", Section::cylinder}, {"square", Section::square}};
+inline constexpr Word<Profile> profile_words[]{{"circle", Profile::circle}, {"sine", Profile::sine}};
+inline constexpr Word<ClampedEnds> clamped_words[]{
+    {"from", ClampedEnds::from}, {"to", ClampedEnds::to}, {"both", ClampedEnds::both}};
 inline constexpr Word<SheetShape> sheet_words[]{
     {"rectangle", SheetShape::rectangle}, {"circle", SheetShape::circle}, {"cylinder", SheetShape::cylinder}};
 inline constexpr Word<const char*> plane_words[]{{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}};
@@ -43,8 +46,10 @@ inline constexpr Word<StudyType> study_words[]{{"energy", StudyType::energy},
                                                {"equilibrium", StudyType::equilibrium},
                                                {"path", StudyType::path},
                                                {"modes", StudyType::modes}};
-inline constexpr Word<const char*> path_method_words[]{{"load_steps", "load_steps"}};
-inline constexpr Word<WhenUnstable> when_unstable_words[]{{"jump", WhenUnstable::jump}, {"stop", WhenUnstable::stop}};
+inline constexpr Word<PathMethod> path_method_words[]{{"load_steps", PathMethod::load_steps},
+                                                      {"arc_length", PathMethod::arc_length}};
+inline constexpr Word<WhenUnstable> when_unstable_words[]{
+    {"jump", WhenUnstable::jump}, {"follow", WhenUnstable::follow}, {"stop", WhenUnstable::stop}};
 inline constexpr Word<const char*> event_words[]{{"limit", "limit"}, {"branch", "branch"}, {"contact", "contact"}};
 inline constexpr Word<const char*> solver_words[]{{"newton", "newton"}};
 inline constexpr Word<Reduce> reduce_words[]{

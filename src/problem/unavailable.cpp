@@ -6,7 +6,6 @@ namespace elamin {
 namespace {
 
 constexpr const char* not_yet = "not available in this version";
-constexpr const char* needs_arc_length = "needs the arc-length method, which is not available in this version; use ";
 
 struct Refusal {
   std::string_view key, word;   // word "": the key itself; a trailing '*' stands for any ending
@@ -18,10 +17,6 @@ const Refusal refusals[]{
     {"contact.law", "rounded", std::string("\"rounded\" is ") + not_yet + "; use \"hertz\" or \"lj\""},
     {"dynamics", "", std::string(not_yet) + "; available studies: energy, equilibrium, path, modes"},
     {"support.velocity", "", std::string(not_yet) + "; it belongs to dynamics"},
-    {"path.parameter", "", std::string(not_yet) + "; the parameter is the load factor"},
-    {"path.branches", "*", std::string("switching branches ") + needs_arc_length + "0"},
-    {"path.when_unstable", "follow", std::string("\"follow\" ") + needs_arc_length + "\"jump\" or \"stop\""},
-    {"path.method", "arc_length", std::string("\"arc_length\" is ") + not_yet + "; use \"load_steps\""},
     {"study.type", "dynamics",
      std::string("\"dynamics\" is ") + not_yet + "; use \"energy\", \"equilibrium\", \"path\" or \"modes\""},
     {"solver.method", "ipopt", std::string("\"ipopt\" is ") + not_yet + "; use \"newton\""},

@@ -7,24 +7,34 @@
 namespace elamin {
 namespace {
 
+/// An index that is known.
+Cell known(int index) { return index < 0 ? Cell{} : Cell(index); }
+
 /// What path.csv and events.csv have in common behind their first columns.
 void append_rest(Row& row, const PathPoint& p, const std::vector<double>& observables) {
   row.insert(row.end(), {p.energy.total(), p.energy.bond, p.energy.angle, p.energy.contact, p.energy.wall, p.energy.cohesion,
                          p.energy.external, p.report.residual, p.report.iterations, p.stability.negative,
                          p.stability.stable});
   row.insert(row.end(), observables.begin(), observables.end());
+  row.insert(row.end(), {p.parent, known(p.stability.negative_rigid)});
 }
 
 const std::vector<std::string> rest{"energy",   "bond",     "angle",      "contact",  "wall",  "cohesion",
                                     "external", "residual", "iterations", "negative", "stable"};
+const std::vector<std::string> last{"parent", "negative_rigid"}, last_of_event{"negative_before", "negative_after", "what"};
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<std::string> with_rest(std::vector<std::string> columns, const std::vector<std::string>& observables) {
-  columns.insert(columns.end(), rest.begin(), rest.end());
-  columns.insert(columns.end(), observables.begin(), observables.end());
+  for (const auto* more : {&rest, &observables, &last}) append(columns, *more);
   return columns;
 }
 
-const std::vector<std::string> first_events{"branch:1", "limit:1", "contact:1"};
+std::vector<std::string> first_events(const Problem& problem) {
+  std::vector<std::string> labels{"branch:1", "limit:1", "contact:1"};
+  for (const EventTable& e : problem.events) labels.push_back(e.name + ":1");
+  return labels;
+}
 
 }  // namespace
 
@@ -36,48 +46,55 @@ std::vector<std::string> observable_columns(const Problem& problem) {
   return names;
 }
 
-std::vector<std::string> path_columns(const std::vector<std::string>& observables) {
-  return with_rest({"step", "label", "branch", "lambda"}, observables);
+std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged) {
+  std::vector<std::string> columns = with_rest({"step", "label", "branch", "lambda"}, observables);
+  if (staged) columns.push_back("stage");
+  return columns;
 }
 
-Row path_row(const PathPoint& p, const std::vector<double>& observables) {
+Row path_row(const PathPoint& p, const std::vector<double>& observables, const std::optional<std::string>& stage) {
   Row row{p.step, p.label, p.branch, p.state.load_factor};
   append_rest(row, p, observables);
+  if (stage) row.emplace_back(*stage);
   return row;
 }
 
-std::vector<std::string> event_columns(const std::vector<std::string>& observables) {
-  return with_rest({"label", "lambda", "multiplicity", "step", "branch"}, observables);
+std::vector<std::string> event_columns(const std::vector<std::string>& observables, bool staged) {
+  std::vector<std::string> columns = with_rest({"label", "lambda", "multiplicity", "step", "branch"}, observables);
+  append(columns, last_of_event);
+  if (staged) columns.push_back("stage");
+  return columns;
 }
 
-Row event_row(const PathPoint& p, const std::vector<double>& observables) {
+Row event_row(const PathPoint& p, const std::vector<double>& observables, const std::optional<std::string>& stage) {
   Row row{p.label, p.state.load_factor, p.multiplicity, p.step, p.branch};
   append_rest(row, p, observables);
+  row.insert(row.end(), {known(p.negative_before), known(p.negative_after), p.what});
+  if (stage) row.emplace_back(*stage);
   return row;
 }
 
 bool is_event(const std::string& label) { return label.find(':') != std::string::npos; }
 
-std::vector<std::string> sweep_columns(const std::vector<std::string>& keys,
-                                       const std::vector<std::string>& observables) {
+std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, const Problem& problem) {
   std::vector<std::string> columns = keys;
   columns.push_back("status");
-  columns.insert(columns.end(), first_events.begin(), first_events.end());
-  const std::vector<std::string> path = path_columns(observables);
-  columns.insert(columns.end(), path.begin(), path.end());
+  append(columns, first_events(problem));
+  append(columns, path_columns(observable_columns(problem), !problem.stages.empty()));
   return columns;
 }
 
-Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events) {
+Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events,
+              const Problem& problem) {
   Row row(values.begin(), values.end());
   row.emplace_back(status);
-  for (const std::string& label : first_events) {
+  for (const std::string& label : first_events(problem)) {
     const auto it =
         std::find_if(events.rows.begin(), events.rows.end(), [&](const Row& r) { return r[0] == Cell(label); });
     row.push_back(it == events.rows.end() ? Cell{} : (*it)[1]);
   }
-  const Row last = path.rows.empty() ? Row(path.columns.size()) : path.rows.back();
-  row.insert(row.end(), last.begin(), last.end());
+  const Row final_row = path.rows.empty() ? Row(path.columns.size()) : path.rows.back();
+  row.insert(row.end(), final_row.begin(), final_row.end());
   return row;
 }
 

@@ -4,6 +4,7 @@
 #include "problem/problem.hpp"
 #include "results/table.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,21 +14,24 @@ namespace elamin {
 std::vector<std::string> observable_columns(const Problem& problem);
 
 /// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, external, residual, iterations, negative,
-/// stable, then the observables.
-std::vector<std::string> path_columns(const std::vector<std::string>& observables);
-Row path_row(const PathPoint& point, const std::vector<double>& observables);
+/// stable, then the observables, parent, negative_rigid, and `stage` of a path in stages.
+std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged = false);
+/// stage: of a path in stages, the name of the point's.
+Row path_row(const PathPoint& point, const std::vector<double>& observables,
+             const std::optional<std::string>& stage = std::nullopt);
 
-/// label, lambda, multiplicity, then the columns of path.csv without label and lambda.
-std::vector<std::string> event_columns(const std::vector<std::string>& observables);
-Row event_row(const PathPoint& point, const std::vector<double>& observables);
+/// label, lambda, multiplicity, then the columns of path.csv without label and lambda, with negative_before,
+/// negative_after and what behind negative_rigid.
+std::vector<std::string> event_columns(const std::vector<std::string>& observables, bool staged = false);
+Row event_row(const PathPoint& point, const std::vector<double>& observables,
+              const std::optional<std::string>& stage = std::nullopt);
 
 /// An event's label has a colon and a number, as in "branch:1"; "initial" and "final" are no events.
 bool is_event(const std::string& label);
 
-/// The swept keys, status, the load factors of branch:1, limit:1 and contact:1 (empty: there was none), then the
-/// columns of path.csv with the values of the last row.
-std::vector<std::string> sweep_columns(const std::vector<std::string>& keys,
-                                       const std::vector<std::string>& observables);
-Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events);
-
+/// The swept keys, status, the load factors of branch:1, limit:1, contact:1 and the first of every [[event]] (empty: there
+/// was none), then the columns of path.csv, with the values of the last row.
+std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, const Problem& problem);
+Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events,
+              const Problem& problem);
 }  // namespace elamin

@@ -53,35 +53,67 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
   }
   for (const Table* table : {&events, &path})
     if (const Found found = labelled(*table, at); found.row) return found;
+  if (const int stage = column_index(path.columns, "stage"); stage >= 0)
+    for (auto row = path.rows.rbegin(); row != path.rows.rend(); ++row)
+      if ((*row)[stage] == Cell(at)) return {&path, &*row};
   *why = "there is no such event; there are: " + event_labels(events);
   return {};
 }
 
+/// "file:line:column: column at row", which a sentence begins with.
+std::string what_of(const Problem& problem, const ExpectTable& e) {
+  return fmt::format("{}:{}:{}: {} at {}", problem.file, e.place.line, e.place.column, e.observable, e.at);
+}
+
+Verdict held(const std::string& what, double value, const ExpectTable& e, const std::string& besides = "") {
+  const double off = std::abs(value - e.value), allowed = e.rtol * std::abs(e.value) + e.atol;
+  return {fmt::format("{} is {:.17g}, expected {:.17g}: off by {:.2g}, {:.2g} allowed{}", what, value, e.value, off, allowed,
+                      besides), off <= allowed};
+}
+
 }  // namespace
+
+std::optional<double> value_at(const std::string& name, const std::string& at, const RunTables& run, std::string& why) {
+  const Found found = find(at, *run.path, *run.events, &why);
+  if (!found.row) return std::nullopt;
+  const int column = column_index(found.table->columns, name);
+  if (column < 0) return why = "there is no such column; there are: " + listed(found.table->columns), std::nullopt;
+  const auto value = as_number((*found.row)[column]);
+  if (!value) why = "has no number there";
+  return value;
+}
+
+Verdict check_extrapolated(const Problem& problem, const ExpectTable& e, const std::vector<RunTables>& runs) {
+  const std::string what = fmt::format("{}, extrapolated over {} runs,", what_of(problem, e), runs.size());
+  std::vector<double> row;                             // R_i0, R_i1, …
+  double before = 0;                                   // the last of the row before
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::string why;
+    const auto value = value_at(e.observable, e.at, runs[i], why);
+    if (!value) return {fmt::format("{} in run {}: {}", what, i + 1, why), false};
+    std::vector<double> next{*value};
+    double weight = 1;
+    for (const double r : row) {
+      weight *= e.extrapolate == 1 ? 2 : 4;
+      next.push_back((weight * next.back() - r) / (weight - 1));
+    }
+    before = row.empty() ? *value : row.back();
+    row = std::move(next);
+  }
+  return held(what, row.back(), e, fmt::format("; {:.2g} from the runs without the last", std::abs(row.back() - before)));
+}
+
+Verdict check_threshold(const Problem& problem, const ExpectTable& e, std::optional<std::array<double, 2>> threshold) {
+  if (!threshold) return {what_of(problem, e) + ": the outcome is the same at both ends", false};
+  return held(what_of(problem, e), (*threshold)[0] + ((*threshold)[1] - (*threshold)[0]) / 2, e);
+}
 
 std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events) {
   std::vector<Verdict> verdicts;
   for (const ExpectTable& e : problem.expect) {
-    Verdict v;
-    const std::string what =
-        fmt::format("{}:{}:{}: {} at {}", problem.file, e.place.line, e.place.column, e.observable, e.at);
     std::string why;
-    const Found found = find(e.at, path, events, &why);
-    const int column = found.row ? column_index(found.table->columns, e.observable) : -1;
-    const auto value = column >= 0 ? as_number((*found.row)[column]) : std::nullopt;
-    if (!found.row) {
-      v.sentence = fmt::format("{}: {}", what, why);
-    } else if (column < 0) {
-      v.sentence = fmt::format("{}: there is no such column; there are: {}", what, listed(found.table->columns));
-    } else if (!value) {
-      v.sentence = fmt::format("{}: has no number there", what);
-    } else {
-      const double off = std::abs(*value - e.value), allowed = e.rtol * std::abs(e.value) + e.atol;
-      v.met = off <= allowed;
-      v.sentence = fmt::format("{} is {:.17g}, expected {:.17g}: off by {:.2g}, {:.2g} allowed", what, *value, e.value,
-                               off, allowed);
-    }
-    verdicts.push_back(std::move(v));
+    const auto value = value_at(e.observable, e.at, {&path, &events}, why);
+    verdicts.push_back(value ? held(what_of(problem, e), *value, e) : Verdict{what_of(problem, e) + ": " + why, false});
   }
   return verdicts;
 }

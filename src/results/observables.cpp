@@ -64,7 +64,7 @@ Observables::Observables(const Problem& problem, const Model& model)
       for (const Group& g : model.groups) known += (known.empty() ? "" : ", ") + g.name;
       for (const Wall& w : model.walls) known += ", " + w.name;
       wrong(o, "observe.group", "there is no group \"" + o.group + "\"; there are " + known);
-    } else if (subject.particles->empty()) {
+    } else if (subject.particles->empty() && subject.wall < 0) {
       wrong(o, "observe.group", "the group \"" + o.group + "\" has no particle; at least one is needed");
     } else if (subject.wall >= 0 && o.quantity != Quantity::reaction && !scalar(o.quantity)) {
       wrong(o, "observe.quantity", "\"" + o.group + "\" is a wall; it has a reaction, gap and contacts only");

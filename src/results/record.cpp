@@ -7,18 +7,25 @@
 namespace elamin {
 
 Record::Record(const Problem& problem, const Model& model)
-    : observables_(problem, model),
+    : problem_(problem),
       names_(observable_columns(problem)),
-      path_{path_columns(names_), {}},
-      events_{event_columns(names_), {}} {}
+      path_{path_columns(names_, !problem.stages.empty()), {}},
+      events_{event_columns(names_, !problem.stages.empty()), {}} {
+  enter({}, model);
+}
+
+void Record::enter(const Stage& stage, const Model& model) {
+  observables_.emplace(problem_, model);
+  if (!problem_.stages.empty()) stage_ = stage.name;
+}
 
 void Record::add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
                  const std::vector<double>& eigenvalues) {
-  std::vector<double> values = observables_.evaluate(point.state, forces, touches);
+  std::vector<double> values = observables_->evaluate(point.state, forces, touches);
   values.insert(values.end(), eigenvalues.begin(), eigenvalues.end());
   values.resize(names_.size(), std::numeric_limits<double>::quiet_NaN());     // fewer dofs than modes asked for
-  path_.rows.push_back(path_row(point, values));
-  if (is_event(point.label)) events_.rows.push_back(event_row(point, values));
+  path_.rows.push_back(path_row(point, values, stage_));
+  if (is_event(point.label)) events_.rows.push_back(event_row(point, values, stage_));
 }
 
 }  // namespace elamin

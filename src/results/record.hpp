@@ -1,8 +1,12 @@
 #pragma once
 // What a run has found so far, in memory: the rows of its path and of its events.
 #include "path/point.hpp"
+#include "problem/stages.hpp"
 #include "results/observables.hpp"
 #include "results/table.hpp"
+
+#include <optional>
+#include <string>
 
 namespace elamin {
 
@@ -10,6 +14,9 @@ class Record {
  public:
   /// Both must outlive this. Throws InputError as Observables does.
   Record(const Problem& problem, const Model& model);
+
+  /// The points that come belong to this stage of the path, in which this model is in force (it must outlive this).
+  void enter(const Stage& stage, const Model& model);
 
   /// A point of the path; forces: −∂U/∂x of all particles with the loads, 3 × particles; touches: see
   /// Observables::evaluate; eigenvalues: of a study of modes. An event (a label such as "branch:1") stands in both tables.
@@ -20,10 +27,12 @@ class Record {
   const Table& events() const { return events_; }
   /// Names of the last columns, see observable_columns.
   const std::vector<std::string>& columns() const { return names_; }
-  const Observables& observables() const { return observables_; }
+  const Observables& observables() const { return *observables_; }
 
  private:
-  Observables observables_;
+  const Problem& problem_;
+  std::optional<Observables> observables_;                       // of the stage
+  std::optional<std::string> stage_;                             // of a path in stages, its name
   std::vector<std::string> names_;
   Table path_, events_;
 };

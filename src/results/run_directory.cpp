@@ -1,6 +1,7 @@
 #include "results/run_directory.hpp"
 
 #include "core/error.hpp"
+#include "problem/state_tail.hpp"
 #include "results/columns.hpp"
 #include "results/lammps_state.hpp"
 #include "results/text_file.hpp"
@@ -46,7 +47,7 @@ std::string prepared(const std::string& directory, const std::string& resolved_t
   if (fs::exists(place(directory, "resolved.toml"))) {
     std::error_code error;
     for (const char* file : {"summary.json", "modes.csv"}) fs::remove(place(directory, file), error);
-    remove_all_with(".data", states);
+    for (const char* extension : {".data", ".json", ".csv"}) remove_all_with(extension, states);
     remove_all_with(".csv", place(directory, "modes"));
     fs::remove(place(directory, "modes"), error);                  // where nothing else is in it
   }
@@ -68,6 +69,11 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
       contacts_(place(directory_, "contacts.csv"),
                 {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {}
 
+void RunDirectory::enter(const Stage& stage, const Model& model) {
+  record_.enter(stage, model);
+  if (!stage.name.empty()) stage_ = StoredStage{stage.name, stage.path.from, stage.scaling};
+}
+
 void RunDirectory::add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
                        const std::vector<double>& eigenvalues) {
   record_.add(point, forces, touches, eigenvalues);
@@ -79,11 +85,25 @@ void RunDirectory::add(const PathPoint& point, const Field& forces, const std::v
 void RunDirectory::add_state(const std::string& label, const State& state, const std::vector<Touch>& touches) {
   write_state(state_file(label), model_, state,
               fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
+  write_text(state_file(label, ".json"), tail_text(state, stage_ ? &*stage_ : nullptr));
   for (const Touch& t : touches) {
     if (!(t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
     const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);
     const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
     contacts_.add({label, state.load_factor, model_.id[t.particle], second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
+  }
+}
+
+void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
+  std::vector<std::string> columns{"id"};
+  for (std::size_t k = 1; k <= vectors.size(); ++k)
+    for (const char c : {'x', 'y', 'z'}) columns.push_back(fmt::format("u{}{}", c, k));
+  CsvFile file(state_file(label, ".modes.csv"), columns);
+  for (int i = 0; i < model_.particles(); ++i) {
+    Row row{model_.id[i]};
+    for (const Field& v : vectors)
+      for (int c = 0; c < 3; ++c) row.emplace_back(v(c, i));
+    file.add(row);
   }
 }
 
@@ -115,11 +135,11 @@ void RunDirectory::finish(const Summary& summary) {
   write_summary(place(directory_, "summary.json"), summary, record_.path(), record_.events());
 }
 
-std::string RunDirectory::state_file(const std::string& label) const {
+std::string RunDirectory::state_file(const std::string& label, const std::string& extension) const {
   std::string name = label;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
-  return place(place(directory_, "states"), name + ".data");
+  return place(place(directory_, "states"), name + extension);
 }
 
 }  // namespace elamin

@@ -18,15 +18,21 @@ class RunDirectory {
   /// it holds a resolved.toml). problem and model must outlive this. Throws InputError if something cannot be written.
   RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml);
 
+  /// See Record::enter.
+  void enter(const Stage& stage, const Model& model);
+
   /// A row of path.csv, of events.csv if it is an event, a state if it has a label; forces, touches, eigenvalues: see
   /// Record::add.
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
 
-  /// states/LABEL.data, and every closed contact (gap < 0; at an event also what just touches) as a row of contacts.csv:
+  /// states/LABEL.data with LABEL.json (see problem/state_tail.hpp), and every closed contact (gap < 0; at an event also what just touches) as a row of contacts.csv:
   /// label, lambda, first (id of the particle), second (id of the other one, or the wall's name), gap, force (its
   /// magnitude), fx, fy, fz (on the first), x, y, z (of contact).
   void add_state(const std::string& label, const State& state, const std::vector<Touch>& touches);
+
+  /// states/LABEL.modes.csv of an event: id, then ux1, uy1, uz1, ux2, … of every null vector (3 × particles each).
+  void add_null_vectors(const std::string& label, const std::vector<Field>& vectors);
 
   /// A row of modes.csv (mode, eigenvalue, zero_mode), modes/mode-K.csv (id, ux, uy, uz) and states/mode-K.data, the state
   /// moved along the mode so that its largest displacement is a tenth of the smallest diameter. Modes count from 1.
@@ -42,11 +48,12 @@ class RunDirectory {
   const std::string& directory() const { return directory_; }
 
   /// The file of a label's state: "branch:1" → DIR/states/branch-1.data.
-  std::string state_file(const std::string& label) const;
+  std::string state_file(const std::string& label, const std::string& extension = ".data") const;
 
  private:
   Record record_;
   const Model& model_;
+  std::optional<StoredStage> stage_;                  // of a path in stages
   std::string directory_, title_;
   std::ofstream log_;
   CsvFile path_, events_, contacts_;

@@ -1,7 +1,6 @@
 #include "solve/factors.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -30,7 +29,13 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& x) {
 
 }  // namespace
 
-Factors::Factors(Energy& energy) : energy_(energy) {}
+Factors::Factors(Energy& energy) : energy_(energy) {
+  const Model& model = energy.model();
+  for (const Bond& b : model.bonds)
+    for (const int p : b.particles)
+      for (int c = 0; c < 3; ++c)
+        if (energy.kinematics().dof(p, c) >= 0) stiffest_ = std::max(stiffest_, 2 * model.bond_types[b.type].stiffness);
+}
 
 PivotedFactor& Factors::pivoted() {
   if (!pivoted_) pivoted_ = std::make_unique<PivotedFactor>();
@@ -49,22 +54,46 @@ bool Factors::try_pivoted(double shift) {
   return pivoted().factorize(energy_.hessian(), shift);
 }
 
-void Factors::factorize_holding(const Eigen::MatrixXd& held) {
-  const double shift = held.cols() > 0 ? 100 * zero_level() : 0.0;
-  definite_ = try_cholesky(shift);
-  if (!definite_ && !try_pivoted(shift)) try_pivoted(shift + zero_level());
-  held_.resize(energy_.dofs(), 0);
-  response_.resize(energy_.dofs(), held.cols());
-  for (Eigen::Index j = 0; j < held.cols(); ++j) response_.col(j) = solve_holding(held.col(j));
-  held_ = held;
+// The pivoted factor of H + shift I, or with a shift a little larger where that is singular to rounding itself.
+void Factors::pivot_near(double shift) {
+  while (!try_pivoted(shift)) shift *= 1.5;
 }
 
-// μ from Zᵀ(H⁻¹b − H⁻¹Z μ) = 0; projected once more, as H⁻¹Z is large along Z.
+void Factors::factorize_holding(const Eigen::MatrixXd& held) {
+  if (held.cols() > 0) {
+    ++factorizations_;
+    if (!bordered_) bordered_ = std::make_unique<PivotedFactor>();
+    if (bordered_version_ != energy_.pattern_version() || borders_ != held.cols()) {
+      bordered_->analyze(energy_.hessian(), static_cast<int>(held.cols()));
+      bordered_version_ = energy_.pattern_version(), borders_ = held.cols();
+    }
+    double shift = 0;
+    while (!bordered_->factorize(energy_.hessian(), shift, held)) shift = shift > 0 ? 2 * shift : zero_level();
+    holder_ = Holder::bordered;
+  } else if (!indefinite_ && try_cholesky(0)) {
+    holder_ = Holder::cholesky;
+  } else {
+    if (!try_pivoted(0)) pivot_near(zero_level());
+    holder_ = Holder::pivoted;
+  }
+}
+
 Vector Factors::solve_holding(const Vector& b) {
-  Vector p = definite_ ? cholesky_.solve(b) : pivoted().solve(b);
-  for (int k = 0; k < 2 && held_.cols() > 0; ++k)
-    p -= response_ * (held_.transpose() * response_).eval().partialPivLu().solve(held_.transpose() * p);
-  return p;
+  switch (holder_) {
+    case Holder::cholesky: return cholesky_.solve(b);
+    case Holder::pivoted: return pivoted().solve(b);
+    case Holder::bordered: break;
+  }
+  return bordered_->solve(b);
+}
+
+Factors::Bordered Factors::solve_bordered(const Vector& column, const Vector& row, double corner, const Vector& b, double beta) {
+  const Vector left = solve_holding(row), right = solve_holding(column);
+  const double left_pivot = corner - left.dot(column), right_pivot = corner - row.dot(right);
+  const double first = (beta - left.dot(b)) / left_pivot;
+  const Vector w = solve_holding(b - first * column);
+  const double second = (beta - corner * first - row.dot(w)) / right_pivot;
+  return {w - second * right, first + second};
 }
 
 double Factors::zero_level() const {
@@ -75,20 +104,44 @@ double Factors::zero_level() const {
       sums[j] += std::abs(it.value());
       if (it.row() != j) sums[it.row()] += std::abs(it.value());
     }
-  return 16 * epsilon * (sums.size() ? sums.maxCoeff() : 0.0);
+  return 16 * epsilon * std::max(stiffest_, sums.size() ? sums.maxCoeff() : 0.0);
 }
 
 Inertia Factors::inertia() {
   const double sigma = zero_level();
-  if (energy_.dofs() == 0 || try_cholesky(-sigma)) return {};
+  if (energy_.dofs() == 0) return {};
   Inertia inertia;
+  if (indefinite_ && try_pivoted(0)) {
+    inertia.negative = pivoted().negative();
+    holder_ = Holder::pivoted;
+    if (inertia.negative > 0 && smallest() > 4 * sigma) return inertia;      // the factor stays for solutions
+  }
+  indefinite_ = false;
+  holder_ = Holder::cholesky;
+  if (try_cholesky(-sigma)) return {};
+  holder_ = Holder::pivoted;
+  inertia.negative = 0;
   if (!try_cholesky(sigma)) {
-    try_pivoted(sigma);
+    pivot_near(sigma);
     inertia.negative = pivoted().negative();
   }
-  try_pivoted(-sigma);
+  pivot_near(-sigma);
   inertia.zero = std::max(0, pivoted().negative() - inertia.negative);
+  indefinite_ = inertia.negative > 0;
   return inertia;
+}
+
+// Of the eigenvalues' absolute values the least, by inverse iteration with the pivoted factor: good to a factor of two or so,
+// and where one is zero to rounding, as small as that.
+double Factors::smallest() {
+  Vector x = starting_block(energy_.dofs(), 1).col(0).normalized();
+  double estimate = 0;
+  for (int k = 0; k < 3; ++k) {
+    x = pivoted().solve(x);
+    estimate = 1 / x.norm();
+    x *= estimate;
+  }
+  return estimate;
 }
 
 double Factors::make_positive(double guess) {
@@ -101,6 +154,29 @@ double Factors::make_positive(double guess) {
     if (!std::isfinite(shift)) throw std::runtime_error("the Hessian has entries that are not finite");
   }
   return shift;
+}
+
+EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held) {
+  constexpr int most = 12;
+  const Eigen::Index block = start.cols();
+  factorize_holding(held);
+  Eigen::MatrixXd x = start, hx(start.rows(), block);
+  Vector values = Vector::Zero(block);
+  for (int k = 0; k < most; ++k) {
+    for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve_holding(x.col(j).normalized());
+    x = orthonormal(x);
+    for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));
+    const Eigen::MatrixXd projected = x.transpose() * hx;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small((projected + projected.transpose()) / 2);
+    const Vector before = values;
+    values = small.eigenvalues();
+    x = x * small.eigenvectors();
+    Eigen::Index least = 0;
+    values.cwiseAbs().minCoeff(&least);
+    if (k > 0 && std::abs(values[least] - before[least]) <= 1e-12 * std::abs(values[least]) + zero_level() / 256) break;
+  }
+  for (Eigen::Index j = 0; j < block; ++j) values[j] = energy_.quadratic_form(x.col(j));
+  return {values, x};
 }
 
 EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen::MatrixXd& start) {

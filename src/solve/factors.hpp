@@ -24,9 +24,11 @@ class Factors {
  public:
   explicit Factors(Energy& energy);
 
-  /// σ = 16 ε ‖H‖₁: eigenvalues within ±σ cannot be told from zero. [force/length]
+  /// σ = 16 ε ‖H‖₁, with the stiffest bond for the norm where more than that cancels: eigenvalues within ±σ cannot be told
+  /// from zero. [force/length]
   double zero_level() const;
-  /// By LLᵀ of H − σI alone where that succeeds, else by the pivoted inertias of H ± σI.
+  /// By LLᵀ of H − σI alone where that succeeds, else by the pivoted inertias of H ± σI. Leaves a factor of the Hessian
+  /// within σ for solve_holding, which is of use if no eigenvalue is zero.
   Inertia inertia();
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
   /// it positive definite; returns τ.  The factor is then in cholesky().
@@ -37,30 +39,46 @@ class Factors {
   /// relative to the largest of them. `start`: vectors that may be near, dofs × any number.
   EigenPairs lowest(int count, double guess = 0, double accuracy = 1e-11, const Eigen::MatrixXd& start = {});
 
+  /// The eigenpairs nearest to zero in the space orthogonal to `held`, as many as `start` has columns, by block inverse
+  /// iteration with the factor of the Hessian itself: where eigenvalues all but vanish a step or two give all digits.
+  EigenPairs nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held);
+
   /// Factorises the Hessian as it is, definite or not, for solutions of
   ///   H p + Z μ = b,   Zᵀ p = 0
   /// where the columns of `held` (orthonormal, dofs × m) keep still: zero modes, critical modes. H may be singular along
-  /// them; a shift of 100 σ then makes it regular.
+  /// them.
   void factorize_holding(const Eigen::MatrixXd& held);
-  /// p of the system above, by block elimination; the factors must be those of factorize_holding.
+  /// p of the system above; the factors must be those of factorize_holding (or of inertia, then Z is empty).
   Vector solve_holding(const Vector& b);
+  /// (p, δ) of the system that has one row and one column more, in the space orthogonal to `held`,
+  ///   H p + c δ = b,   r·p + d δ = β,
+  /// with the factors of factorize_holding: mixed block elimination, which is stable although H be singular to rounding,
+  /// as at a limit point.  Source: Govaerts & Pryce 1993, IMA J. Numer. Anal. 13, algorithm BEM.
+  struct Bordered { Vector p; double delta; };
+  Bordered solve_bordered(const Vector& column, const Vector& row, double corner, const Vector& b, double beta);
 
   Cholesky& cholesky() { return cholesky_; }
   PivotedFactor& pivoted();
   int factorizations() const { return factorizations_; }
   /// Time spent in analyses, factorisations and solves so far.
-  double seconds() const { return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0); }
+  double seconds() const {
+    return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0) + (bordered_ ? bordered_->seconds() : 0.0);
+  }
   bool try_cholesky(double shift);
   bool try_pivoted(double shift);
 
  private:
+  void pivot_near(double shift);
+  double smallest();
   Energy& energy_;
+  double stiffest_ = 0;                          // bond with a free end [force/length]
   Cholesky cholesky_;
-  std::unique_ptr<PivotedFactor> pivoted_;       // made when first needed
-  int cholesky_version_ = -1, pivoted_version_ = -1;   // of the pattern that was analysed
+  std::unique_ptr<PivotedFactor> pivoted_, bordered_;  // made when first needed
+  int cholesky_version_ = -1, pivoted_version_ = -1, bordered_version_ = -1;   // of the pattern that was analysed
+  Eigen::Index borders_ = 0;                     // of bordered_
   int factorizations_ = 0;
-  bool definite_ = true;                         // which of the two holds the factor of factorize_holding
-  Eigen::MatrixXd held_, response_;              // Z, H⁻¹ Z
+  bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first
+  enum class Holder { cholesky, pivoted, bordered } holder_ = Holder::cholesky;   // of the factor of factorize_holding
 };
 
 }  // namespace elamin

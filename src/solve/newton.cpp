@@ -51,11 +51,11 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
 }
 
 // The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual.
-void Newton::polish(State& state, Report& report, const std::function<Vector(const Vector&)>& solve) {
+void Newton::polish(State& state, Report& report, const std::function<void(State&)>& step) {
   constexpr int most_polishing = 4;
   for (int k = 0; k < most_polishing && report.residual > 4 * epsilon; ++k) {
     State next = state;
-    energy_.kinematics().retract(next, solve(energy_.gradient()), -1);
+    step(next);
     energy_.evaluate(next, false);
     ++report.evaluations;
     if (!(residual() <= report.residual / 2)) break;
@@ -91,7 +91,9 @@ Report Newton::minimise(State& state, Pace pace, int most) {
       if (inertia.negative == 0) {
         // With a zero mode the exact factor would fill the steps with its rounding.
         factors_.try_cholesky(inertia.zero > 0 ? 100 * factors_.zero_level() : 0.0);
-        polish(state, report, [&](const Vector& g) { return factors_.cholesky().solve(g); });
+        polish(state, report, [&](State& next) {
+          energy_.kinematics().retract(next, factors_.cholesky().solve(energy_.gradient()), -1);
+        });
         return end(Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance));
       }
     }
@@ -131,40 +133,59 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   }
 }
 
-Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most) {
+Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most, const Plane* plane) {
   const Stopwatch watch;
+  const Kinematics& kinematics = energy_.kinematics();
   Report report;
   const int factorizations_before = factors_.factorizations();
   const double factor_seconds_before = factors_.seconds();
+  const bool guided = plane && plane->guided && held.cols() > 0;
+  const auto free_gradient = [&]() -> Vector {                  // without what guides
+    const Vector& g = energy_.gradient();
+    return guided ? Vector(g - held * (held.transpose() * g)) : g;
+  };
   const auto end = [&](Status status, std::string why) {
     report.factorizations = factors_.factorizations() - factorizations_before;
     report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
-    return finish(state, report, {status, std::move(why)});
+    report = finish(state, report, {status, std::move(why)});
+    report.residual = energy_.relative(free_gradient());
+    return report;
+  };
+  Vector column;                                                // ∂g/∂λ
+  const auto solve = [&](const Vector& g) -> Factors::Bordered {
+    if (!plane) return {-factors_.solve_holding(g), 0.0};
+    return factors_.solve_bordered(column, plane->row, plane->corner, -g, 0);
+  };
+  const auto move = [&](State& to, const Factors::Bordered& step, double part) {
+    if (plane) kinematics.prescribe(to, to.load_factor + part * step.delta);
+    kinematics.retract(to, step.p, part);
   };
   State previous;
-  std::vector<double> sizes;                                    // |p| of every iteration
+  std::vector<double> sizes;                                    // of every correction
   for (double moved = 0; ; ++report.iterations) {
     energy_.evaluate(state, true, from);
     ++report.evaluations;
     record(report, moved, 0);
+    if (guided) report.residual = energy_.relative(free_gradient());
     const bool settled = report.residual <= options_.tolerance;
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
     factors_.factorize_holding(held);
+    if (plane) column = energy_.load_derivative();
     if (settled) {
-      polish(state, report, [&](const Vector& g) { return factors_.solve_holding(g); });
+      if (!guided) polish(state, report, [&](State& next) { move(next, solve(energy_.gradient()), 1); });
       return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
     }
-    const Vector p = -factors_.solve_holding(energy_.gradient());
-    sizes.push_back(p.norm());
+    const Factors::Bordered step = solve(energy_.gradient());
+    sizes.push_back(plane ? std::hypot(step.p.norm() / plane->length, step.delta / plane->load) : step.p.norm());
     const std::size_t k = sizes.size() - 1;
-    if (!p.allFinite() || (k >= 4 && !(sizes[k] < sizes[k - 2])))
+    if (!step.p.allFinite() || !std::isfinite(step.delta) || (k >= 4 && !(sizes[k] < sizes[k - 2])))
       return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", report.residual));
-    const double turn = part_within_turn(state, p), alpha = turn * free_part(state, p, turn);
-    moved = alpha * infinity_norm(p);
+    const double turn = part_within_turn(state, step.p), alpha = turn * free_part(state, step.p, turn);
+    moved = alpha * infinity_norm(step.p);
     previous = state;
     from = &previous;
-    energy_.kinematics().retract(state, p, alpha);
+    move(state, step, alpha);
   }
 }
 

@@ -19,6 +19,16 @@ struct NewtonOptions {
 /// it starts in, which is what a fall from an unstable state wants.
 enum class Pace { long_steps, downhill };
 
+/// A hyperplane across a branch, in the space of positions and load factor, through the state that a corrector begins at:
+///   row · Δx + corner Δλ = 0.
+/// The correction's size is |(Δx, Δλ)|² = |Δx|²/length² + Δλ²/load².
+struct Plane {
+  Vector row;                      // dofs
+  double corner = 0;
+  double length = 1, load = 1;
+  bool guided = false;             // forces along held directions are not asked to vanish: they guide the state
+};
+
 /// Newton's method. Both calls leave the state where they got to, prescribed coordinates as they are, and evaluate the
 /// energy with its exact Hessian there.
 ///
@@ -43,9 +53,10 @@ class Newton {
 
   /// Finds the stationary point near the state, stable or not. Directions in the columns of `held` (orthonormal,
   /// dofs × m) keep their value: zero modes, or the critical modes at an event. `from`: the equilibrium that a predictor
-  /// led here from, if one did. Not converged if the steps do not shrink, or after `most` iterations.
+  /// led here from, if one did. With a `plane` the load factor is an unknown too, and the state moves on the plane.
+  /// Not converged if the steps do not shrink, or after `most` iterations.
   Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr,
-                 int most = std::numeric_limits<int>::max());
+                 int most = std::numeric_limits<int>::max(), const Plane* plane = nullptr);
 
   /// Moves the state from a saddle down along ± direction (dofs), sign as given, until the energy rises or what is
   /// glued turns by a third of a radian. False if no lower energy is found.
@@ -82,7 +93,7 @@ class Newton {
   bool take_downhill(const State& from, const Step& step, double alpha, State& to);
   bool take_long(const State& from, const Step& step, double alpha, State& to);
   double make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
-  void polish(State& state, Report& report, const std::function<Vector(const Vector&)>& solve);
+  void polish(State& state, Report& report, const std::function<void(State&)>& step);
 
   Energy& energy_;
   NewtonOptions options_;

@@ -4,6 +4,9 @@
 
 #include <dmumps_c.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -42,7 +45,7 @@ PivotedFactor::~PivotedFactor() {
   mumps_->stop();
 }
 
-void PivotedFactor::analyze(const SparseMatrix& pattern) {
+void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
   const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time);
   Mumps& m = *mumps_;
@@ -51,6 +54,9 @@ void PivotedFactor::analyze(const SparseMatrix& pattern) {
   for (int j = 0; j < pattern.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(pattern, j); it; ++it)
       m.rows.push_back(static_cast<int>(it.row()) + 1), m.columns.push_back(j + 1);
+  const int n = static_cast<int>(pattern.rows());
+  for (int b = 0; b < borders; ++b)
+    for (int j = 0; j <= n; ++j) m.rows.push_back(n + b + 1), m.columns.push_back(j < n ? j + 1 : n + b + 1);
   m.values.assign(m.rows.size(), 0.0);
   m.id = {};
   m.id.comm_fortran = fortran_communicator;
@@ -61,19 +67,27 @@ void PivotedFactor::analyze(const SparseMatrix& pattern) {
   m.icntl(13) = 1;                                         // no parallel root: its pivots would not be counted
   m.icntl(14) = 50;                                        // % of memory for delayed pivots
   m.icntl(10) = 0;                                         // Newton on exact residuals refines, not the solver
-  m.id.n = static_cast<int>(pattern.rows());
+  m.id.n = n + borders;
   m.id.nnz = static_cast<std::int64_t>(m.rows.size());
   m.id.irn = m.rows.data(), m.id.jcn = m.columns.data(), m.id.a = m.values.data();
   m.call(1);
   if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the analysis failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
 }
 
-bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift) {
+bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
   const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time);
   Mumps& m = *mumps_;
-  for (std::size_t k = 0; k < m.values.size(); ++k)
+  const std::size_t entries = static_cast<std::size_t>(hessian.nonZeros());
+  double largest = std::numeric_limits<double>::min();
+  for (std::size_t k = 0; k < entries; ++k) {
     m.values[k] = hessian.valuePtr()[k] + (m.rows[k] == m.columns[k] ? shift : 0.0);
+    largest = std::max(largest, std::abs(m.values[k]));
+  }
+  for (std::size_t k = entries; k < m.values.size(); ++k) {
+    const Eigen::Index i = m.columns[k] - 1, b = m.rows[k] - 1 - hessian.rows();
+    m.values[k] = i < hessian.rows() ? largest * borders(i, b) : 0.0;
+  }
   for (int attempt = 0; attempt < 6; ++attempt) {
     m.call(2);
     if (m.id.infog[0] != -8 && m.id.infog[0] != -9) break;   // workspace too small for the delayed pivots
@@ -89,11 +103,12 @@ int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
 Vector PivotedFactor::solve(const Vector& b) {
   const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time);
-  Vector x = b;
+  Vector x = Vector::Zero(mumps_->id.n);
+  x.head(b.size()) = b;
   mumps_->id.rhs = x.data(), mumps_->id.nrhs = 1, mumps_->id.lrhs = static_cast<int>(x.size());
   mumps_->call(3);
   if (mumps_->id.infog[0] < 0) throw std::runtime_error("MUMPS: the solve failed");
-  return x;
+  return x.head(b.size());
 }
 
 }  // namespace elamin

@@ -5,7 +5,10 @@
 
 namespace elamin {
 
-/// LDLᵀ of an indefinite H + τI with 1×1 and 2×2 pivots (MUMPS): solves, and a reliable inertia (Sylvester's law).
+/// LDLᵀ with 1×1 and 2×2 pivots (MUMPS) of an indefinite H + τI, or of H with borders Z (n × m),
+///   [ H   sZ ]
+///   [ sZᵀ  0 ] ,   s = max |H|:
+/// solves, and a reliable inertia (Sylvester's law).
 /// Analysis once per pattern. MUMPS serves one caller at a time; calls from several threads wait for each other.
 class PivotedFactor {
  public:
@@ -14,13 +17,14 @@ class PivotedFactor {
   PivotedFactor(const PivotedFactor&) = delete;
   PivotedFactor& operator=(const PivotedFactor&) = delete;
 
-  /// Takes the pattern (lower triangle with full diagonal).
-  void analyze(const SparseMatrix& pattern);
+  /// Takes the pattern (lower triangle with full diagonal), and how many borders there will be.
+  void analyze(const SparseMatrix& pattern, int borders = 0);
   /// Factorises H + shift·I. False if it is singular to rounding: negative() and solve() then mean nothing.
-  bool factorize(const SparseMatrix& hessian, double shift = 0);
-  /// Number of negative eigenvalues of the matrix factorised last.
+  bool factorize(const SparseMatrix& hessian, double shift = 0, const Eigen::MatrixXd& borders = {});
+  /// Number of negative eigenvalues of the matrix factorised last. With borders that are independent, m of them belong to
+  /// the borders: the others are those of H among the vectors orthogonal to Z.
   int negative() const;
-  /// (H + shift·I)⁻¹ b.
+  /// (H + shift·I)⁻¹ b; with borders p of H p + Z μ = b, Zᵀ p = 0.
   Vector solve(const Vector& b);
   /// Time spent in all calls so far, waiting for other threads included.
   double seconds() const { return seconds_; }

@@ -17,6 +17,9 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
 /// One or two lines for each contact law and each wall: its numbers, and who overlaps or is on the wrong side at `state`.
 std::string describe_contacts(const Model& model, Energy& energy, const State& state);
 
+/// One line for each radial load, pressure and change, and what the load factor scales if that was chosen.
+std::string describe_conditions(const Problem& problem, const Model& model);
+
 /// The rigid motions that the supports leave free; many of them are counted, not named.
 std::string describe_motions(const Model& model);
 

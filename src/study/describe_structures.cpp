@@ -67,16 +67,35 @@ std::string stiffnesses(const Model& model, const Structure& s) {
                      K, q0, 2 * K * q0, B, rest_of(model, s), B * q0);
 }
 
-std::string describe_beam(const Model& model, const Structure& s, const Kinematics& kinematics) {
+// The line that a beam follows, "" for a straight one.
+std::string line_of(const BeamTable& t) {
+  if (t.through && t.through->size() > 2) return fmt::format("  through {} points, with {} corners\n", t.through->size(), t.through->size() - 2);
+  if (!t.rise && !t.angle) return "";
+  const double chord = (*t.to - *t.from).norm();
+  if (t.profile == Profile::sine) return fmt::format("  half a sine wave, rise {:.10g}, span {:.10g}\n", *t.rise, chord);
+  const double half = t.angle ? *t.angle * pi / 360 : 2 * std::atan(2 * std::abs(*t.rise) / chord);
+  return fmt::format("  arc of {:.10g} degrees, radius {:.10g}, rise {:.10g}\n", half * 360 / pi, chord / (2 * std::sin(half)),
+                     chord / 2 * std::tan(half / 2));
+}
+
+std::string describe_beam(const Problem& problem, const Model& model, const Structure& s, const Kinematics& kinematics) {
   const BondType& bond = model.bond_types[s.bond_type];
   const double K = bond.stiffness, q0 = bond.rest_length, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
-  std::string text = stiffnesses(model, s);
+  std::string line;
+  bool at_from = false, at_to = false;                 // clamped at the end itself
+  for (const BeamTable& t : problem.beams)
+    if (t.name == s.name && s.kind == "beam") {
+      line = line_of(t);
+      at_from = t.clamped == ClampedEnds::from || t.clamped == ClampedEnds::both;
+      at_to = t.clamped == ClampedEnds::to || t.clamped == ClampedEnds::both;
+    }
+  std::string text = line + stiffnesses(model, s);
   const End a = end_of(s, kinematics, false), b = end_of(s, kinematics, true);
   const int bonds = s.count - 1 - std::max(0, a.held - 1) - std::max(0, b.held - 1);
-  // A clamp sits at the middle of its inner bond.
-  const double length = (bonds + (a.held > 1 ? 0.5 : 0.0) + (b.held > 1 ? 0.5 : 0.0)) * q0;
+  // A clamp sits at the middle of its inner bond, unless the joint on its end is twice as stiff.
+  const double length = (bonds + (a.held > 1 && !at_from ? 0.5 : 0.0) + (b.held > 1 && !at_to ? 0.5 : 0.0)) * q0;
   text += fmt::format("  ends: {}, {}; {} bonds can stretch; effective length {:.10g}\n", a.name(), b.name(), std::max(bonds, 0), length);
-  if (const double factor = euler_factor(a, b); factor > 0 && bonds > 0 && B > 0)
+  if (const double factor = line.empty() ? euler_factor(a, b) : 0; factor > 0 && bonds > 0 && B > 0)
     text += fmt::format("  Euler load {:.6g} pi^2 EI/L^2 = {:.10g}, strain {:.6g}\n", factor, factor * pi * pi * B * q0 / (length * length),
                         factor * pi * pi * B / (2 * K * length * length));
   return text;
@@ -174,7 +193,7 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     else if (s.bond_type < 0) continue;
     else if (s.kind == "loop") text += describe_loop(problem, model, s);
     else if (s.kind == "sheet") text += describe_sheet(problem, model, s);
-    else text += describe_beam(model, s, kinematics);
+    else text += describe_beam(problem, model, s, kinematics);
   }
   for (const ConnectTable& t : problem.connections) text += describe_connection(t, model);
   return text;

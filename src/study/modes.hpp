@@ -1,5 +1,6 @@
 #pragma once
 // The study "modes": which way an equilibrium gives way first.
+#include "path/equilibrium.hpp"
 #include "results/mode.hpp"
 #include "study/trace.hpp"
 

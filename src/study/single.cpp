@@ -3,13 +3,11 @@
 #include "core/timing.hpp"
 #include "problem/resolved.hpp"
 #include "results/run_directory.hpp"
+#include "study/observed.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -23,20 +21,10 @@ std::string log_line(const PathPoint& p) {
   return line;
 }
 
-// All closed contacts, and open ones as far as the observed gaps need: farther and farther until they are told.
-std::vector<Touch> observed_touches(Energy& energy, const State& state, const Observables& observables) {
-  constexpr double at_touch = 1e-9;                             // of the diameter: what an event has located
-  const std::vector<double>& diameter = energy.model().diameter;
-  std::vector<Touch> touches = energy.touches(state, diameter.empty() ? 0.0 : at_touch * *std::max_element(diameter.begin(), diameter.end()));
-  const double extent = (state.position.rowwise().maxCoeff() - state.position.rowwise().minCoeff()).maxCoeff();
-  double reach = diameter.empty() ? 0.0 : *std::max_element(diameter.begin(), diameter.end()) / 4;
-  while (!observables.sufficient(touches)) {
-    const bool all = !(reach > 0 && reach < extent);
-    touches = energy.touches(state, all ? std::numeric_limits<double>::infinity() : reach);
-    if (all) break;
-    reach *= 4;
-  }
-  return touches;
+std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics) {
+  std::vector<Field> vectors;
+  for (Eigen::Index k = 0; k < p.modes.cols(); ++k) vectors.push_back(kinematics.extend(p.modes.col(k)));
+  return vectors;
 }
 
 }  // namespace
@@ -45,10 +33,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   const Stopwatch total;
   RunDirectory results(directory, problem, model, resolved_toml(problem));
   results.log(fmt::format("elamin {}: {}", version(), problem.file));
-  Energy energy(model);
-  results.log(fmt::format("{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
-                          model.particles(), model.bonds.size(), model.angles.size(), energy.dofs(), energy.hessian().nonZeros()));
-  const double setup = total.seconds();
+  Energy* energy = nullptr;                                    // of the stage
+  double setup = 0;
 
   Progress progress(stdout, style, starting_load_factor(problem), problem.path.to);
   Summary summary;
@@ -59,13 +45,22 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
       results.log(fmt::format("  iteration {} energy {:.10g} residual {:.3g} step {:.3g} shift {:.3g}", k, i.energy, i.residual, i.step, i.shift));
     }
     results.log(log_line(point));
-    const std::vector<Touch> touches = observed_touches(energy, point.state, results.record().observables());
-    results.add(point, energy.forces(point.state), touches, eigenvalues);
+    const std::vector<Touch> touches = observed_touches(*energy, point.state, results.record().observables());
+    results.add(point, energy->forces(point.state), touches, eigenvalues);
+    if (point.modes.cols() > 0) results.add_null_vectors(point.label, null_vectors(point, energy->kinematics()));
     if (last && point.label != "final") results.add_state("final", point.state, touches);
     progress.show(point);
     summary.zero_modes = point.stability.zero_modes;
   };
   const Sink sink{
+      .stage = [&](const Stage& stage, Energy& in_force) {
+        energy = &in_force;
+        results.enter(stage, energy->model());
+        results.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
+                                stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), model.bonds.size(),
+                                model.angles.size(), energy->dofs(), energy->hessian().nonZeros()));
+        if (setup == 0) setup = total.seconds();
+      },
       .point = [&](const PathPoint& point, bool last) { add(point, last, {}); },
       .modes = [&](const PathPoint& point, const std::vector<Mode>& modes) {
         std::vector<double> eigenvalues;
@@ -74,7 +69,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         for (const Mode& m : modes) results.add_mode(m, point.state);
       },
       .note = [&](const std::string& note) { results.log(note); }};
-  const Outcome outcome = trace(problem, energy, sink);
+  const Outcome outcome = trace(problem, model, sink);
   progress.finish();
   results.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
 

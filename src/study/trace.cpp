@@ -1,36 +1,18 @@
 #include "study/trace.hpp"
 
+#include "path/equilibrium.hpp"
 #include "study/modes.hpp"
+#include "study/trace_path.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace elamin {
 
 namespace {
 
 constexpr double largest_imposed = 0.3;        // distortion of a bond that supports may impose in one go
-
-// Load factors that an expectation is about: at = "lambda=0.5".
-std::vector<double> expected_stops(const Problem& problem) {
-  std::vector<double> stops;
-  const std::string_view prefix = "lambda=";
-  for (const ExpectTable& e : problem.expect) {
-    if (!e.at.starts_with(prefix)) continue;
-    double value = 0;
-    const char* last = e.at.data() + e.at.size();
-    if (std::from_chars(e.at.data() + prefix.size(), last, value).ptr == last) stops.push_back(value);
-  }
-  return stops;
-}
-
-bool locates(const Problem& problem, const char* kind) {
-  const std::vector<std::string>& all = problem.path.locate;
-  return std::find(all.begin(), all.end(), kind) != all.end();
-}
 
 Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
   const State state = starting_state(problem, newton.energy());
@@ -40,18 +22,6 @@ Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
   e.point.report.status = Status::converged;
   sink.point(e.point, true);
   return {Status::converged, "energies and forces of the state in the file"};
-}
-
-// The last point of a path is known only when there is no next one.
-Outcome trace_path(LoadSteps path, const Sink& sink) {
-  std::optional<PathPoint> held;
-  while (std::optional<PathPoint> point = path.next()) {
-    if (held) sink.point(*held, false);
-    held = std::move(point);
-    for (const std::string& note : path.notes()) sink.note(note);
-  }
-  if (held) sink.point(*held, true);
-  return {path.status(), path.why()};
 }
 
 // Whether supports and walls can go from one state to the other at once: no bond turns or stretches far, and nothing passes
@@ -115,18 +85,17 @@ State starting_state(const Problem& problem, const Energy& energy) {
   return state;
 }
 
-Outcome trace(const Problem& problem, Energy& energy, const Sink& sink) {
-  Newton newton(energy, {.tolerance = problem.solver.tolerance, .max_iterations = problem.solver.max_iterations});
-  switch (problem.study) {
-    case StudyType::energy: return trace_energy(problem, newton, sink);
-    case StudyType::equilibrium: return trace_equilibrium(problem, newton, sink);
-    case StudyType::modes: return trace_modes(problem, newton, sink);
-    case StudyType::path: break;
-  }
-  const PathOptions options{.from = problem.path.from, .to = problem.path.to, .steps = problem.path.steps,
-                                .when_unstable = problem.path.when_unstable, .start = starting_load_factor(problem),
-                                .stops = expected_stops(problem), .contacts = locates(problem, "contact")};
-  return trace_path(LoadSteps(newton, energy.model().restart.value_or(energy.model().start), options), sink);
+NewtonOptions solver_options(const Problem& problem) {
+  return {.tolerance = problem.solver.tolerance, .max_iterations = problem.solver.max_iterations};
+}
+
+Outcome trace(const Problem& problem, const Model& model, const Sink& sink) {
+  if (problem.study == StudyType::path) return trace_path(problem, model, sink);
+  Energy energy(model);
+  sink.stage({}, energy);
+  Newton newton(energy, solver_options(problem));
+  if (problem.study == StudyType::modes) return trace_modes(problem, newton, sink);
+  return problem.study == StudyType::energy ? trace_energy(problem, newton, sink) : trace_equilibrium(problem, newton, sink);
 }
 
 }  // namespace elamin

@@ -1,8 +1,10 @@
 #pragma once
 // From a problem and its model to equilibria: which solver calls a study is made of.
-#include "path/load_steps.hpp"
+#include "path/point.hpp"
 #include "problem/problem.hpp"
+#include "problem/stages.hpp"
 #include "results/mode.hpp"
+#include "solve/newton.hpp"
 
 #include <functional>
 
@@ -15,8 +17,10 @@ struct Outcome {
 };
 
 /// Where the points of a study go, one by one, the last with `last` set; the one point of a study of modes, with them; and
-/// sentences for the log.
+/// sentences for the log. Before the first point, and where a path has stages before the first of each: the stage and the
+/// energy in force until the next one.
 struct Sink {
+  std::function<void(const Stage& stage, Energy& energy)> stage;
   std::function<void(const PathPoint& point, bool last)> point;
   std::function<void(const PathPoint& point, const std::vector<Mode>& modes)> modes;
   std::function<void(const std::string& note)> note;
@@ -30,7 +34,9 @@ double starting_load_factor(const Problem& problem);
 /// the load factor puts them.
 State starting_state(const Problem& problem, const Energy& energy);
 
+NewtonOptions solver_options(const Problem& problem);
+
 /// Runs the study and yields its points as they are found.
-Outcome trace(const Problem& problem, Energy& energy, const Sink& sink);
+Outcome trace(const Problem& problem, const Model& model, const Sink& sink);
 
 }  // namespace elamin

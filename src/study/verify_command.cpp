@@ -32,7 +32,8 @@ int verify_command(const std::vector<std::string>& files, const RunOptions& opti
       ++wrong;
     }
   }
-  fmt::print("{} of {} expectations met in {} file{}\n", met, expectations, files.size(), files.size() == 1 ? "" : "s");
+  if (wrong < static_cast<int>(files.size()))
+    fmt::print("{} of {} expectations met in {} file{}\n", met, expectations, files.size(), files.size() == 1 ? "" : "s");
   return wrong > 0 ? exit_wrong_input : status;
 }
 

@@ -49,7 +49,7 @@ Model heap() {
   tube.displacement = Vec3(0.1, -0.05, 0.02), tube.radius_change = -0.2;
   m.walls.push_back(tube);
   hold(m, 0, 0, {true, true, true}, Vec3(0.1, 0.2, 0.05));
-  m.gravity.push_back({"", numbers(n), Vec3(0, 0, -1e-4), true});
+  m.gravity.push_back({"", numbers(n), Vec3(0, 0, -1e-4), Scaling::constant()});
   return m;
 }
 

@@ -13,10 +13,10 @@ Model loaded_model() {
   Model m = chain(9, 50, 0.4, 1, Vec3(1, 0.2, -0.3));
   hold(m, 0, 1);
   hold(m, 7, 8, {true, false, true}, Vec3(-0.5, 0, 0.3));
-  m.loads.push_back({"", {3, 4}, Vec3(0.1, -0.2, 0.3), false});
-  m.loads.push_back({"", {5}, Vec3(0, 0.3, 0.1), true});
-  m.gravity.push_back({"", {2, 3, 4, 5}, Vec3(0.1, 0, -0.4), true});
-  m.gravity.push_back({"", {4, 5}, Vec3(0, 0.2, 0.4), false});
+  m.loads.push_back({"", {3, 4}, Vec3(0.1, -0.2, 0.3), Scaling()});
+  m.loads.push_back({"", {5}, Vec3(0, 0.3, 0.1), Scaling::constant()});
+  m.gravity.push_back({"", {2, 3, 4, 5}, Vec3(0.1, 0, -0.4), Scaling::constant()});
+  m.gravity.push_back({"", {4, 5}, Vec3(0, 0.2, 0.4), Scaling()});
   return m;
 }
 
@@ -93,9 +93,9 @@ TEST_CASE("forces of all particles are minus the gradient and balance the loads"
   energy.evaluate(state);
   CHECK((energy.kinematics().restrict(forces) + energy.gradient()).norm() == 0);
   Vec3 loads = Vec3::Zero();
-  for (const Load& l : model.loads) loads += l.force * static_cast<double>(l.particles.size()) * (l.constant ? 1.0 : 0.7);
+  for (const Load& l : model.loads) loads += l.force * static_cast<double>(l.particles.size()) * l.scaling.at(0.7);
   for (const Gravity& g : model.gravity)
-    for (const int p : g.particles) loads += model.mass(p) * g.acceleration * (g.constant ? 1.0 : 0.7);
+    for (const int p : g.particles) loads += model.mass(p) * g.acceleration * g.scaling.at(0.7);
   CHECK((forces.rowwise().sum() - loads).norm() <= 64 * epsilon * energy.force_scale());
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("prescribed coordinates are where the load factor puts them", "[energy
   Model model = chain(3, 1, 1, 1);
   hold(model, 2, 2, {true, false, true}, Vec3(0.25, 0, -0.5));
   Support constant;
-  constant.particles = {0}, constant.displacement = Vec3(0, 0.125, 0), constant.constant = true;
+  constant.particles = {0}, constant.displacement = Vec3(0, 0.125, 0), constant.scaling = Scaling::constant();
   model.supports.push_back(constant);
   const Kinematics kinematics(model);
   State state = model.start;

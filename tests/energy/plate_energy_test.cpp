@@ -44,7 +44,7 @@ TEST_CASE("A stretched patch relaxes to the homogeneous state and pulls along on
       return Vec3(u[0], u[1], 0);
     };
     for (int p = 0; p < m.particles(); ++p) (bonds[p] < 6 ? rim : inner).push_back(p);
-    for (const int p : rim) m.supports.push_back({"", {p}, {true, true, true}, moved(p), false});
+    for (const int p : rim) m.supports.push_back({"", {p}, {true, true, true}, moved(p), Scaling()});
     Energy energy(m);
     Newton newton(energy);
     State state = m.start;

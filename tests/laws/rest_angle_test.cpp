@@ -100,3 +100,46 @@ TEST_CASE("in line an angle with another rest angle has no direction to turn in"
   CHECK(CosineAngle(1, 2).derivatives(Points<3>(meet)).value == std::numeric_limits<double>::infinity());
   CHECK(CosineAngle(1, 2).derivatives(Points<3>(meet)).gradient.allFinite());
 }
+
+TEST_CASE("in a plane a turn has a sign, and a curved angle may be bent straight and beyond", "[laws][angle]") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (const int kept : {0, 1, 2})
+    for (const double rest : {0.4, pi / 2, 2.7, pi - 1e-4})
+      for (const double turn : {-3.0, -1.0, -1e-3, 0.0, 1e-3, 0.5, 2.9}) {
+        INFO("kept " << kept << ", rest " << rest << ", turn " << turn);
+        const double start = part(random);
+        const int e = (kept + 1) % 3, f = (kept + 2) % 3;            // e × f is the axis
+        Eigen::Matrix3d x = Eigen::Matrix3d::Zero();
+        x(e, 0) = -1.3 * std::cos(start), x(f, 0) = -1.3 * std::sin(start);
+        x(e, 2) = 0.8 * std::cos(start + turn), x(f, 2) = 0.8 * std::sin(start + turn);
+        const CosineAngle angle(0.7, rest, kept);
+        const Local<3> u = angle.derivatives(Points<3>(x));
+        CHECK(u.value == Approx(0.7 * (1 - std::cos(turn - (pi - rest)))).epsilon(1e-14).margin(4e-16));
+        CHECK(u.value == angle.value(Points<3>(x)));
+        // The derivatives in the plane are those of the value, across a straight line too; none leads out of it.
+        const double h = 1e-5;
+        for (int a = 0; a < 9; ++a) {
+          if (a % 3 == kept) {
+            CHECK(u.gradient[a] == 0);
+            CHECK(u.hessian.row(a).norm() == 0);
+            continue;
+          }
+          Eigen::Matrix3d plus = x, minus = x;
+          plus.data()[a] += h, minus.data()[a] -= h;
+          const Local<3> up = angle.derivatives(Points<3>(plus)), down = angle.derivatives(Points<3>(minus));
+          CHECK((up.value - down.value) / (2 * h) == Approx(u.gradient[a]).margin(1e-9));
+          for (int b = 0; b < 9; ++b)
+            if (b % 3 != kept) CHECK((up.gradient[b] - down.gradient[b]) / (2 * h) == Approx(u.hessian(b, a)).margin(1e-8));
+        }
+        // On the side of its rest it is the angle without a sign.
+        if (turn > 0) {
+          const Local<3> unsigned_angle = CosineAngle(0.7, rest).derivatives(Points<3>(x));
+          CHECK(u.value == Approx(unsigned_angle.value).epsilon(1e-15));
+          CHECK((u.gradient - unsigned_angle.gradient).norm() < 1e-14);
+        }
+      }
+  // Straight at rest there is nothing to tell apart.
+  const Points<3> x = random_points<3>(random, 1);
+  CHECK(CosineAngle(0.7, pi, 2).derivatives(x).hessian == CosineAngle(0.7).derivatives(x).hessian);
+}

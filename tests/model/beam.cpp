@@ -22,7 +22,7 @@ ExactVector cross(const ExactVector& a, const ExactVector& b) {
 
 Model beam_from(const Vec3& from, const Vec3& to, int n) {
   Model model;
-  add_beams(model, {{"beam", exact(from), exact(to), n, 1e-3, 0, 0, {10, 1e-3}, {1e-6}}});
+  add_beams(model, {{"beam", row(exact(from), exact(to), n).centers, 1e-3, 0, 0, {10, 1e-3}, {1e-6}}});
   return model;
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("Beams are appended one after another with ids, types and molecules of
   m.velocity = Field::Ones(3, 2);
   m.bond_types = {{1, 1}};
   const ExactVector o = exact(Vec3::Zero()), x = exact(Vec3(1, 0, 0)), y = exact(Vec3(0, 1, 0));
-  add_beams(m, {{"a", o, x, 2, 0.5, 7, 1, {2, 3}, {4}}, {"b", o, y, 4, 0.25, 0, 2, {5, 6}, {7}}});
+  add_beams(m, {{"a", row(o, x, 2).centers, 0.5, 7, 1, {2, 3}, {4}}, {"b", row(o, y, 4).centers, 0.25, 0, 2, {5, 6}, {7}}});
   CHECK(m.id == std::vector<int>{5, 9, 10, 11, 12, 13, 14, 15});
   CHECK(m.type == std::vector<int>{1, 3, 4, 4, 5, 5, 5, 5});
   CHECK(m.molecule == std::vector<int>{0, 2, 3, 3, 4, 4, 4, 4});

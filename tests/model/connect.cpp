@@ -115,7 +115,7 @@ TEST_CASE("A post on a beam: bond types by length, angle types by rest angle", "
   const ExactVector left = exact(Vec3(-2, 0, 0)), right = exact(Vec3(2, 0, 0)), foot = exact(Vec3(0, 0, 1)),
                     top = exact(Vec3(0, 0, 4));
   Model m;
-  add_beams(m, {{"beam", left, right, 5, 1, 1, 0, {1, 1}, {1}}, {"post", foot, top, 4, 1, 1, 0, {1, 1}, {1}}});
+  add_beams(m, {{"beam", row(left, right, 5).centers, 1, 1, 0, {1, 1}, {1}}, {"post", row(foot, top, 4).centers, 1, 1, 0, {1, 1}, {1}}});
   Connection c = connection(range(5, 4), range(0, 5), 1.5);   // the foot to the middle and, at √2, to its neighbours
   c.angle_stiffness = 7;
   REQUIRE(connect(m, c) == 3);
@@ -144,8 +144,8 @@ TEST_CASE("A post on a beam: bond types by length, angle types by rest angle", "
 
 TEST_CASE("Rest length and rest angle may be given", "[model]") {
   Model m;
-  add_beams(m, {{"a", exact(Vec3(0, 0, 0)), exact(Vec3(3, 0, 0)), 4, 1, 1, 0, {1, 1}, {1}},
-                {"b", exact(Vec3(4, 0, 0)), exact(Vec3(4, 3, 0)), 4, 1, 1, 0, {1, 1}, {1}}});
+  add_beams(m, {{"a", row(exact(Vec3(0, 0, 0)), exact(Vec3(3, 0, 0)), 4).centers, 1, 1, 0, {1, 1}, {1}},
+                {"b", row(exact(Vec3(4, 0, 0)), exact(Vec3(4, 3, 0)), 4).centers, 1, 1, 0, {1, 1}, {1}}});
   Connection c = connection(range(0, 4), range(4, 4), 1.5);
   c.rest_length = 0.8, c.angle_stiffness = 2, c.as_built = false, c.rest = 3;
   REQUIRE(connect(m, c) == 2);   // (3, 4) and the diagonal (3, 5)

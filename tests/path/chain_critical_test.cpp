@@ -17,7 +17,7 @@ Model column(const nlohmann::json& c, bool plane, const Vec3& axis) {
   Model m = chain(before + free + after, K, B, q0, axis);
   if (plane) m.plane_normal = 1;
   hold(m, 0, before - 1);
-  if (free_end) m.loads.push_back({"", {before + free - 1}, -axis.normalized(), false});
+  if (free_end) m.loads.push_back({"", {before + free - 1}, -axis.normalized(), Scaling()});
   else hold(m, before + free, before + free + after - 1, {true, true, true}, -axis.normalized());
   return m;
 }

@@ -21,7 +21,7 @@ Model truss(double degrees, bool plane_symmetric) {
   m.plane_normal = 1;
   hold(m, 0, 0), hold(m, 2, 2);
   if (plane_symmetric) hold(m, 1, 1, {true, false, false});
-  m.loads.push_back({"", {1}, Vec3(0, 0, -1), false});
+  m.loads.push_back({"", {1}, Vec3(0, 0, -1), Scaling()});
   return m;
 }
 

@@ -77,7 +77,7 @@ TEST_CASE("cantilevers under dead tip loads", "[path][reference]") {
       Model model = chain(free + 2, c["K"], c["B"], q0, Vec3::UnitX());
       model.plane_normal = 2;
       hold(model, 0, 1);
-      model.loads.push_back({"", {free + 1}, Vec3(s["tip_force"][0], s["tip_force"][1], 0), false});
+      model.loads.push_back({"", {free + 1}, Vec3(s["tip_force"][0], s["tip_force"][1], 0), Scaling()});
       Energy energy(model);
       Newton newton(energy);
       State state = model.start;
@@ -104,7 +104,7 @@ TEST_CASE("a cantilever under axial load, beyond its critical load", "[path][ref
   Model model = chain(free + 2, c["K"], c["B"], q0, Vec3::UnitX());
   model.plane_normal = 2;
   hold(model, 0, 1);
-  model.loads.push_back({"", {free + 1}, Vec3(-1, 0, 0), false});
+  model.loads.push_back({"", {free + 1}, Vec3(-1, 0, 0), Scaling()});
   Energy energy(model);
   Newton newton(energy);
   std::vector<double> stops;

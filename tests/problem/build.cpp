@@ -157,18 +157,18 @@ TEST_CASE("Supports, loads, weight and drag") {
   CHECK(m.supports[0].particles == Ids{0, 1});
   CHECK(m.supports[0].held == std::array{true, false, true});
   CHECK(m.supports[0].displacement == Vec3(0.1, 0, -1e-4));
-  CHECK(m.supports[0].constant);
+  CHECK(m.supports[0].scaling == Scaling::constant());
   CHECK(m.supports[1].held == std::array{true, true, true});
   CHECK(m.supports[2].held == std::array{true, false, true});
   CHECK(m.supports[2].particles == range(15, 18));
   REQUIRE(m.loads.size() == 2);
   CHECK(m.loads[0].force == Vec3(1e-9, 0, 3));
-  CHECK(m.loads[0].constant);
+  CHECK(m.loads[0].scaling == Scaling::constant());
   CHECK(m.loads[1].particles == Ids{4, 5, 6});
   CHECK(m.loads[1].force == Vec3(0, 0, 1));           // 3 in all, shared by three
   REQUIRE(m.gravity.size() == 1);
   CHECK(m.gravity[0].acceleration == Vec3(0.3, 0, -9.81));
-  CHECK_FALSE(m.gravity[0].constant);
+  CHECK(m.gravity[0].scaling == Scaling());
   CHECK(m.gravity[0].particles == range(0, 10));
   REQUIRE(m.viscosity.size() == 1);
   CHECK(m.viscosity[0].coefficient == 0.1);

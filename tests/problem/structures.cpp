@@ -106,3 +106,65 @@ TEST_CASE("Grains of a plane stay in it") {
   CHECK(said_of("plane = \"xz\"\n" + grains("a", "[[0, 0, 0], [2, 1, 0]]")) ==
         "2:1: grains.a: particle 2 is not in the plane \"xz\" of particle 1: y is 1 instead of 0");
 }
+
+namespace {
+
+std::string beam(const std::string& more) {
+  return "plane = \"xz\"\n[[beam]]\nname = \"b\"\ndiameter = 1\nyoungs_modulus = 1\n" + more + energy_study;
+}
+
+}  // namespace
+
+TEST_CASE("Beams through corners and on arcs, straight at rest or as built") {
+  const std::string frame = "through = [[0, 0, 0], [0, 0, 12], [12, 0, 12]]\nparticles = 9\n";
+  const Model straight = model_of(beam(frame)), built = model_of(beam(frame + "rest = \"as_built\"\n"));
+  CHECK(straight.start.position.col(4) == Vec3(0, 0, 12));
+  CHECK(straight.bond_types[0].rest_length == 3);
+  REQUIRE(straight.angle_types.size() == 1);
+  CHECK(straight.angle_types[0].rest == pi);
+  REQUIRE(built.angle_types.size() == 2);
+  for (std::size_t a = 0; a < built.angles.size(); ++a)
+    CHECK(built.angle_types[built.angles[a].type].rest == (a == 3 ? Approx(pi / 2).epsilon(1e-15) : Approx(pi).epsilon(0).margin(0)));
+  CHECK(built.angle_types[0].stiffness == built.angle_types[1].stiffness);
+
+  // In the plane "xz" an arch from left to right rises along z; a negative rise hangs.
+  const std::string ends = "from = [-1, 0, 0]\nto = [1, 0, 0]\nparticles = 9\n";
+  CHECK(model_of(beam(ends + "rise = 0.25\n")).start.position.col(4).isApprox(Vec3(0, 0, 0.25), 1e-15));
+  CHECK(model_of(beam(ends + "rise = -0.25\n")).start.position.col(4).isApprox(Vec3(0, 0, -0.25), 1e-15));
+  CHECK(model_of(beam(ends + "rise = 0.25\nprofile = \"sine\"\n")).start.position.col(4).isApprox(Vec3(0, 0, 0.25), 1e-15));
+  CHECK(model_of(beam(ends + "angle = 180\n")).start.position.col(4).isApprox(Vec3(0, 0, 1), 1e-15));
+  CHECK(model_of(beam(ends + "angle = 180\ntoward = [5, 0, -1]\n")).start.position.col(4).isApprox(Vec3(0, 0, -1), 1e-15));
+  const Model ring = model_of(beam(ends + "angle = 180\nrest = \"as_built\"\n"));
+  REQUIRE(ring.angle_types.size() == 1);
+  CHECK(ring.angle_types[0].rest == Approx(pi * (1 - 1.0 / 8)).epsilon(1e-15));
+  const double q = ring.bond_types[0].rest_length;
+  CHECK(q == Approx(2 * std::sin(pi / 16)).epsilon(1e-15));
+  CHECK(ring.bond_types[0].stiffness == Approx(pi / (8 * q)).epsilon(1e-15));
+
+  // A clamped end is where it is said, one particle stands beyond, and the joint on it has half a bond to bend.
+  const Model rod = model_of("[[beam]]\nname = \"b\"\ndiameter = 1\naxial_stiffness = 30\nbending_stiffness = 6\n"
+                             "from = [0, 0, 0]\nto = [6, 0, 0]\nparticles = 5\nclamped = \"from\"\n" + energy_study);
+  CHECK(rod.start.position.col(0) == Vec3(-2, 0, 0));
+  CHECK(rod.start.position.col(1).isZero(0));
+  CHECK(rod.bond_types[0].rest_length == 2);
+  CHECK(rod.bond_types[0].stiffness == 7.5);
+  CHECK(rod.angle_types[rod.angles[0].type].stiffness == 6);
+  for (const int a : {1, 2}) CHECK(rod.angle_types[rod.angles[a].type].stiffness == 3);
+  const Model loop = model_of("[[loop]]\nname = \"l\"\ndiameter = 1\naxial_stiffness = 30\nbending_stiffness = 6\n"
+                              "radius = 5\nparticles = 5\nrest_length = 2\n" + energy_study);
+  CHECK(loop.bond_types[0].stiffness == 7.5);
+  CHECK(loop.angle_types[0].stiffness == 3);
+}
+
+TEST_CASE("Beams that cannot be where they should") {
+  const std::string frame = "through = [[0, 0, 0], [0, 0, 12], [8, 0, 12]]\n";
+  CHECK(said_of(beam(frame + "particles = 10\n")) ==
+        "7:13: beam.b.particles: 10 evenly along through put none on a corner; the nearest that do: 6 and 11");
+  CHECK(said_of(beam("through = [[0, 0, 0], [0, 0, 1.1], [1, 0, 1.7320508]]\nparticles = 4\n")) ==
+        "7:13: beam.b.particles: 4 evenly along through put none on a corner; no number near it does: the lengths between "
+        "corners must have a common measure");
+  CHECK(said_of(beam("from = [0, 0, 0]\nto = [0, 1, 0]\nrise = 1\nparticles = 4\n")) ==
+        "7:6: beam.b.to: is no place to which an arch leads from here; from and to must lie apart in the plane");
+  CHECK(said_of(beam("from = [0, 0, 0]\nto = [1, 0, 0]\nrise = 100\nprofile = \"sine\"\nparticles = 4\n")) ==
+        "8:8: beam.b.rise: is too high for so few particles on a sine; take more of them, or a circle");
+}

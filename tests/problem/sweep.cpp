@@ -81,7 +81,7 @@ TEST_CASE("Every run is prepared with its own settings") {
   const ScratchDirectory scratch;
   const auto runs = prepare_runs(
       scratch.file("p.toml", std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [4, 6, 1]"),
-      {{"title", "swept"}});
+      {{"title", "swept"}}).runs;
   REQUIRE(runs.size() == 3);
   for (int i = 0; i < 3; ++i) {
     CHECK(runs[i].problem.beams[0].particles == 4 + i);

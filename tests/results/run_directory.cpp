@@ -148,7 +148,7 @@ TEST_CASE("modes: a table, a shape and a state each", "[run_directory]") {
     CHECK(moved.col(4).isZero(0));
     CHECK(read_lammps_data(scratch / "run/states/mode-2.data").position == m.start.position);
     const auto& columns = run.record().path().columns;
-    CHECK(std::vector<std::string>(columns.end() - 4, columns.end()) ==
+    CHECK(std::vector<std::string>(columns.end() - 6, columns.end() - 2) ==
           std::vector<std::string>{"mid_x", "eigenvalue_1", "eigenvalue_2", "eigenvalue_3"});
     run.finish({});
     const json j = json::parse(text_of(scratch / "run/summary.json"));

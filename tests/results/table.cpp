@@ -53,12 +53,15 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
   Table path{path_columns(names), {}}, events{event_columns(names), {}};
   CHECK(path.columns == std::vector<std::string>{"step", "label", "branch", "lambda", "energy", "bond", "angle",
                                                  "contact", "wall", "cohesion", "external", "residual", "iterations",
-                                                 "negative", "stable", "mid_x", "push"});
+                                                 "negative", "stable", "mid_x", "push", "parent", "negative_rigid"});
   CHECK(events.columns == std::vector<std::string>{"label", "lambda", "multiplicity", "step", "branch", "energy",
                                                    "bond", "angle", "contact", "wall", "cohesion", "external",
-                                                   "residual", "iterations", "negative", "stable", "mid_x", "push"});
+                                                   "residual", "iterations", "negative", "stable", "mid_x", "push",
+                                                   "parent", "negative_rigid", "negative_before", "negative_after",
+                                                   "what"});
   PathPoint p = sample_point(m, 3, 0.25, "branch:1");
   p.branch = 1, p.multiplicity = 2, p.stability.negative = 5, p.stability.stable = false, p.report.iterations = 8;
+  p.parent = "limit:1", p.stability.negative_rigid = 4, p.negative_after = 6, p.what = "1 touches 2";
   path.rows.push_back(path_row(p, {0.75, -2}));
   events.rows.push_back(event_row(p, {0.75, -2}));
   const auto cell = [](const Table& t, const std::string& name) {
@@ -83,19 +86,35 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
     CHECK(cell(*t, "stable") == Cell(false));
     CHECK(cell(*t, "mid_x") == Cell(0.75));
     CHECK(cell(*t, "push") == Cell(-2.0));
+    CHECK(cell(*t, "parent") == Cell(std::string("limit:1")));
+    CHECK(cell(*t, "negative_rigid") == Cell(4));
   }
+  CHECK(cell(events, "negative_before") == Cell());            // −1: not known
+  CHECK(cell(events, "negative_after") == Cell(6));
+  CHECK(cell(events, "what") == Cell(std::string("1 touches 2")));
   CHECK(cell(events, "multiplicity") == Cell(2));
   CHECK(column_index(path.columns, "multiplicity") == -1);
 
-  const auto columns = sweep_columns({"beam.column.particles"}, names);
-  const Row row = sweep_row({14}, "done", path, events);
+  // A path in stages says of which at the very end.
+  CHECK(path_columns(names, true).back() == "stage");
+  CHECK(event_columns(names, true).back() == "stage");
+  for (const Row& r : {path_row(p, {0.75, -2}, "load"), event_row(p, {0.75, -2}, "load")}) CHECK(r.back() == Cell(std::string("load")));
+  CHECK(event_row(p, {0.75, -2}, "load").size() == event_columns(names, true).size());
+
+  Problem problem;
+  problem.observe = {observe("mid_x", "two", Quantity::position, Component::x, Reduce::mean),
+                     observe("push", "two", Quantity::reaction, Component::x, Reduce::sum)};
+  problem.events.push_back({{}, "aside", "mid_x", 1, false});
+  const auto columns = sweep_columns({"beam.column.particles"}, problem);
+  const Row row = sweep_row({14}, "done", path, events, problem);
   REQUIRE(row.size() == columns.size());
   CHECK(row[column_index(columns, "beam.column.particles")] == Cell(14));
   CHECK(row[column_index(columns, "status")] == Cell(std::string("done")));
   CHECK(row[column_index(columns, "branch:1")] == Cell(0.25));
   CHECK(row[column_index(columns, "limit:1")] == Cell());
+  CHECK(row[column_index(columns, "aside:1")] == Cell());
   CHECK(row[column_index(columns, "push")] == Cell(-2.0));
-  CHECK(sweep_row({14}, "not_converged", {path.columns, {}}, {events.columns, {}}).size() == columns.size());
+  CHECK(sweep_row({14}, "not_converged", {path.columns, {}}, {events.columns, {}}, problem).size() == columns.size());
   CHECK(is_event("limit:2"));
   CHECK(!is_event("final"));
 }

@@ -28,7 +28,7 @@ void floor(Model& m, double modulus, const Vec3& normal = Vec3::UnitZ()) {
   m.walls.push_back(w);
 }
 
-void weigh(Model& m, double g) { m.gravity.push_back({"", numbers(m.particles()), Vec3(0, 0, -g), true}); }
+void weigh(Model& m, double g) { m.gravity.push_back({"", numbers(m.particles()), Vec3(0, 0, -g), Scaling::constant()}); }
 
 // The last iterations of a run square the residual, until rounding.
 void check_quadratic(const Report& report) {
@@ -52,7 +52,7 @@ TEST_CASE("a column of grains settles from far above, in any units", "[solve][co
       x << 0, 0, 0, 0, 0, 0, 0, 0, 0.5, 3, 6, 20;
       add_grains(m, {{"grains", x * unit, std::vector<double>(4, unit), 1e-4 * modulus / unit}});
       meet(m, modulus), floor(m, modulus), weigh(m, 1);
-      m.supports.push_back({"", numbers(4), {true, true, false}, Vec3::Zero(), false});
+      m.supports.push_back({"", numbers(4), {true, true, false}, Vec3::Zero(), Scaling()});
       Energy energy(m);
       Newton newton(energy);
       State state = m.start;

@@ -67,9 +67,9 @@ TEST_CASE("Two spheres pressed together", "[solve][contact][reference]") {
     x(0, 1) = 1.5 * (r1 + r2);
     Model m = spheres(x, {r1, r2}, 1);
     meet(m, c["E_eff"]);
-    m.supports.push_back({"", {0}, {true, true, true}, Vec3::Zero(), false});
-    m.supports.push_back({"", {1}, {false, true, true}, Vec3::Zero(), false});
-    m.loads.push_back({"", {1}, Vec3(-F, 0, 0), false});
+    m.supports.push_back({"", {0}, {true, true, true}, Vec3::Zero(), Scaling()});
+    m.supports.push_back({"", {1}, {false, true, true}, Vec3::Zero(), Scaling()});
+    m.loads.push_back({"", {1}, Vec3(-F, 0, 0), Scaling()});
     Energy energy(m);
     Newton newton(energy);
     State state = m.start;
@@ -103,7 +103,7 @@ TEST_CASE("A stack of spheres on a wall", "[solve][contact][reference]") {
       for (int i = 0; i < n; ++i) upright.particles.push_back(i);
       upright.held = {true, true, false};
       m.supports.push_back(upright);
-      m.gravity.push_back({"", upright.particles, Vec3(0, 0, -number(c, "g")), true});
+      m.gravity.push_back({"", upright.particles, Vec3(0, 0, -number(c, "g")), Scaling::constant()});
       CHECK(m.mass(0) == Approx(number(c, "mass")).epsilon(8 * epsilon));
       const Rested s = rest(m);
       for (int i = 0; i < n; ++i)
@@ -132,7 +132,7 @@ TEST_CASE("A sphere in a corner of two planes", "[solve][contact][reference]") {
       const double modulus = wall_modulus(v, c["E"], c["nu"]);
       wall(m, Vec3(std::sin(left), std::cos(left), 0), modulus),
           wall(m, Vec3(-std::sin(right), std::cos(right), 0), modulus);
-      m.gravity.push_back({"", {0}, Vec3(0, -number(c, "g"), 0), true});
+      m.gravity.push_back({"", {0}, Vec3(0, -number(c, "g"), 0), Scaling::constant()});
       const Rested s = rest(m);
       CHECK(std::abs(s.state.position(0, 0) - number(known, "x")) <= 8 * epsilon * r);
       CHECK(std::abs(s.state.position(1, 0) - number(known, "y")) <= 8 * epsilon * r);
@@ -152,8 +152,8 @@ TEST_CASE("A sphere in the groove of two others", "[solve][contact][reference]")
     Model m = spheres(x, {r, r, r}, c["density"]);
     m.plane_normal = 2;
     meet(m, E / (2 * (1 - nu * nu)));
-    m.supports.push_back({"", {0, 1}, {true, true, true}, Vec3::Zero(), false});
-    m.gravity.push_back({"", {2}, Vec3(0, -number(c, "g"), 0), true});
+    m.supports.push_back({"", {0, 1}, {true, true, true}, Vec3::Zero(), Scaling()});
+    m.gravity.push_back({"", {2}, Vec3(0, -number(c, "g"), 0), Scaling::constant()});
     const Rested s = rest(m);
     CHECK(std::abs(s.state.position(0, 2)) <= 8 * epsilon * r);
     CHECK(s.state.position(1, 2) == Approx(number(c, "y")).epsilon(8 * epsilon));

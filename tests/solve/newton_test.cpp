@@ -66,7 +66,7 @@ TEST_CASE("a minimum is found from far away, at any scale", "[solve]") {
     for (const double modulus : {1.0, 1e11}) {
       Model model = chain(20, K * modulus * length, B * modulus * length * length * length, length, Vec3::UnitX());
       hold(model, 0, 1);
-      model.loads.push_back({"", {19}, Vec3(0, 0.02, -0.01) * modulus * length * length * B, false});
+      model.loads.push_back({"", {19}, Vec3(0, 0.02, -0.01) * modulus * length * length * B, Scaling()});
       Energy energy(model);
       Newton newton(energy);
       State state = model.start;
@@ -87,7 +87,7 @@ TEST_CASE("slenderness costs no iterations and no digits", "[solve]") {
     model.plane_normal = 2;
     hold(model, 0, 1);
     const double L = n + 0.5;
-    model.loads.push_back({"", {n + 1}, Vec3(0, 2 * B / (L * L), 0), false});
+    model.loads.push_back({"", {n + 1}, Vec3(0, 2 * B / (L * L), 0), Scaling()});
     Energy energy(model);
     Newton newton(energy);
     State state = model.start;
@@ -126,7 +126,7 @@ TEST_CASE("a saddle is left, a stationary point is kept", "[solve]") {
 TEST_CASE("what cannot converge says so", "[solve]") {
   Model model = chain(20, K, B, 1, Vec3::UnitX());
   hold(model, 0, 1);
-  model.loads.push_back({"", {21 - 2}, Vec3(0, 1, 0), false});
+  model.loads.push_back({"", {21 - 2}, Vec3(0, 1, 0), Scaling()});
   Energy energy(model);
   Newton newton(energy, {.tolerance = 1e-10, .max_iterations = 2});
   State state = model.start;

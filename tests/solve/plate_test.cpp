@@ -97,7 +97,7 @@ TEST_CASE("Plates under a load across them", "[solve][reference]") {
       p.hold(held, [](const Vec3&) { return Vec3::Zero(); });
       std::vector<int> loaded, supported;
       for (int i = 0; i < p.model.particles(); ++i) (held[i][2] ? supported : loaded).push_back(i);
-      p.model.loads.push_back({"", loaded, Vec3(0, 0, s["force_per_free_particle_z"]), false});
+      p.model.loads.push_back({"", loaded, Vec3(0, 0, s["force_per_free_particle_z"]), Scaling()});
       Energy energy(p.model);
       Newton newton(energy);
       State state = p.model.start;

@@ -16,8 +16,8 @@ TEST_CASE("A pinched ring", "[solve][reference]") {
     add_loops(m, {{"ring", n, Vec3::Zero(), Vec3::UnitZ(), R, q0, 1, c["E"], {c["K"], chord(R, n)}, {B, pi}}});
     m.plane_normal = 2;
     const double largest = pinch["states"].back()["approach"];
-    m.supports.push_back({"", {0}, {true, true, true}, Vec3(-largest / 2, 0, 0), false});
-    m.supports.push_back({"", {n / 2}, {true, true, true}, Vec3(largest / 2, 0, 0), false});
+    m.supports.push_back({"", {0}, {true, true, true}, Vec3(-largest / 2, 0, 0), Scaling()});
+    m.supports.push_back({"", {n / 2}, {true, true, true}, Vec3(largest / 2, 0, 0), Scaling()});
     Energy energy(m);
     Newton newton(energy);
     std::vector<double> stops;

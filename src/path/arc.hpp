@@ -1,0 +1,52 @@
+#pragma once
+// A branch as a curve in the space of positions and load factor: its direction, and steps of arc length along it.
+#include "path/equilibrium.hpp"
+
+namespace elamin {
+
+/// |(x, λ)|² = |x|²/L² + λ²/Λ², |x| the Euclidean norm over the free dofs; L [length].
+struct Metric {
+  double length = 1, load = 1;
+  double dot(const Vector& x, double l, const Vector& y, double m) const {
+    return x.dot(y) / (length * length) + l * m / (load * load);
+  }
+};
+
+/// A unit vector of the metric.
+struct Direction {
+  Vector x;                            // dofs [length]
+  double load = 0;
+};
+
+/// A length of the size of the structure: the longest side of the box around all centres at the start, but not less than
+/// the largest diameter.
+double span(const Model& model);
+
+/// The branch's direction at an equilibrium, of the two senses the one that makes an acute angle with `along`. At a limit
+/// point, where dx/dλ is without bound, it is the critical mode.
+Direction direction_of(const Equilibrium& e, const Metric& metric, const Direction& along);
+double cosine(const Direction& a, const Direction& b, const Metric& metric);
+
+/// Equilibria on hyperplanes across a branch (Keller 1977):
+///   g(x, λ) = 0,   t_x·(x − x₀)/L² + t_λ (λ − λ₀)/Λ² = s.
+class Arc {
+ public:
+  Arc(Newton& newton, const Equilibrium& from, Direction direction, Metric metric)
+      : newton_(newton), from_(from), direction_(std::move(direction)), metric_(metric) {}
+
+  /// The equilibrium at arc length s, predicted along the branch's direction at one that is near. Not converged if Newton
+  /// does not contract there, or if anything would pass through something else on the way.
+  Equilibrium at(double s, const Equilibrium& nearest) const;
+  /// s of an equilibrium, and how far the state lies from the branch's tangent at `from`, in the metric.
+  double position(const State& state) const;
+  double distance(const State& state) const;
+  const Direction& direction() const { return direction_; }
+
+ private:
+  Newton& newton_;
+  Equilibrium from_;
+  Direction direction_;
+  Metric metric_;
+};
+
+}  // namespace elamin

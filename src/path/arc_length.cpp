@@ -1,0 +1,179 @@
+#include "path/arc_length.hpp"
+
+#include "path/jump.hpp"
+#include "path/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+constexpr double least_length = 1e-6;         // of the extent
+constexpr double beyond_event = 0.1;          // of a load step: where a jump is made
+constexpr double same_point = 1e-6;           // of the structure's displacement scale: one branch point met twice
+
+double range_of(const PathOptions& o) { return o.to - o.from; }
+
+}  // namespace
+
+Metric metric_for(const Energy& energy, const Equilibrium& start, const PathOptions& options) {
+  const double load = std::abs(range_of(options));
+  const double least = least_length * span(energy.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy.model().particles())));
+  return {std::max(load * start.tangent.norm(), least), load};
+}
+
+WalkOptions walk_options(const PathOptions& o) {
+  const double low = o.lowest.value_or(o.to > o.from ? o.from - 2 * range_of(o) : o.to);
+  const double high = o.highest.value_or(o.to > o.from ? o.to : o.from - 2 * range_of(o));
+  WalkOptions w;
+  w.load_step = std::abs(range_of(o)) / o.steps;
+  w.turn = std::clamp(5.0 / o.steps, 1e-3, 0.2);
+  w.contacts = o.contacts;
+  w.stops = o.stops;
+  for (const double end : {low, high, o.to}) w.stops.push_back(end);
+  std::sort(w.stops.begin(), w.stops.end());
+  w.stops.erase(std::unique(w.stops.begin(), w.stops.end()), w.stops.end());
+  w.watches = o.watches;
+  return w;
+}
+
+ArcLength::ArcLength(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
+    : Path(numbering), newton_(newton), options_(std::move(options)), start_(start) {}
+
+ArcLength::ArcLength(Newton& newton, SideBranch side, std::string parent, const std::vector<Event>& known, Metric metric,
+                     PathOptions options, Numbering* numbering)
+    : Path(numbering), newton_(newton), options_(std::move(options)), side_(std::move(side)), known_(known), metric_(metric) {
+  parent_ = std::move(parent);
+}
+
+void ArcLength::begin() {
+  if (side_) {
+    branch_ = ++this->numbering().branches;
+    emit(side_->first.point);
+    set_out(side_->first, side_->direction, side_->first.point.stability.negative);
+    return;
+  }
+  std::string sentence;
+  const double at = options_.start.value_or(options_.from);
+  Equilibrium e = first_equilibrium(newton_, start_, at, options_.when_unstable, sentence);
+  if (!sentence.empty()) note(sentence);
+  if (!e.point.report.converged()) return end(e.point.report.status, e.point.report.why);
+  metric_ = metric_for(newton_.energy(), e, options_);
+  note(fmt::format("arc length: |(x, λ)|² = |x|²/L² + λ²/Λ², |x| over all free coordinates, Λ = {:.4g}, L = {:.4g} and further on the least "
+                   "Λ |dx/dλ| of the branch so far", metric_.load, metric_.length));
+  e.point.label = "initial";
+  emit(e.point);
+  e.point.label.clear();
+  if (e.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop)
+    return end(Status::converged, "the starting state is unstable");
+  Direction towards{Vector::Zero(e.tangent.size()), range_of(options_) > 0 ? metric_.load : -metric_.load};
+  set_out(e, direction_of(e, metric_, towards), e.point.stability.negative);
+}
+
+void ArcLength::set_out(const Equilibrium& from, const Direction& direction, int negative) {
+  WalkOptions w = walk_options(options_);
+  walk_.emplace(newton_, from, direction, negative, closed_contacts(newton_.energy(), from.point.state), metric_, std::move(w));
+  first_ = from, first_direction_ = direction, left_ = false;
+}
+
+void ArcLength::advance() {
+  if (!walk_) return begin();
+  const int most = options_.most_points > 0 ? options_.most_points : 20 * options_.steps;
+  if (++points_ > most)
+    return end(Status::converged, fmt::format("stopped after {} points of one branch (path.points), at load factor {:.10g}", most,
+                                              walk_->at().point.state.load_factor));
+  std::optional<Waypoint> waypoint = walk_->next();
+  if (!waypoint) return end(walk_->status(), walk_->why());
+  show(std::move(*waypoint));
+}
+
+void ArcLength::show(Waypoint waypoint) {
+  const double load = waypoint.at.point.state.load_factor;
+  if (waypoint.event) {
+    Event& event = *waypoint.event;
+    const bool located = event.kind == EventKind::limit ? options_.limits : event.kind == EventKind::branch ? options_.branch_points : true;
+    if (event.kind == EventKind::branch && meets_known(waypoint)) return;
+    if (located) emit(event);
+    else emit(waypoint.at.point);
+    if (event.kind == EventKind::watch && options_.watches[event.watch].stop)
+      return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, load));
+    if ((event.kind == EventKind::limit || event.kind == EventKind::branch) && event.before == 0 && event.after > 0) lose_stability(event);
+    return;
+  }
+  emit(waypoint.at.point);
+  if (waypoint.stop) {
+    const double stop = *waypoint.stop;
+    const std::vector<double> inner = options_.stops;
+    if (stop == options_.to) return end(Status::converged, fmt::format("load factor {:.10g} reached", stop));
+    if (std::find(inner.begin(), inner.end(), stop) == inner.end())
+      return end(Status::converged, fmt::format("the branch leaves the range of load factors at {:.10g}", stop));
+  }
+  if (closes_loop(waypoint)) end(Status::converged, fmt::format("the branch closes to a loop at load factor {:.10g}", load));
+}
+
+// The end, or a fall to another branch, if that is what the path does.
+bool ArcLength::lose_stability(Event& event) {
+  const double at = event.at.point.state.load_factor;
+  if (options_.when_unstable == WhenUnstable::follow) return true;
+  if (options_.when_unstable == WhenUnstable::stop) {
+    end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", event.at.point.label, at));
+    return false;
+  }
+  std::string what;
+  Equilibrium landed = jump_from(newton_, event, at + beyond_event * range_of(options_) / options_.steps, what);
+  note(fmt::format("jump at {}: {}", event.at.point.label, what));
+  if (!landed.point.report.converged()) {
+    end(landed.point.report.status, landed.point.report.why);
+    return false;
+  }
+  parent_ = event.at.point.label;
+  branch_ = ++numbering().branches;
+  landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
+  landed.point.what = what;
+  landed.point.negative_before = event.before, landed.point.negative_after = landed.point.stability.negative;
+  emit(landed.point);
+  landed.point.label.clear();
+  const Direction towards{Vector::Zero(landed.tangent.size()), range_of(options_) > 0 ? metric_.load : -metric_.load};
+  set_out(landed, direction_of(landed, metric_, towards), landed.point.stability.negative);
+  return true;
+}
+
+// Whether this is a branch point that the diagram has already: then the branch ends there.
+bool ArcLength::meets_known(const Waypoint& waypoint) {
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const State& state = waypoint.at.point.state;
+  const Metric& metric = walk_->metric();
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    const State& other = known_[k].at.point.state;
+    const Vector apart = kinematics.restrict(displacement(other, state));
+    const double load = state.load_factor - other.load_factor;
+    const Vector travelled = kinematics.restrict(displacement(first_.point.state, state));
+    const double way = std::sqrt(metric.dot(travelled, 0, travelled, 0)) + std::abs(state.load_factor - first_.point.state.load_factor) / metric.load;
+    if (std::sqrt(metric.dot(apart, load, apart, load)) > same_point * way) continue;
+    emit(waypoint.at.point);
+    arrived_at_ = static_cast<int>(k);
+    arrival_ = waypoint.event->arrival ? Vector(-walk_->direction().x.normalized()) : Vector(Vector::Zero(apart.size()));
+    end(Status::converged, fmt::format("the branch arrives at {}, load factor {:.10g}", known_[k].at.point.label, state.load_factor));
+    return true;
+  }
+  return false;
+}
+
+// Whether the last step passed the point where the branch began, in the same direction, after it had left it.
+bool ArcLength::closes_loop(const Waypoint& waypoint) {
+  const Metric& metric = walk_->metric();
+  const Arc arc(newton_, waypoint.at, walk_->direction(), metric);
+  const double s = arc.position(first_.point.state), away = arc.distance(first_.point.state), step = walk_->step();
+  if (!left_) {
+    left_ = std::hypot(s, away) > 8 * step;
+    return false;
+  }
+  return s <= 0 && s > -step && away < 0.25 * step &&
+         cosine(walk_->direction(), first_direction_, metric) > 0.5 * std::sqrt(cosine(first_direction_, first_direction_, metric));
+}
+
+}  // namespace elamin

@@ -1,0 +1,120 @@
+#include "path/arc_length.hpp"
+#include "path/deflation.hpp"
+#include "path/load_steps.hpp"
+#include "path/path.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+namespace elamin {
+
+namespace {
+
+/// The first branch, then those that leave its branch points, then those that leave theirs, until so many branch points as
+/// asked for have been switched at; then the equilibria that deflation finds.
+class Diagram final : public Path {
+ public:
+  Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options), start_(start) {
+    if (options.method == PathMethod::arc_length) now_ = std::make_unique<ArcLength>(newton, start, options, &numbering());
+    else now_ = std::make_unique<LoadSteps>(newton, start, options, &numbering());
+  }
+
+ protected:
+  void advance() override {
+    if (std::optional<PathPoint> point = now_->next()) {
+      if (options_.deflate > 0) points_.push_back(point->state);
+      pass_notes();
+      return take(std::move(*point));
+    }
+    pass_notes();
+    finish_branch();
+    if (worst_ == Status::interrupted) return end(worst_, why_);
+    if (waiting_.empty()) switch_branches();
+    if (waiting_.empty()) return look_for_others();
+    next_branch();
+  }
+
+ private:
+  struct Waiting {
+    std::size_t point;                   // which branch point
+    SideBranch side;
+  };
+
+  void pass_notes() {
+    for (std::string& sentence : now_->notes()) note(std::move(sentence));
+  }
+
+  // How the branch that has just ended bears on the whole.
+  void finish_branch() {
+    if (done_) return;
+    if (why_.empty()) why_ = now_->why();
+    else note(fmt::format("branch {}: {}", numbering().branches, now_->why()));
+    if (now_->status() != Status::converged && worst_ == Status::converged) worst_ = now_->status(), why_ = now_->why();
+    if (const auto* arc = dynamic_cast<const ArcLength*>(now_.get()); arc && arc->arrived_at() >= 0)
+      arrivals_.push_back({static_cast<std::size_t>(arc->arrived_at()), arc->arrival()});
+    for (const Event& e : now_->branch_points()) known_.push_back(e);
+    done_ = true;
+  }
+
+  // The side branches of the next branch point in order.
+  void switch_branches() {
+    while (waiting_.empty() && switched_ < known_.size() && static_cast<int>(switched_) < options_.branches) {
+      const Event& event = known_[switched_];
+      newton_.energy().evaluate(event.at.point.state);
+      metric_ = metric_for(newton_.energy(), event.at, options_);
+      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_);
+      if (sides.empty()) note(fmt::format("{}: no side branch was found", event.at.point.label));
+      for (const SideBranch& side : sides) waiting_.push_back({switched_, side});
+      ++switched_;
+    }
+  }
+
+  void next_branch() {
+    Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    const std::string& label = known_[next.point].at.point.label;
+    for (const auto& [point, along] : arrivals_)
+      if (point == next.point && along.size() > 0 && along.dot(next.side.leaving.normalized()) > 0.9)
+        return note(fmt::format("{}: one of its side branches has arrived there already", label));
+    PathOptions side_options = options_;
+    side_options.when_unstable = WhenUnstable::follow;
+    now_ = std::make_unique<ArcLength>(newton_, std::move(next.side), label, known_, metric_, side_options, &numbering());
+    done_ = false;
+  }
+
+  void look_for_others() {
+    if (options_.deflate == 0 || deflated_) return end(worst_, why_);
+    deflated_ = true;
+    std::vector<std::string> sentences;
+    parent_.clear();
+    for (PathPoint& point : deflate(newton_, points_, options_, sentences)) {
+      branch_ = ++numbering().branches;
+      emit(std::move(point));
+    }
+    for (std::string& sentence : sentences) note(std::move(sentence));
+  }
+
+  Newton& newton_;
+  PathOptions options_;
+  State start_;
+  Metric metric_;
+  std::unique_ptr<Path> now_;
+  bool done_ = false, deflated_ = false;
+  std::vector<Event> known_;             // branch points of all branches so far, in order
+  std::size_t switched_ = 0;             // of these have been switched at
+  std::deque<Waiting> waiting_;
+  std::vector<std::pair<std::size_t, Vector>> arrivals_;
+  std::vector<State> points_;
+  Status worst_ = Status::converged;
+  std::string why_;
+};
+
+}  // namespace
+
+std::unique_ptr<Path> make_path(Newton& newton, const State& start, const PathOptions& options) {
+  return std::make_unique<Diagram>(newton, start, options);
+}
+
+}  // namespace elamin

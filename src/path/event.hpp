@@ -1,0 +1,21 @@
+#pragma once
+// Something that happens between two equilibria of a branch, located.
+#include "path/contact_event.hpp"
+
+namespace elamin {
+
+/// limit, branch: the equilibrium at which the Hessian is singular, with its critical modes. contact: a gap that vanishes.
+/// watch: an observable at its value.
+struct Event {
+  EventKind kind = EventKind::branch;
+  double at_parameter = 0;             // of the segment that it was found on
+  Equilibrium at;                      // its tangent: along the branch, without the critical modes of a branch point
+  Eigen::MatrixXd modes;               // dofs × multiplicity
+  int before = 0, after = 0;           // Morse index on both sides
+  bool arrival = false;                // a branch point reached along a side branch: an eigenvalue touches zero
+  ContactSet closed;                   // contact: what is closed beyond
+  std::string what;
+  int watch = -1;                      // which of the options' watches
+};
+
+}  // namespace elamin

@@ -1,0 +1,32 @@
+#include "path/jump.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin {
+
+Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what) {
+  Energy& energy = newton.energy();
+  const double at = event.at.point.state.load_factor;
+  State state = event.at.point.state;
+  energy.kinematics().prescribe(state, past);
+  State from = state;
+  if (event.kind == EventKind::branch) {
+    energy.kinematics().retract(state, event.at.tangent, past - at);
+    const Report report = newton.correct(state, event.modes, &event.at.point.state);   // the unstable equilibrium beyond
+    from = state;
+    if (report.converged()) newton.leave_saddle(state, event.modes.col(0));
+  }
+  energy.evaluate(from);
+  const double before = energy.last_terms().total();
+  Report report = newton.minimise(state, Pace::downhill);
+  if (report.status == Status::not_converged) report = newton.minimise(state);
+  what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
+  if (report.converged()) return assess(newton, state, report);
+  Equilibrium failed;
+  failed.point.state = state;
+  report.why = fmt::format("no minimum was found after {} at load factor {:.10g}: {}", event.at.point.label, at, report.why);
+  failed.point.report = report;
+  return failed;
+}
+
+}  // namespace elamin

@@ -1,0 +1,41 @@
+#include "path/path.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin {
+
+std::optional<PathPoint> Path::next() {
+  while (ready_.empty() && !ended_) advance();
+  if (ready_.empty()) return {};
+  PathPoint point = std::move(ready_.front());
+  ready_.pop_front();
+  return point;
+}
+
+void Path::end(Status status, std::string why) { ended_ = true, status_ = status, why_ = std::move(why); }
+
+void Path::emit(PathPoint point) {
+  point.step = numbering_.steps++;
+  point.branch = branch_;
+  point.parent = parent_;
+  ready_.push_back(std::move(point));
+}
+
+void Path::emit(Event& event) {
+  PathPoint& point = event.at.point;
+  switch (event.kind) {
+    case EventKind::limit: point.label = fmt::format("limit:{}", ++numbering_.limits); break;
+    case EventKind::branch: point.label = fmt::format("branch:{}", ++numbering_.branch_points); break;
+    case EventKind::contact: point.label = fmt::format("contact:{}", ++numbering_.contacts); break;
+    case EventKind::watch: point.label = fmt::format("{}:{}", event.what, ++numbering_.watches[event.what]); break;
+  }
+  point.multiplicity = static_cast<int>(event.modes.cols());
+  point.negative_before = event.before, point.negative_after = event.after;
+  point.modes = event.modes;
+  if (event.kind == EventKind::contact) point.what = event.what;
+  if (event.arrival) point.what = "reached along a side branch";
+  if (event.kind == EventKind::branch) branch_points_.push_back(event);
+  emit(point);
+}
+
+}  // namespace elamin

@@ -1,0 +1,28 @@
+#include "path/start.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin {
+
+Equilibrium first_equilibrium(Newton& newton, const State& start, double load_factor, WhenUnstable when_unstable, std::string& note) {
+  State state = start;
+  newton.energy().kinematics().prescribe(state, load_factor);
+  const State given = state;
+  Report report = newton.correct(state);
+  if (report.converged()) {
+    Equilibrium e = assess(newton, state, report);
+    if (e.point.stability.negative == 0 || when_unstable != WhenUnstable::jump) return e;
+    note = fmt::format("the starting state is unstable ({} negative eigenvalues); it falls to a minimum", e.point.stability.negative);
+  } else {
+    state = given;
+  }
+  report = newton.minimise(state);
+  if (report.converged()) return assess(newton, state, report);
+  Equilibrium failed;
+  failed.point.state = state;
+  report.why = fmt::format("no equilibrium at the start, load factor {:.10g}: {}", load_factor, report.why);
+  failed.point.report = report;
+  return failed;
+}
+
+}  // namespace elamin

@@ -1,0 +1,121 @@
+#include "core/interrupt.hpp"
+#include "core/timing.hpp"
+#include "results/columns.hpp"
+#include "results/summary.hpp"
+#include "results/text_file.hpp"
+#include "study/single.hpp"
+#include "study/sweep.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace elamin {
+
+namespace {
+
+/// On which side of the level the observable of a run is, or that it has none.
+enum class Side { below, above, missing };
+const char* name_of(Side side) {
+  return side == Side::below ? "below" : side == Side::above ? "above" : "missing";
+}
+
+/// The runs of a bisection, each made once.
+class Halving {
+ public:
+  Halving(const PreparedRuns& prepared, const RunOptions& options)
+      : b_(*prepared.bisection), first_(prepared.runs.front()), options_(options) {}
+
+  Side run(const PreparedRun& prepared, double value) {
+    const std::string name = run_name(++count_, 10, prepared.swept);
+    const SingleResult r = run_single(prepared.problem, prepared.model, options_.directory + "/" + name, Progress::Style::silent);
+    rows_[value] = sweep_row(swept_values(prepared), status_name(r.status), r.path, r.events, first_.problem);
+    status_ = std::max(status_, exit_status(r));
+    verdicts_.insert(verdicts_.end(), r.verdicts.begin(), r.verdicts.end());
+    write_table();
+    // Where a run did not get to its end, its last row is not how it ends.
+    std::string why = r.why;
+    const bool ended = b_.at != "final" || r.status == Status::converged;
+    const auto observed = ended ? value_at(b_.observable, b_.at, {&r.path, &r.events}, why) : std::nullopt;
+    const Side outcome = !observed ? Side::missing : *observed > b_.level ? Side::above : Side::below;
+    if (!options_.quiet)
+      fmt::print("run {}: {}: {} at {} {}\n", count_, name, b_.observable, b_.at,
+                 observed ? fmt::format("is {:.10g}, {} {:.10g}", *observed, name_of(outcome), b_.level) : "is missing: " + why);
+    return outcome;
+  }
+  Side run(double value) { return run(prepare_run(options_.file, options_.settings, b_.settings(value)), value); }
+
+  int count() const { return count_; }
+  int status() const { return status_; }
+  std::vector<Verdict>& verdicts() { return verdicts_; }
+
+ private:
+  // All rows anew: they stand in the order of the key.
+  void write_table() const {
+    CsvFile table(options_.directory + "/sweep.csv", sweep_columns(swept_keys(first_), first_.problem));
+    for (const auto& [value, row] : rows_) table.add(row);
+  }
+
+  const Bisection& b_;
+  const PreparedRun& first_;
+  const RunOptions& options_;
+  int count_ = 0, status_ = exit_done;
+  std::map<double, Row> rows_;
+  std::vector<Verdict> verdicts_;
+};
+
+}  // namespace
+
+RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options) {
+  const Stopwatch watch;
+  std::filesystem::create_directories(options.directory);
+  Bisection b = *prepared.bisection;
+  Halving runs(prepared, options);
+  const Side at_lo = runs.run(prepared.runs[0], b.lo);
+  Side at_hi = interrupted() ? at_lo : runs.run(prepared.runs[1], b.hi);
+  const bool changes = at_lo != at_hi;
+  while (changes && !b.narrow() && !interrupted()) {
+    const double middle = b.middle();
+    const Side here = runs.run(middle);
+    if (interrupted()) break;
+    if (here == at_lo) b.lo = middle;
+    else b.hi = middle, at_hi = here;
+  }
+
+  RunResult result{interrupted() ? exit_interrupted : std::max<int>(runs.status(), changes ? exit_done : exit_not_converged),
+                   options.directory, std::move(runs.verdicts())};
+  std::optional<std::array<double, 2>> threshold;
+  if (changes) threshold = {std::min(b.lo, b.hi), std::max(b.lo, b.hi)};
+  for (const ExpectTable& e : prepared.runs.front().together)
+    result.verdicts.push_back(check_threshold(prepared.runs.front().problem, e, threshold));
+
+  const std::string keys = fmt::format("{}", fmt::join(b.keys, ", "));
+  const std::string message =
+      interrupted() ? "interrupted"
+      : changes     ? fmt::format("{} at {} passes {:.10g} for {} between {:.17g} ({}) and {:.17g} ({})", b.observable, b.at, b.level,
+                                  keys, b.lo, name_of(at_lo), b.hi, name_of(at_hi))
+                    : fmt::format("{} at {} is {} at both ends, {} = {:.10g} and {:.10g}; there is no threshold to find between",
+                                  b.observable, b.at, name_of(at_lo), keys, b.lo, b.hi);
+  nlohmann::ordered_json all;
+  all["status"] = interrupted() ? "interrupted" : changes ? "done" : "not_converged";
+  all["message"] = message;
+  all["key"] = b.keys, all["observable"] = b.observable, all["at"] = b.at, all["level"] = b.level;
+  all["tolerance"] = b.tolerance;
+  all["threshold"] = nullptr;
+  if (threshold) all["threshold"] = *threshold;
+  all["outcomes"] = b.lo < b.hi ? std::array{name_of(at_lo), name_of(at_hi)} : std::array{name_of(at_hi), name_of(at_lo)};
+  all["runs"] = runs.count();
+  all["times"] = {{"total", watch.seconds()}};
+  all["version"] = version();
+  all["input"] = options.file, all["input_sha256"] = prepared.runs.front().problem.sha256;
+  write_text(options.directory + "/summary.json", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (!options.quiet)
+    fmt::print("{}\n{} runs in {:.2f} s\nwritten: {}/sweep.csv\n", message, runs.count(), watch.seconds(), options.directory);
+  else if (!changes) fmt::print(stderr, "{}\n", message);
+  return result;
+}
+
+}  // namespace elamin

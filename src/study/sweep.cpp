@@ -1,0 +1,99 @@
+#include "study/sweep.hpp"
+
+#include "core/interrupt.hpp"
+#include "core/parallel.hpp"
+#include "core/timing.hpp"
+#include "results/columns.hpp"
+#include "results/summary.hpp"
+#include "results/sweep_table.hpp"
+#include "study/single.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+namespace elamin {
+
+std::string run_name(std::size_t number, std::size_t runs, const std::vector<Setting>& swept) {
+  constexpr std::size_t longest = 120;
+  std::string name = fmt::format("{:0{}}", number, fmt::formatted_size("{}", runs));
+  for (const Setting& s : swept) {
+    if (s.key.starts_with("expect")) continue;
+    std::string part = "_" + s.key.substr(s.key.rfind('.') + 1) + "=";
+    for (const char c : s.value) part += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' ? c : '_';
+    if (name.size() + part.size() > longest) break;        // the number tells the runs apart anyway
+    name += part;
+  }
+  return name;
+}
+
+std::vector<std::string> swept_keys(const PreparedRun& run) {
+  std::vector<std::string> keys;
+  for (const Setting& s : run.swept) keys.push_back(s.key);
+  return keys;
+}
+
+std::vector<Cell> swept_values(const PreparedRun& run) {
+  std::vector<Cell> values;
+  for (const Setting& s : run.swept) {
+    char* end = nullptr;
+    const double number = std::strtod(s.value.c_str(), &end);
+    values.push_back(end && *end == 0 && !s.value.empty() ? Cell(number) : Cell(s.value));
+  }
+  return values;
+}
+
+RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
+  const Stopwatch watch;
+  const std::vector<PreparedRun>& runs = prepared.runs;
+  const Problem& first = runs.front().problem;
+  std::filesystem::create_directories(options.directory);
+  SweepTable table(options.directory + "/sweep.csv", sweep_columns(swept_keys(runs.front()), first));
+
+  std::vector<SingleResult> results(runs.size());
+  std::vector<std::exception_ptr> failures(runs.size());
+  std::atomic<std::size_t> next{0}, finished{0};
+  std::mutex printing;
+  const auto work = [&] {
+    set_threads(1);
+    for (std::size_t k; (k = next++) < runs.size() && !interrupted();) {
+      const std::string name = run_name(k + 1, runs.size(), runs[k].swept);
+      try {
+        results[k] = run_single(runs[k].problem, runs[k].model, options.directory + "/" + name, Progress::Style::silent);
+        table.add(static_cast<int>(k), sweep_row(swept_values(runs[k]), status_name(results[k].status), results[k].path,
+                                                 results[k].events, first));
+      } catch (...) {
+        failures[k] = std::current_exception();
+      }
+      const std::lock_guard lock(printing);
+      ++finished;
+      if (!options.quiet) fmt::print("run {} of {}: {}: {}\n", finished.load(), runs.size(), name, results[k].why);
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int t = 1; t < std::min<int>(options.threads, static_cast<int>(runs.size())); ++t) workers.emplace_back(work);
+  work();
+  for (std::thread& w : workers) w.join();
+  set_threads(options.threads);
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+
+  RunResult result{interrupted() ? exit_interrupted : exit_done, options.directory, {}};
+  std::vector<RunTables> tables;
+  for (const SingleResult& r : results) {
+    result.exit_status = std::max(result.exit_status, exit_status(r));
+    result.verdicts.insert(result.verdicts.end(), r.verdicts.begin(), r.verdicts.end());
+    tables.push_back({&r.path, &r.events});
+  }
+  if (finished == runs.size())
+    for (const ExpectTable& e : runs.front().together) result.verdicts.push_back(check_extrapolated(first, e, tables));
+  if (!options.quiet)
+    fmt::print("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", finished.load(), runs.size(), watch.seconds(), options.directory);
+  return result;
+}
+
+}  // namespace elamin

@@ -1,0 +1,132 @@
+#include "study/trace_path.hpp"
+
+#include "path/path.hpp"
+#include "problem/check.hpp"
+#include "problem/stages.hpp"
+#include "study/observed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+namespace elamin {
+
+namespace {
+
+// Load factors that the file names, and those that its expectations are about.
+std::vector<double> stops_of(const Problem& problem) {
+  std::vector<double> stops = problem.path.stops.value_or(std::vector<double>{});
+  for (const ExpectTable& e : problem.expect)
+    if (const auto lambda = load_factor_of(e.at)) stops.push_back(*lambda);
+  return stops;
+}
+
+PathOptions options_of(const Problem& problem, const PathTable& t, const Model& model) {
+  const auto locates = [&](const char* kind) { return std::find(t.locate.begin(), t.locate.end(), kind) != t.locate.end(); };
+  return {.method = t.method, .from = t.from, .to = t.to, .steps = t.steps,
+          .when_unstable = t.when_unstable.value_or(WhenUnstable::jump), .start = t.start_lambda,
+          .stops = stops_of(problem), .limits = locates("limit"), .branch_points = locates("branch"),
+          .contacts = locates("contact"), .branches = t.branches, .lowest = t.lowest, .highest = t.highest,
+          .most_points = t.points.value_or(0), .watches = watches(problem, model), .deflate = t.deflate,
+          .deflate_at = t.deflate_at.value_or(std::vector<double>{})};
+}
+
+// One stage at work.
+struct Run {
+  Run(const Problem& problem, Stage in_force, Model in_stage, const State& start)
+      : stage(std::move(in_force)), model(std::move(in_stage)), energy(model), newton(energy, solver_options(problem)),
+        path(make_path(newton, start, options_of(problem, stage.path, model))) {}
+  Stage stage;
+  Model model;
+  Energy energy;
+  Newton newton;
+  std::unique_ptr<Path> path;
+};
+
+// Numbers of steps, branches and labels that go on from stage to stage.
+class Numbers {
+ public:
+  // The point of a stage as it counts among all.
+  PathPoint among_all(PathPoint point) {
+    point.step += steps_;
+    if (point.branch == 0 && point.parent.empty()) point.parent = parent_;
+    else point.parent = renumbered(point.parent);
+    point.branch += branches_;
+    point.label = renumbered(point.label);
+    last_ = point;
+    count(point.label);
+    return point;
+  }
+  // The stage has ended.
+  void next_stage() {
+    steps_ = last_.step + 1, branches_ = last_.branch, parent_ = last_.parent;
+    before_ = so_far_;
+  }
+
+ private:
+  // "limit:1" of a stage behind one that had two of them is "limit:3".
+  std::string renumbered(const std::string& label) const {
+    const auto [kind, number] = parts(label);
+    const auto found = before_.find(kind);
+    return number == 0 || found == before_.end() ? label : fmt::format("{}:{}", kind, number + found->second);
+  }
+  void count(const std::string& label) {
+    if (const auto [kind, number] = parts(label); number > 0) so_far_[kind] = std::max(so_far_[kind], number);
+  }
+  static std::pair<std::string, int> parts(const std::string& label) {
+    const std::size_t colon = label.find(':');
+    if (colon == std::string::npos) return {label, 0};
+    return {label.substr(0, colon), std::atoi(label.c_str() + colon + 1)};
+  }
+
+  int steps_ = 0, branches_ = 0;
+  std::string parent_;
+  std::map<std::string, int> before_, so_far_;
+  PathPoint last_;
+};
+
+}  // namespace
+
+Outcome trace_path(const Problem& problem, const Model& model, const Sink& sink) {
+  Stages stages(problem);
+  int k = 0;
+  if (!problem.path.start.empty())
+    if (const auto stored = read_tail(problem.path.start); stored && stored->stage && stages.resume(*stored->stage)) k = stages.next();
+  const int first = k;
+  Numbers numbers;
+  Model all = model;                                   // with everything in force
+  std::unique_ptr<Run> run, before;
+  std::optional<PathPoint> held;                       // the last point is known only when there is no next one
+  Outcome outcome;
+  for (; k < stages.count(); ++k) {
+    const State start = held ? held->state : model.restart.value_or(model.start);
+    std::string unclear;
+    Stage stage = stages.enter(unclear);
+    Model in_stage = model_in(stage, all, start);
+    before = std::move(run);
+    run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start);
+    bool begun = false;
+    while (std::optional<PathPoint> point = run->path->next()) {
+      if (held) {
+        if (!begun && held->label.empty()) held->label = before->stage.name;
+        sink.point(*held, false);
+      }
+      if (!begun) sink.stage(run->stage, run->energy);
+      if (!begun && k > first) point->label.clear();       // "initial" is the first of all
+      begun = true;
+      held = numbers.among_all(std::move(*point));
+      for (const std::string& note : run->path->notes()) sink.note(note);
+    }
+    outcome = {run->path->status(), run->path->why()};
+    if (!run->stage.name.empty()) outcome.why = run->stage.name + ": " + outcome.why;
+    if (!begun) run = std::move(before);               // the last point belongs to the stage before
+    if (outcome.status != Status::converged || !begun) break;
+    stages.leave(held->state.load_factor), numbers.next_stage();
+  }
+  if (held) sink.point(*held, true);
+  return outcome;
+}
+
+}  // namespace elamin
