@@ -7,7 +7,8 @@ namespace elamin {
 
 namespace {
 
-constexpr std::int64_t grain = 5000;
+constexpr std::int64_t grain = 5000;               // elements and sites a thread
+constexpr std::int64_t grain_of_entries = 50'000;  // entries of the Hessian, each a few additions
 
 // Both dofs of an entry of an element's Hessian, the larger first.
 struct Entry { int row, column; };
@@ -176,7 +177,7 @@ void Assembler::gather(const std::vector<double>& buffer, Field& g) const {
 
 void Assembler::sum_hessian() {
   double* value = hessian_.valuePtr();
-  parallel_for(hessian_.nonZeros(), grain, [&](std::int64_t i) {
+  parallel_for(hessian_.nonZeros(), grain_of_entries, [&](std::int64_t i) {
     double sum = 0;
     for (std::int64_t k = nonzero_gather_.start[i]; k < nonzero_gather_.start[i + 1]; ++k)
       sum += hessians_[nonzero_gather_.index[k]];

@@ -18,8 +18,10 @@ std::string name_of(const Model& model, int particle) {
 
 }  // namespace
 
-double distortion(const Energy& energy, const State& state, const Vector& step) {
-  const Field s = energy.kinematics().extend(step);
+double distortion(const Energy& energy, const State& state, const Vector& step, double load_change) {
+  Field s = energy.kinematics().extend(step);
+  if (load_change != 0 && energy.kinematics().driven())
+    for (Eigen::Index p = 0; p < s.cols(); ++p) s.col(p) += load_change * energy.kinematics().drive(static_cast<int>(p));
   double largest = 0;
   for (const Bond& b : energy.model().bonds) {
     const auto [i, j] = b.particles;

@@ -4,8 +4,9 @@
 
 namespace elamin {
 
-/// Largest |s_j − s_i|/|x_j − x_i| over the bonds: how much a step (dofs) turns or stretches what is glued.
-double distortion(const Energy& energy, const State& state, const Vector& step);
+/// Largest |s_j − s_i|/|x_j − x_i| over the bonds: how much a step (dofs) turns or stretches what is glued; what is driven
+/// moves with a change of the load factor.
+double distortion(const Energy& energy, const State& state, const Vector& step, double load_change = 0);
 
 /// Largest movement of a particle in its own diameters.
 double movement(const Energy& energy, const Vector& step);

@@ -54,7 +54,8 @@ void ArcLength::begin() {
   if (side_) {
     branch_ = ++this->numbering().branches;
     emit(side_->first.point);
-    set_out(side_->first, side_->direction, side_->first.point.stability.negative);
+    set_out(side_->first, side_->direction, side_->first.point.stability.negative,
+            closed_contacts(newton_.energy(), side_->first.point.state));
     return;
   }
   std::string sentence;
@@ -70,13 +71,24 @@ void ArcLength::begin() {
   e.point.label.clear();
   if (e.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop)
     return end(Status::converged, "the starting state is unstable");
+  if (options_.resume && options_.resume->direction.size() == e.tangent.size()) return take_up(std::move(e), *options_.resume);
   Direction towards{Vector::Zero(e.tangent.size()), range_of(options_) > 0 ? metric_.load : -metric_.load};
-  set_out(e, direction_of(e, metric_, towards), e.point.stability.negative);
+  set_out(e, direction_of(e, metric_, towards), e.point.stability.negative, closed_contacts(newton_.energy(), e.point.state));
 }
 
-void ArcLength::set_out(const Equilibrium& from, const Direction& direction, int negative) {
+void ArcLength::take_up(Equilibrium at, const Resume& resume) {
+  if (std::optional<Event> event = resumed_event(resume, at)) at = std::move(event->at);
+  at.point.label.clear();
+  at.point.stability.critical = 0;
+  metric_.length = resume.length;
+  set_out(at, {resume.direction, resume.load}, resume.after >= 0 ? resume.after : at.point.stability.negative, resumed_contacts(resume),
+          resume.step, resume.shortest);
+}
+
+void ArcLength::set_out(const Equilibrium& from, const Direction& direction, int negative, ContactSet closed, double step, double shortest) {
   WalkOptions w = walk_options(options_);
-  walk_.emplace(newton_, from, direction, negative, closed_contacts(newton_.energy(), from.point.state), metric_, std::move(w));
+  w.step = step, w.shortest = shortest;
+  walk_.emplace(newton_, from, direction, negative, std::move(closed), metric_, std::move(w));
   first_ = from, first_direction_ = direction, left_ = false;
 }
 
@@ -93,8 +105,10 @@ void ArcLength::advance() {
 
 void ArcLength::show(Waypoint waypoint) {
   const double load = waypoint.at.point.state.load_factor;
+  waypoint.at.point.resume = resume_here(waypoint);
   if (waypoint.event) {
     Event& event = *waypoint.event;
+    event.at.point.resume = waypoint.at.point.resume;
     const bool located = event.kind == EventKind::limit ? options_.limits : event.kind == EventKind::branch ? options_.branch_points : true;
     if (event.kind == EventKind::branch && meets_known(waypoint)) return;
     if (located) emit(event);
@@ -113,6 +127,16 @@ void ArcLength::show(Waypoint waypoint) {
       return end(Status::converged, fmt::format("the branch leaves the range of load factors at {:.10g}", stop));
   }
   if (closes_loop(waypoint)) end(Status::converged, fmt::format("the branch closes to a loop at load factor {:.10g}", load));
+}
+
+Resume ArcLength::resume_here(const Waypoint& waypoint) const {
+  Resume r = waypoint.event ? resume_of(*waypoint.event, walk_->closed()) : Resume{};
+  r.tangent = waypoint.at.tangent;
+  r.direction = walk_->direction().x, r.load = walk_->direction().load;
+  r.length = walk_->metric().length, r.step = walk_->step(), r.shortest = walk_->shortest();
+  if (!waypoint.event)
+    for (const ContactKey& key : walk_->closed()) r.closed.push_back({key.particle, key.other, key.wall});
+  return r;
 }
 
 // The end, or a fall to another branch, if that is what the path does.
@@ -138,7 +162,8 @@ bool ArcLength::lose_stability(Event& event) {
   emit(landed.point);
   landed.point.label.clear();
   const Direction towards{Vector::Zero(landed.tangent.size()), range_of(options_) > 0 ? metric_.load : -metric_.load};
-  set_out(landed, direction_of(landed, metric_, towards), landed.point.stability.negative);
+  set_out(landed, direction_of(landed, metric_, towards), landed.point.stability.negative,
+          closed_contacts(newton_.energy(), landed.point.state));
   return true;
 }
 

@@ -35,7 +35,9 @@ class ArcLength : public Path {
 
  private:
   void begin();
-  void set_out(const Equilibrium& from, const Direction& direction, int negative);
+  void set_out(const Equilibrium& from, const Direction& direction, int negative, ContactSet closed, double step = 0, double shortest = 0);
+  void take_up(Equilibrium at, const Resume& resume);
+  Resume resume_here(const Waypoint& waypoint) const;
   void show(Waypoint waypoint);
   bool lose_stability(Event& event);
   bool meets_known(const Waypoint& waypoint);

@@ -22,8 +22,8 @@ class Deflation {
   Deflation(Newton& newton, std::vector<State> known) : newton_(newton), energy_(newton.energy()), known_(std::move(known)) {
     radius_ = 0;
     for (const State& s : known_) radius_ = std::max(radius_, apart(known_.front(), s).norm());
-    const double least = 0.1 * extent(energy_.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy_.model().particles())));
-    radius_ = std::max(radius_, 0.01 * least);
+    const double least = 0.1 * span(energy_.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy_.model().particles())));
+    radius_ = std::max(radius_, least);
   }
 
   const std::vector<State>& known() const { return known_; }

@@ -18,4 +18,13 @@ struct Event {
   int watch = -1;                      // which of the options' watches
 };
 
+/// What a path needs to be taken up behind this event; closed: the contacts from there on.
+Resume resume_of(const Event& event, const ContactSet& closed);
+
+/// The limit point or branch point that a path is taken up at, with its equilibrium; nothing if it was none.
+std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at);
+
+/// The contacts that a path was taken up with.
+ContactSet resumed_contacts(const Resume& resume);
+
 }  // namespace elamin

@@ -56,7 +56,14 @@ void LoadSteps::begin() {
   first.point.label = "initial";
   emit(first.point);
   first.point.label.clear();
-  settle(std::move(first), interval_start_);
+  settle(first, interval_start_);
+  if (options_.resume) {
+    closed_ = resumed_contacts(*options_.resume);
+    if (std::optional<Event> event = resumed_event(*options_.resume, first)) {
+      told_already_ = true;
+      return lose_stability(std::move(*event), targets_.empty() ? options_.to : targets_[interval_]);
+    }
+  }
   if (negative_ > 0 && options_.when_unstable == WhenUnstable::stop) end(Status::converged, "the starting state is unstable");
 }
 
@@ -66,7 +73,7 @@ void LoadSteps::settle(Equilibrium at, double load_factor) {
   negative_ = current_.point.stability.negative;
   closed_ = closed_contacts(newton_.energy(), current_.point.state);
   side_.clear();
-  for (const Watch& w : options_.watches) side_.push_back(w.observable(current_.point.state) - w.value);
+  for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
   interval_start_ = load_factor, done_ = 0;
   if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
 }
@@ -126,8 +133,9 @@ std::optional<Event> LoadSteps::watched(const Segment& given, const Equilibrium&
   for (std::size_t k = 0; k < options_.watches.size(); ++k) {
     const Watch& w = options_.watches[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
-    if ((side_[k] < 0) == (f(last) < 0) || (f(current_) < 0) != (side_[k] < 0)) continue;
-    std::optional<Event> event = locate_root(segment, current_, last, f);
+    const double side = w.side(last.point.state);
+    if (side_[k] == 0 || (side != 0 && (side_[k] < 0) == (side < 0)) || (f(current_) < 0) != (side_[k] < 0)) continue;
+    std::optional<Event> event = side == 0 ? event_at(last, segment.b) : locate_root(segment, current_, last, f);
     if (!event) continue;
     event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
     event->before = event->after = negative_;
@@ -138,6 +146,8 @@ std::optional<Event> LoadSteps::watched(const Segment& given, const Equilibrium&
 }
 
 void LoadSteps::reach(Event event) {
+  halvings_ = 0;
+  event.closed = closed_contacts(newton_.energy(), event.at.point.state);
   emit(event);
   const double here = event.at.point.state.load_factor;
   const std::size_t k = event.watch;
@@ -154,6 +164,8 @@ void LoadSteps::meet(ContactChange change) {
   event.kind = EventKind::contact, event.what = change.what;
   event.at = std::move(change.at);
   event.before = event.after = negative_;
+  event.closed = change.after;
+  halvings_ = 0;
   emit(event);
   const double here = event.at.point.state.load_factor;
   event.at.point.label.clear();
@@ -199,7 +211,12 @@ bool LoadSteps::explore(double target) {
 
 // What comes after an event: the end, the other side of the same branch, or a fall.
 void LoadSteps::lose_stability(Event event, double target) {
-  if ((event.kind == EventKind::limit && options_.limits) || (event.kind == EventKind::branch && options_.branch_points)) emit(event);
+  halvings_ = 0;                                                // as where a path is taken up
+  const bool told = std::exchange(told_already_, false);
+  if (!told && ((event.kind == EventKind::limit && options_.limits) || (event.kind == EventKind::branch && options_.branch_points))) {
+    event.closed = closed_;
+    emit(event);
+  }
   const double at = event.at.point.state.load_factor;
   const std::string label = event.at.point.label.empty() ? "the loss of stability" : event.at.point.label;
   const bool loses = event.after > event.before;

@@ -40,7 +40,7 @@ class LoadSteps : public Path {
   int negative_ = 0;                     // Morse index from current_ on
   ContactSet closed_;                    // contacts from current_ on
   std::vector<double> side_;             // of every watch: observable − value from current_ on
-  bool begun_ = false;
+  bool begun_ = false, told_already_ = false;   // the event that the path is taken up at
 };
 
 }  // namespace elamin

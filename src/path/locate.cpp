@@ -164,10 +164,7 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
     return Sample{t, f(e), e};
   });
   if (!zero) return {};
-  Event event;
-  event.at_parameter = zero->t;
-  event.at = zero->e;
-  return event;
+  return event_at(zero->e, zero->t);
 }
 
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,

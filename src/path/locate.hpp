@@ -13,6 +13,13 @@ namespace elamin {
 /// then `b` is on another branch than `a`, or `a` itself is the event.
 std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b);
 
+/// An event of an equilibrium that lies at its place already.
+inline Event event_at(const Equilibrium& e, double parameter) {
+  Event event;
+  event.at_parameter = parameter, event.at = e;
+  return event;
+}
+
 /// The root of a function of the equilibria of a segment that has different signs at its ends, or nothing.
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                  const std::function<double(const Equilibrium&)>& f);

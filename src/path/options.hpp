@@ -1,6 +1,8 @@
 #pragma once
-#include "model/state.hpp"
+#include "path/point.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -24,6 +26,12 @@ struct Watch {
   std::function<double(const State&)> observable;
   double value = 0;
   bool stop = false;                     // the path ends there
+
+  /// observable − value at a state, 0 if that is rounding: then the side is not known yet.
+  double side(const State& state) const {
+    const double here = observable(state);
+    return std::abs(here - value) <= 1e-11 * std::max(std::abs(here), std::abs(value)) ? 0.0 : here - value;
+  }
 };
 
 struct PathOptions {
@@ -39,6 +47,7 @@ struct PathOptions {
   std::optional<double> lowest, highest; // arc length ends where the load factor leaves these; see ArcLength
   int most_points = 0;                   // on one branch; 0: twenty times `steps`
   std::vector<Watch> watches;
+  std::optional<Resume> resume;          // of the point that the path is taken up at
   int deflate = 0;                       // further equilibria to look for …
   std::vector<double> deflate_at;        // … at these load factors; none: at `to`
 };

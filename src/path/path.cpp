@@ -34,6 +34,8 @@ void Path::emit(Event& event) {
   point.modes = event.modes;
   if (event.kind == EventKind::contact) point.what = event.what;
   if (event.arrival) point.what = "reached along a side branch";
+  if (!point.resume) point.resume = resume_of(event, event.closed);
+  point.resume->label = point.label;
   if (event.kind == EventKind::branch) branch_points_.push_back(event);
   emit(point);
 }

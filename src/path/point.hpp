@@ -4,6 +4,8 @@
 #include "model/state.hpp"
 #include "solve/report.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,18 @@ struct Stability {
 
 enum class EventKind { limit, branch, contact, watch };
 
+/// What a path must know beside the state to go on from a point as if it had never stopped.
+struct Resume {
+  std::string label;                      // of the event, if the point is one …
+  int before = -1, after = -1;            // … the Morse index on both sides of it
+  Eigen::MatrixXd modes;                  // … and its null vectors (dofs × multiplicity)
+  Vector tangent;                         // dx/dλ (dofs); empty: as the state itself tells
+  Vector direction;                       // arc length: the branch's direction (dofs), empty for load steps …
+  double load = 0;                        // … and its load factor
+  double length = 0, step = 0, shortest = 0;   // the metric's L, the next step, the shortest one
+  std::vector<std::array<int, 3>> closed; // contacts from here on: particle, other or −1, wall or −1
+};
+
 /// One equilibrium on a path; label "" unless it is an event, "initial" or "final".
 struct PathPoint {
   int step = 0;
@@ -36,6 +50,7 @@ struct PathPoint {
   int negative_before = -1, negative_after = -1;   // Morse index on both sides of it, along the path; -1: not an event
   Eigen::MatrixXd modes;                  // null vectors, orthonormal (dofs × multiplicity)
   std::string what;                       // one phrase: who touches whom, where a jump lands
+  std::optional<Resume> resume;           // where the state alone does not tell how the path goes on
 };
 
 }  // namespace elamin

@@ -28,16 +28,16 @@ int sign_of(double x) { return x < 0 ? -1 : 1; }
 Walk::Walk(Newton& newton, Equilibrium start, Direction direction, int negative, ContactSet closed, Metric metric, WalkOptions options)
     : newton_(newton), metric_(metric), options_(std::move(options)), current_(std::move(start)), direction_(std::move(direction)),
       negative_(negative), sign_(sign_of(direction_.load)), closed_(std::move(closed)) {
-  for (const Watch& w : options_.watches) side_.push_back(w.observable(current_.point.state) - w.value);
+  for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
   constexpr double least = 1e-6;                               // of the span
   least_length_ = std::min(metric_.length, least * span(newton.energy().model()));
-  step_ = longest();
-  shortest_ = least_part * step_;
+  step_ = options_.step > 0 ? options_.step : longest();
+  shortest_ = options_.shortest > 0 ? options_.shortest : least_part * step_;
 }
 
 // The step that neither the load factor nor the bonds forbid.
 double Walk::longest() const {
-  const double turn = distortion(newton_.energy(), current_.point.state, direction_.x);
+  const double turn = distortion(newton_.energy(), current_.point.state, direction_.x, direction_.load);
   double most = std::numeric_limits<double>::infinity();
   if (direction_.load != 0) most = std::min(most, options_.load_step / std::abs(direction_.load));
   if (turn > 0) most = std::min(most, options_.turn / turn);
@@ -131,9 +131,9 @@ void Walk::find_watches(Segment segment, Candidate& c) {
     const Watch& w = options_.watches[k];
     segment.b = c.s;
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
-    const double here = f(current_), there = f(c.e);
-    if ((side_[k] < 0) == (there < 0) || (here < 0) != (side_[k] < 0)) continue;
-    std::optional<Event> event = locate_root(segment, current_, c.e, f);
+    const double side = w.side(c.e.point.state);
+    if (side_[k] == 0 || (side != 0 && (side_[k] < 0) == (side < 0)) || (f(current_) < 0) != (side_[k] < 0)) continue;
+    std::optional<Event> event = side == 0 ? event_at(c.e, c.s) : locate_root(segment, current_, c.e, f);
     if (!event) continue;
     event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
     event->before = event->after = negative_;
@@ -190,8 +190,7 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
   }
   closed_ = c.event && c.event->kind == EventKind::contact ? c.event->closed : closed_contacts(newton_.energy(), c.e.point.state);
   for (std::size_t k = 0; k < side_.size(); ++k) {
-    const double value = options_.watches[k].observable(c.e.point.state) - options_.watches[k].value;
-    side_[k] = c.event && c.event->watch == static_cast<int>(k) ? -side_[k] : value;
+    side_[k] = c.event && c.event->watch == static_cast<int>(k) ? -side_[k] : options_.watches[k].side(c.e.point.state);
   }
   if (ordinary) {                                               // the next step from how this one went
     const double angle = std::acos(std::clamp(cosine(next, direction_, metric_), -1.0, 1.0));

@@ -15,6 +15,7 @@ struct WalkOptions {
   bool contacts = true;
   std::vector<double> stops;           // load factors at which it stops on the way
   std::vector<Watch> watches;
+  double step = 0, shortest = 0;       // of the first step, in the metric; 0: as long as the limits above let it be
 };
 
 /// What a step led to: the next equilibrium, an event before it, or a stop.
@@ -44,8 +45,9 @@ class Walk {
   const Metric& metric() const { return metric_; }
   int negative() const { return negative_; }
   const ContactSet& closed() const { return closed_; }
-  /// Length of the next step, and of those that were given up as too long, for who wants to begin like this.
+  /// Length of the next step, and of the shortest that is tried.
   double step() const { return step_; }
+  double shortest() const { return shortest_; }
 
  private:
   struct Candidate {

@@ -85,14 +85,14 @@ std::optional<std::vector<int>> Groups::chosen(const GroupTable& table, const st
     return std::vector<int>(from.begin() + skip, from.begin() + skip + *count);
   }
   if (table.ids) return with_ids(table, from);
-  if (!table.inside) return from;
+  if (!table.inside && !table.outside) return from;
 
   std::vector<int> particles;
-  const Region region = with_unit_normal(table.inside->region);
+  const Region region = with_unit_normal((table.inside ? table.inside : table.outside)->region);
   for (const int i : from)
-    if (region.contains(model_.start.at(i))) particles.push_back(i);
+    if (region.contains(model_.start.at(i)) == table.inside.has_value()) particles.push_back(i);
   if (particles.empty()) {
-    mistakes_.add(table.place, "inside",
+    mistakes_.add(table.place, table.inside ? "inside" : "outside",
                   fmt::format("holds no particle of \"{}\"; a group has at least one", table.of));
     return std::nullopt;
   }

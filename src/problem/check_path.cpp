@@ -43,6 +43,16 @@ void check_deflation(PathTable& t, Mistakes& mistakes) {
                           fmt::format("{} lies outside the path, whose load factors run from {} to {}", at, lo, hi));
 }
 
+/// Load steps meet what lies on their way; a branch in arc length may go anywhere.
+void check_stops(PathTable& t, bool staged, Mistakes& mistakes) {
+  if (!t.stops || staged || t.method == PathMethod::arc_length || t.branches > 0) return;
+  const auto [lo, hi] = std::minmax(t.from, t.to);
+  for (const double at : *t.stops)
+    if (at < lo || at > hi)
+      return mistakes.add(t.place, "stops",
+                          fmt::format("{} lies outside the path, whose load factors run from {} to {}", at, lo, hi));
+}
+
 void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
   if (t.place.broken) return;
   if (t.from == t.to && !staged)
@@ -55,6 +65,7 @@ void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
                  fmt::format("is at the load factor where the path ends, {}; a path leads from one to another", t.to));
   check_method(t, mistakes);
   check_range(t, mistakes);
+  check_stops(t, staged, mistakes);
   check_deflation(t, mistakes);
 }
 

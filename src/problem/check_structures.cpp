@@ -152,13 +152,14 @@ void check_groups(Problem& problem, Names& names, Mistakes& mistakes) {
     names.refer(g.place, "of", g.of);
     std::string selectors;
     int count = 0;
-    for (const char* key : {"first", "last", "middle", "ids", "inside"})
+    for (const char* key : {"first", "last", "middle", "ids", "inside", "outside"})
       if (g.place.keys.count(key)) selectors += (count++ ? ", " : "") + std::string(key);
-    if (count > 1) mistakes.add(g.place, "has " + selectors + "; give one of first, last, middle, ids and inside");
-    if (g.inside && !g.inside->place.broken) {
-      check_region(g.inside->place, g.inside->region, true, mistakes);
-      g.place.broken = g.place.broken || g.inside->place.broken;
-    }
+    if (count > 1) mistakes.add(g.place, "has " + selectors + "; give one of first, last, middle, ids, inside and outside");
+    for (auto* region : {&g.inside, &g.outside})
+      if (*region && !(*region)->place.broken) {
+        check_region((*region)->place, (*region)->region, true, mistakes);
+        g.place.broken = g.place.broken || (*region)->place.broken;
+      }
     if (g.ids && !g.place.broken) {
       std::set<int> seen;
       for (const int id : *g.ids)

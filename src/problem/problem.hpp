@@ -157,7 +157,7 @@ struct GroupTable {
     Region region;
     bool operator==(const Inside&) const = default;
   };
-  std::optional<Inside> inside;
+  std::optional<Inside> inside, outside;        // what the region holds, or all but that
   bool operator==(const GroupTable&) const = default;
 };
 

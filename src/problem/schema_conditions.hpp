@@ -80,6 +80,7 @@ template <class IO> void describe(IO& io, GroupTable& t) {
   io.may("middle", t.middle, range::count);
   io.may("ids", t.ids, range::id);
   io.table("inside", t.inside);
+  io.table("outside", t.outside);
 }
 
 template <class IO> void describe(IO& io, SupportTable& t) {

@@ -34,14 +34,6 @@ std::vector<std::string> from_stages(const Problem& problem) {
   return names;
 }
 
-/// Whether the load factor makes a difference to a condition: a support or a wall may stand still.
-bool moves(const Problem& p, const Condition& c) {
-  const std::size_t i = c.number - 1;
-  if (c.kind == "support") return p.supports[i].displacement != Vec3::Zero();
-  if (c.kind == "wall") return p.walls[i].displacement != Vec3::Zero() || p.walls[i].radius_change != 0;
-  return true;
-}
-
 bool named(const Condition& table, const std::vector<std::string>& words) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return table.answers_to(word); });
 }
@@ -54,6 +46,13 @@ bool in_force(const Problem& problem, const Condition& table, const std::string&
 }
 
 }  // namespace
+
+bool moves(const Problem& p, const Condition& c) {
+  const std::size_t i = c.number - 1;
+  if (c.kind == "support") return p.supports[i].displacement != Vec3::Zero();
+  if (c.kind == "wall") return p.walls[i].displacement != Vec3::Zero() || p.walls[i].radius_change != 0;
+  return true;
+}
 
 Stages::Stages(const Problem& problem)
     : problem_(problem), tables_(tables_of(problem)), conditions_(conditions_of(problem).size()), from_stage_(from_stages(problem)),

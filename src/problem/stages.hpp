@@ -54,6 +54,9 @@ class Stages {
 /// its particles where they are less its displacement so far.
 Model model_in(const Stage& stage, Model& all, const State& now);
 
+/// Whether the load factor makes a difference to a condition: a support or a wall may stand still.
+bool moves(const Problem& problem, const Condition& condition);
+
 /// Names, references and load factors of stages.
 void check_stages(Problem& problem, Mistakes& mistakes);
 

@@ -21,6 +21,12 @@ double component(const Vec3& v, Component c) {
   return 0;
 }
 
+/// Overlaps by more than rounding: what an event has located as touching is not closed, whichever sign its gap has.
+bool closed(const Model& model, const Touch& t) {
+  constexpr double rounding = 1e-12;                  // of the diameter
+  return t.gap < -rounding * model.diameter[t.particle];
+}
+
 bool scalar(Quantity q) { return q == Quantity::gap || q == Quantity::contacts; }
 Vec3 as_vector(double scalar) { return {scalar, 0, 0}; }
 
@@ -117,7 +123,7 @@ std::vector<Vec3> Observables::of_group(const ObserveTable& o, const Subject& su
   if (o.quantity == Quantity::contacts) {
     scalars.resize(model_.particles());
     for (const Touch& t : touches)
-      if (t.gap < 0) {
+      if (closed(model_, t)) {
         ++scalars[t.particle];
         if (t.other >= 0) ++scalars[t.other];
       }
@@ -150,7 +156,7 @@ std::vector<Vec3> Observables::of_wall(const ObserveTable& o, const Subject& sub
   }
   std::map<int, Vec3> of_particle;                    // a particle may touch several faces
   for (const Touch& t : touches)
-    if (t.wall == subject.wall && t.gap < 0)
+    if (t.wall == subject.wall && closed(model_, t))
       of_particle.emplace(t.particle, Vec3::Zero()).first->second +=
           o.quantity == Quantity::reaction ? t.force : as_vector(1);
   for (const auto& [i, value] : of_particle) values.push_back(value);

@@ -18,7 +18,7 @@ namespace elamin {
 ///   gap           the smallest distance of its surface from any particle (in the group or not) or wall that it has a
 ///                 contact law with; negative: overlap. Pairs left out as glued, and E_eff = 0, do not count; nothing where
 ///                 there is none
-///   contacts      how many contacts of it are closed (gap < 0); a pair within the group counts for both, a block's wall
+///   contacts      how many contacts of it are closed (gap < 0 by more than rounding); a pair within the group counts for both, a block's wall
 ///                 once for each of its faces
 /// Component x, y, z or norm = √(x² + y² + z²), over the particles of the group: mean, sum, min, max.
 /// sum and norm: the norm of the summed vector (of a reaction: of the resultant). mean, min, max and norm: of the norms

@@ -75,11 +75,16 @@ std::string closing_table(const Table& events) {
   for (const Row& row : events.rows) widest = std::max(widest, csv_text(at(row, "label")).size());
   std::string text = fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {}\n", "event", widest, "load factor",
                                  "multiplicity", "energy", "negative", "stable");
-  for (const Row& row : events.rows)
-    text += fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {}\n", csv_text(at(row, "label")), widest,
+  for (const Row& row : events.rows) {
+    const Cell what = at(row, "what");
+    const auto* words = std::get_if<std::string>(&what);
+    text += fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {:<6}{}{}", csv_text(at(row, "label")), widest,
                         shown(at(row, "lambda"), "{:.10g}"), shown(at(row, "multiplicity"), "{:.0f}"),
                         shown(at(row, "energy"), "{:.7g}"), shown(at(row, "negative"), "{:.0f}"),
-                        as_number(at(row, "stable")).value_or(0) != 0 ? "yes" : "no");
+                        as_number(at(row, "stable")).value_or(0) != 0 ? "yes" : "no", words && !words->empty() ? "  " : "",
+                        words ? *words : "");
+    text.erase(text.find_last_not_of(' ') + 1) += "\n";
+  }
   return text;
 }
 

@@ -181,7 +181,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const std::size_t k = sizes.size() - 1;
     if (!step.p.allFinite() || !std::isfinite(step.delta) || (k >= 4 && !(sizes[k] < sizes[k - 2])))
       return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", report.residual));
-    const double turn = part_within_turn(state, step.p), alpha = turn * free_part(state, step.p, turn);
+    const double turn = part_within_turn(state, step.p, step.delta), alpha = turn * free_part(state, step.p, turn);
     moved = alpha * infinity_norm(step.p);
     previous = state;
     from = &previous;

@@ -85,7 +85,7 @@ class Newton {
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
   std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
-  double part_within_turn(const State& state, const Vector& p) const;
+  double part_within_turn(const State& state, const Vector& p, double load_change = 0) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
   Step step_within(double reach, const Vector& g, double& shift);

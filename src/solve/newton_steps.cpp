@@ -18,9 +18,9 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 }  // namespace
 
 // The part of p that one step may take: turns within reach, nothing longer than the whole …
-double Newton::part_within_turn(const State& state, const Vector& p) const {
+double Newton::part_within_turn(const State& state, const Vector& p, double load_change) const {
   constexpr double tiny = std::numeric_limits<double>::min();
-  return std::min({1.0, largest_turn / std::max(distortion(energy_, state, p), tiny),
+  return std::min({1.0, largest_turn / std::max(distortion(energy_, state, p, load_change), tiny),
                    extent_ / std::max(infinity_norm(p), tiny)});
 }
 

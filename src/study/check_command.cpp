@@ -10,6 +10,25 @@ namespace elamin {
 
 namespace {
 
+// Of each stage: from where to where, and what the load factor moves.
+void describe_stages(const Problem& problem) {
+  if (problem.stages.empty()) return;
+  const std::vector<Condition> conditions = conditions_of(problem);
+  Stages stages(problem);
+  for (int k = 0; k < stages.count(); ++k) {
+    std::string unclear, moved, off;
+    const Stage stage = stages.enter(unclear);
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      const auto add = [&](std::string& to) { to += (to.empty() ? "" : ", ") + conditions[i].label(); };
+      if (!stage.in_force[i]) add(off);
+      else if (stage.scaling[i].rate != 0 && moves(problem, conditions[i])) add(moved);
+    }
+    fmt::print("stage '{}': load factor {:.10g} to {:.10g}; it moves {}{}{}\n", stage.name, stage.path.from, stage.path.to,
+               moved.empty() ? "nothing" : moved, off.empty() ? "" : "; not in force: ", off);
+    stages.leave(stage.path.to);
+  }
+}
+
 void print_model(const Problem& problem, const Model& model) {
   Energy energy(model);
   fmt::print("{}: {}\n", problem.file, problem.title.empty() ? "(no title)" : problem.title);
@@ -22,6 +41,7 @@ void print_model(const Problem& problem, const Model& model) {
   fmt::print("{}", describe_contacts(model, energy, built ? model.start : starting_state(problem, energy)));
   for (const Group& g : model.groups) fmt::print("group '{}': {} particles\n", g.name, g.particles.size());
   fmt::print("{}", describe_motions(model));
+  describe_stages(problem);
 }
 
 }  // namespace

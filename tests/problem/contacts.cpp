@@ -109,6 +109,9 @@ inside = {shape = "sphere", center = [2, 2, 1], radius = 1}
 [[group]]
 name = "cone"
 inside = {shape = "cone", center = [0, 0], axis = "x", radius_lo = 0, radius_hi = 1, lo = 0, hi = 2}
+[[group]]
+name = "not-sphere"
+outside = {shape = "sphere", center = [2, 2, 1], radius = 1}
 )");
   CHECK(size_of(m, "plane") == 4);
   CHECK(size_of(m, "block") == 3);
@@ -117,6 +120,10 @@ inside = {shape = "cone", center = [0, 0], axis = "x", radius_lo = 0, radius_hi 
   CHECK(size_of(m, "lying") == 1);
   CHECK(size_of(m, "sphere") == 2);
   CHECK(size_of(m, "cone") == 3);
+  CHECK(size_of(m, "not-sphere") == 4);
+  CHECK(said_of(grains("g", "[[0, 0, 0], [1, 0, 0]]") + "[[group]]\nname = \"far\"\n"
+                "outside = {shape = \"sphere\", center = [0, 0, 0], radius = 9}\n" + energy_study) ==
+        "7:11: group.far.outside: holds no particle of \"all\"; a group has at least one");
 }
 
 TEST_CASE("What a wall or a contact may hold needs no support") {

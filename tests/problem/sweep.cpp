@@ -119,3 +119,40 @@ TEST_CASE("A mistake of all runs is told once, and one of some names the first")
           ":13:10: beam.column.particles: must be an integer from 2 to 100000000, is the string \"x\" (in the run with "
           "beam.column.particles = \"x\")");
 }
+
+TEST_CASE("A sweep may halve, or set several keys") {
+  const ScratchDirectory scratch;
+  const std::string path = "[path]\n[[sweep]]\nkey = [\"path.to\", \"path.steps\"]\n";
+  CHECK(runs_of(path + "values = [1, 2]") == Texts{"path.to = 1, path.steps = 1", "path.to = 2, path.steps = 2"});
+  const std::string halves = path + "bisect = \"energy\"\nlevel = 0.5\nbetween = ";
+  const auto bisection = [&](const std::string& more) {
+    return *prepare_runs(scratch.file("p.toml", std::string(column) + halves + more)).bisection;
+  };
+  const Bisection whole = bisection("[3, 20]");
+  CHECK(whole.keys == Texts{"path.to", "path.steps"});
+  CHECK(whole.integers);
+  CHECK(whole.middle() == 11);
+  CHECK(whole.tolerance == Approx(0.017).epsilon(1e-12));
+  CHECK(whole.level == 0.5);
+  CHECK(whole.at == "final");
+  CHECK(whole.settings(7)[1].value == "7");
+  for (Bisection b = whole;; b.lo = b.middle())                  // towards either end, it ends at neighbours
+    if (b.narrow()) { CHECK(b.hi - b.lo == 1); break; }
+  for (Bisection b = whole;; b.hi = b.middle())
+    if (b.narrow()) { CHECK(b.hi - b.lo == 1); break; }
+  CHECK_THROWS_AS(bisection("[3, 20.5]"), InputError);           // path.steps is a whole number
+
+  const std::string reals = std::string(column) + "[path]\n[[sweep]]\nkey = \"path.to\"\nbisect = \"energy\"\nbetween = [2.0, 1]\n";
+  const PreparedRuns down = prepare_runs(scratch.file("q.toml", reals));
+  CHECK(down.runs.size() == 2);
+  CHECK(down.runs[0].problem.path.to == 2);
+  CHECK(down.bisection->middle() == 1.5);
+  CHECK_FALSE(down.bisection->integers);
+  CHECK_FALSE(prepare_runs(scratch.file("r.toml", column)).bisection);
+  // A tolerance below the spacing of doubles still comes to an end.
+  Bisection fine = *down.bisection;
+  fine.tolerance = 1e-300;
+  int halvings = 0;
+  for (; !fine.narrow() && halvings < 100; ++halvings) fine.lo = fine.middle();
+  CHECK(halvings < 60);
+}

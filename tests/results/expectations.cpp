@@ -66,6 +66,43 @@ TEST_CASE("expectations hold where the run gives what is expected, and only ther
   CHECK(!run.verdict("lambda", "branch:1", std::nan(""), 1).met);
 }
 
+TEST_CASE("values of finer and finer runs are extrapolated", "[expectations]") {
+  // v = 3 + h²/2 − h⁴ at h = 1, ½, ¼: two steps of Richardson's leave 3 exactly; v = 3 + h/2 − h² likewise, in all powers.
+  const auto verdict = [](int powers, double value, double missing = 0) {
+    std::vector<Table> paths;
+    for (const double h : {1.0, 0.5, 0.25}) {
+      const double x = powers == 2 ? h * h : h;
+      Table path{{"label", "lambda", "u"}, {}};
+      path.rows.push_back({std::string("final"), 1.0, h == missing ? Cell() : Cell(3 + x / 2 - x * x)});
+      paths.push_back(path);
+    }
+    const Table events{{"label", "lambda", "u"}, {}};
+    std::vector<RunTables> runs;
+    for (const Table& path : paths) runs.push_back({&path, &events});
+    Problem problem;
+    problem.file = "p.toml";
+    ExpectTable e;
+    e.place.line = 40, e.place.column = 1;
+    e.observable = "u", e.value = value, e.rtol = 1e-14, e.extrapolate = powers;
+    return check_extrapolated(problem, e, runs);
+  };
+  CHECK(verdict(2, 3).met);
+  CHECK(verdict(1, 3).met);
+  CHECK(!verdict(2, 3.0001).met);
+  CHECK(verdict(2, 3.0001).sentence.find("p.toml:40:1: u at final, extrapolated over 3 runs, is 3, expected 3.0001") == 0);
+  CHECK(!verdict(2, 3, 0.5).met);
+  CHECK(verdict(2, 3, 0.5).sentence.find("in run 2: has no number there") != std::string::npos);
+}
+
+TEST_CASE("a threshold is held by the middle of what encloses it", "[expectations]") {
+  Problem problem;
+  ExpectTable e;
+  e.observable = "threshold", e.at = "sweep", e.value = 2, e.rtol = 0, e.atol = 0.1;
+  CHECK(check_threshold(problem, e, {{1.5, 2.6}}).met);
+  CHECK(!check_threshold(problem, e, {{1.5, 2.8}}).met);
+  CHECK(!check_threshold(problem, e, std::nullopt).met);
+}
+
 TEST_CASE("what an expectation cannot find is not met, and the sentence says what there is", "[expectations]") {
   Run run;
   const auto unmet = [&](const std::string& observable, const std::string& at) {

@@ -63,10 +63,12 @@ TEST_CASE("the closing table lists the events", "[progress]") {
   Table events{event_columns({}), {}};
   CHECK(closing_table(events) == "No events on the path.\n");
   PathPoint p = sample_point(m, 2, 0.123456789012, "branch:1");
-  p.multiplicity = 2;
+  p.multiplicity = 2, p.what = "particle 3 touches wall floor";
   events.rows.push_back(event_row(p, {}));
   const std::string text = closing_table(events);
   CHECK(std::count(text.begin(), text.end(), '\n') == 2);
   CHECK(text.find("branch:1") != std::string::npos);
   CHECK(text.find("0.123456789 ") != std::string::npos);
+  CHECK(text.find("particle 3 touches wall floor\n") != std::string::npos);
+  CHECK(text.find(" \n") == std::string::npos);
 }

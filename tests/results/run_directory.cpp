@@ -3,6 +3,7 @@
 #include "catch.hpp"
 #include "core/error.hpp"
 #include "problem/lammps_data.hpp"
+#include "problem/state_tail.hpp"
 #include "results/sample.hpp"
 #include "scratch_directory.hpp"
 
@@ -120,6 +121,40 @@ TEST_CASE("closed contacts of labelled states stand in contacts.csv", "[run_dire
   CHECK(std::filesystem::exists(run.state_file("final")));
   RunDirectory again(scratch / "run", problem, m, "");
   CHECK(text_of(scratch / "run/contacts.csv") == header);
+}
+
+TEST_CASE("a state has its tails beside it, an event its null vectors, and a stage its name", "[run_directory]") {
+  ScratchDirectory scratch;
+  Model m = sample_model();
+  m.id = {2, 3, 5, 7, 11};
+  Problem problem = sample_problem();
+  problem.stages.resize(1);
+  RunDirectory run(scratch / "run", problem, m, "");
+  Stage stage;
+  stage.name = "load", stage.path.from = 0.1 + 0.2, stage.scaling = {{1, 0}, {-1.0 / 3, 1}};
+  run.enter(stage, m);
+  PathPoint p = sample_point(m, 0, 1.0 / 3, "limit:1");
+  p.state.tail(2, 1) = 1e-18 / 3;
+  run.add(p, Field::Zero(3, 5), {});
+  CHECK(run.record().path().rows[0].back() == Cell(std::string("load")));
+  const auto stored = read_tail(run.state_file("limit:1"));
+  REQUIRE(stored);
+  CHECK(stored->load_factor == 1.0 / 3);
+  CHECK(stored->tail == p.state.tail);
+  REQUIRE(stored->stage);
+  CHECK(stored->stage->name == "load");
+  CHECK(stored->stage->from == 0.1 + 0.2);
+  CHECK(stored->stage->scaling == stage.scaling);
+  CHECK(!read_tail(scratch / "run/states/none.data"));
+
+  Field first = Field::Zero(3, 5), second = Field::Zero(3, 5);
+  first.col(1) = Vec3(0.5, 0, -1), second.col(4) = Vec3(0, 1.0 / 3, 0);
+  run.add_null_vectors("limit:1", {first, second});
+  CHECK(text_of(scratch / "run/states/limit-1.modes.csv") == "id,ux1,uy1,uz1,ux2,uy2,uz2\n2,0,0,0,0,0,0\n3,0.5,0,-1,0,0,0\n"
+                                                             "5,0,0,0,0,0,0\n7,0,0,0,0,0,0\n11,0,0,0,0,0.33333333333333331,0\n");
+  RunDirectory again(scratch / "run", problem, m, "");
+  for (const char* gone : {"limit-1.data", "limit-1.json", "limit-1.modes.csv"})
+    CHECK(!std::filesystem::exists(scratch / (std::string("run/states/") + gone)));
 }
 
 TEST_CASE("modes: a table, a shape and a state each", "[run_directory]") {

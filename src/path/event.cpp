@@ -1,0 +1,52 @@
+#include "path/event.hpp"
+
+#include <Eigen/SVD>
+
+namespace elamin {
+
+namespace {
+
+// The part of the span of the zero modes that is orthogonal to the critical modes, orthonormal.
+Eigen::MatrixXd without(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& modes) {
+  if (zero.cols() == 0) return zero;
+  const Eigen::MatrixXd rest = zero - modes * (modes.transpose() * zero);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rest, Eigen::ComputeThinU);
+  Eigen::Index rank = 0;
+  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > 0.5) ++rank;
+  return svd.matrixU().leftCols(rank);
+}
+
+}  // namespace
+
+Resume resume_of(const Event& event, const ContactSet& closed) {
+  Resume resume;
+  resume.label = event.at.point.label;
+  resume.before = event.before, resume.after = event.after;
+  resume.modes = event.modes;
+  resume.tangent = event.at.tangent;
+  for (const ContactKey& key : closed) resume.closed.push_back({key.particle, key.other, key.wall});
+  return resume;
+}
+
+std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at) {
+  const bool limit = resume.label.starts_with("limit:");
+  if (!(limit || resume.label.starts_with("branch:")) || resume.modes.cols() == 0) return {};
+  Event event;
+  event.kind = limit ? EventKind::limit : EventKind::branch;
+  event.at = at;
+  event.at.point.label = resume.label;
+  event.at.point.multiplicity = static_cast<int>(resume.modes.cols());
+  event.at.zero_modes = without(at.zero_modes, resume.modes);
+  event.at.tangent = resume.tangent;
+  event.modes = resume.modes;
+  event.before = resume.before, event.after = resume.after;
+  return event;
+}
+
+ContactSet resumed_contacts(const Resume& resume) {
+  ContactSet set;
+  for (const auto& [particle, other, wall] : resume.closed) set.insert({particle, other, wall});
+  return set;
+}
+
+}  // namespace elamin
