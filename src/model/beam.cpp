@@ -19,7 +19,8 @@ void add_beams(Model& model, const std::vector<Beam>& beams) {
     const int angle_type = static_cast<int>(model.angle_types.size());
     std::vector<double> rests;
     if (beam.as_built)
-      for (int i = 1; i + 1 < n; ++i) rests.push_back(angle_at(beam.centers[i], beam.centers[i - 1], beam.centers[i + 1]));
+      for (int i = 1; i + 1 < n; ++i)
+        rests.push_back(angle_at(beam.centers[i], beam.centers[i - 1], beam.centers[i + 1]));
     const Distinct types = distinct(rests, angle_type, 16 * epsilon, 0);
     for (const double rest : types.value) add_type(model, AngleType{beam.angle.stiffness, rest});
     if (types.value.empty()) add_type(model, beam.angle);

@@ -119,7 +119,8 @@ class SinePoints {
     for (std::size_t i = 1; i <= n; ++i) {
       const Exact dx = x_[i] - x_[i - 1], dy = y_[i] - y_[i - 1];
       const Exact length = square_root(dx * dx + dy * dy);
-      const double left = -(dx.hi + dy.hi * slope_[i - 1]) / length.hi, right = (dx.hi + dy.hi * slope_[i]) / length.hi;
+      const double left = -(dx.hi + dy.hi * slope_[i - 1]) / length.hi;
+      const double right = (dx.hi + dy.hi * slope_[i]) / length.hi;
       a[i] = ((q_ - length).value() - left * a[i - 1]) / right;
       b[i] = (1 - left * b[i - 1]) / right;
     }

@@ -14,7 +14,8 @@ struct Centerline {
   double spacing = 0;               // distance of neighbours [length]
 };
 
-/// Ends at which a row is clamped: there it goes on by one particle beyond the end. This and the end's own are to be held.
+/// Ends at which a row is clamped: there it goes on by one particle beyond the end. This and the end's own are to be
+/// held.
 struct Clamped {
   bool from = false, to = false;
 };

@@ -96,15 +96,18 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
 constexpr int most_iterations = 12;           // of a corrector that stays on its branch
 
 // Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
-// tell, but for a part. A branch that bends like a parabola into a limit point, from there to its vertex, has one half.
-bool same_branch(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b) {
-  constexpr double largest_part = 0.45;
-  const Vector moved = kinematics.restrict(displacement(a.point.state, b.point.state));
+// tell, but for a part (a branch that bends like a parabola into a limit point, from there to its vertex, has one half); and
+// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect.
+bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
+  constexpr double largest_part = 0.45, least_cosine = 0.5;
+  const Vector moved = energy.kinematics().restrict(displacement(a.point.state, b.point.state));
   const double change = b.point.state.load_factor - a.point.state.load_factor;
   const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
                by_both = (moved - change / 2 * (a.tangent + b.tangent)).norm();
   const double rounding = 1e-12 * b.point.state.position.norm();
-  return std::min({by_a, by_b, by_both}) <= largest_part * moved.norm() + rounding;
+  if (std::min({by_a, by_b, by_both}) > largest_part * moved.norm() + rounding) return false;
+  if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
+  return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 
 }  // namespace
@@ -177,7 +180,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   Equilibrium e = assess(newton, state, report);
-  if (!same_branch(kinematics, from, e)) return fail(state, report, "the corrector went to another branch");
+  if (!same_branch(energy, from, e)) return fail(state, report, "the corrector went to another branch");
   return e;
 }
 

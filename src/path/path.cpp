@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace elamin {
 
 std::optional<PathPoint> Path::next() {
@@ -32,6 +34,12 @@ void Path::emit(Event& event) {
   point.multiplicity = static_cast<int>(event.modes.cols());
   point.negative_before = event.before, point.negative_after = event.after;
   point.modes = event.modes;
+  if (event.kind == EventKind::limit || event.kind == EventKind::branch) {
+    // What rounding made of a zero eigenvalue is not told.
+    const int lost = point.stability.negative - point.stability.negative_rigid;
+    point.stability.negative = std::min(event.before, event.after);
+    point.stability.negative_rigid = point.stability.negative - (event.kind == EventKind::limit ? 0 : std::min(lost, point.stability.negative));
+  }
   if (event.kind == EventKind::contact) point.what = event.what;
   if (event.arrival) point.what = "reached along a side branch";
   if (!point.resume) point.resume = resume_of(event, event.closed);

@@ -183,6 +183,7 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
     if (c.event->arrival) next = arc.direction();               // on along the side branch, to its other half
     if (c.event->kind == EventKind::limit) sign_ = -sign_;
     if (c.event->arrival) sign_ = -sign_;
+    if (c.event->arrival || c.event->kind == EventKind::limit) next.load = std::copysign(next.load, sign_);   // else rounding's
     negative_ = c.event->after;
   } else {
     negative_ = c.e.point.stability.negative;

@@ -4,6 +4,7 @@
 #include "model/grains.hpp"
 #include "model/loop.hpp"
 #include "model/sheet.hpp"
+#include "problem/build_beam.hpp"
 #include "problem/grains_file.hpp"
 #include "problem/schema_words.hpp"
 
@@ -34,9 +35,10 @@ class Builder {
 
   std::optional<Beam> built(const BeamTable& table) {
     const Clamped clamped = clamped_ends(table);
-    const std::optional<Centerline> line = centerline(table, clamped);
+    const std::optional<Centerline> line = centerline_of(table, plane_, mistakes_);
     if (!line) return std::nullopt;
-    Beam b{table.name, line->centers, table.diameter, table.density.value_or(0), table.youngs_modulus.value_or(0), {}, {}};
+    Beam b{table.name, line->centers, table.diameter, table.density.value_or(0), table.youngs_modulus.value_or(0),
+           {}, {}};
     b.bond.rest_length = table.rest_length.value_or(line->spacing);
     row_stiffness(table, b.bond, b.angle);
     b.angle.rest = rest_angle(table.rest, pi);
@@ -127,93 +129,20 @@ class Builder {
  private:
   static double largest(const Vec3& x) { return x.cwiseAbs().maxCoeff(); }
 
-  static Clamped clamped_ends(const BeamTable& table) {
-    const bool both = table.clamped == ClampedEnds::both;
-    return {both || table.clamped == ClampedEnds::from, both || table.clamped == ClampedEnds::to};
-  }
-
-  /// Where the particles of a beam are; none, and said why, if they cannot be there.
-  std::optional<Centerline> centerline(const BeamTable& table, Clamped clamped) {
-    std::vector<ExactVector> corners;
-    if (table.through)
-      for (const Vec3& x : *table.through) corners.push_back({x, Vec3::Zero()});
-    else if (table.from)
-      corners = {{*table.from, Vec3::Zero()}, {*table.to, Vec3::Zero()}};
-    else
-      for (const ExactVector& x : ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter), table.particles - 1))
-        corners.push_back(x);
-    double length = 0, farthest = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      farthest = std::max(farthest, largest(corners[i].hi));
-      if (i > 0) length += distance(corners[i - 1], corners[i]).value();
-    }
-    if (table.rise) length += std::abs(*table.rise), farthest += std::abs(*table.rise);
-    if (!std::isfinite(length)) {
-      mistakes_.add(table.place, "its length is beyond what numbers can hold");
-      return std::nullopt;
-    }
-    if (lost(table.place, "spacing", length / (table.particles - 1), farthest)) return std::nullopt;
-    if (table.rise || table.angle) return arch(table, length, clamped);
-    if (!table.through) return row(corners.front(), corners.back(), table.particles, clamped);
-    std::optional<Centerline> line = polyline(*table.through, table.particles, clamped);
-    if (!line) not_on_corners(table, clamped);
-    return line;
-  }
-
-  std::optional<Centerline> arch(const BeamTable& table, double size, Clamped clamped) {
-    Arch a{*table.from, *table.to, table.toward.value_or(Vec3::Zero())};
-    if (!table.toward) {                           // a quarter turn of from → to in the plane
-      const int u = plane_[0] - 'x', v = plane_[1] - 'x';
-      a.toward[u] = -(a.to - a.from)[v], a.toward[v] = (a.to - a.from)[u];
-    }
-    const double chord = (a.to - a.from).norm();
-    if (!rises(a) || chord <= 1e-12 * size) {
-      mistakes_.add(table.place, "to", "is no place to which an arch leads from here; from and to must lie apart in the plane");
-      return std::nullopt;
-    }
-    if (table.profile == Profile::sine) {
-      std::optional<Centerline> line = half_sine(a, *table.rise, table.particles);
-      if (!line) mistakes_.add(table.place, "rise", "is too high for so few particles on a sine; take more of them, or a circle");
-      return line;
-    }
-    if (table.angle) return arc(a, exact_degrees(*table.angle), table.particles, clamped);
-    if (*table.rise < 0) a.toward = -a.toward;
-    return arc(a, turns_of_rise(chord, std::abs(*table.rise)), table.particles, clamped);
-  }
-
-  void not_on_corners(const BeamTable& table, Clamped clamped) {
-    const auto [below, above] = fitting(*table.through, table.particles, clamped);
-    std::string nearest;
-    for (const int n : {below, above})
-      if (n > 0) nearest += fmt::format("{}{}", nearest.empty() ? "" : " and ", n);
-    mistakes_.add(table.place, "particles",
-                  fmt::format("{} evenly along through put none on a corner; {}", table.particles,
-                              nearest.empty() ? "no number near it does: the lengths between corners must have a common measure"
-                                              : "the nearest that do: " + nearest));
-  }
-
-  static Exact exact_degrees(double degrees) { return Exact{degrees, 0} / Exact{360, 0}; }
   static Sheet::Shape shape_of(SheetShape shape) {
     return shape == SheetShape::rectangle ? Sheet::Shape::rectangle
            : shape == SheetShape::circle  ? Sheet::Shape::circle
                                           : Sheet::Shape::cylinder;
   }
 
-  /// Neighbours must be told apart by doubles, or every length is rounding.
   bool lost(const TablePlace& place, const char* what, double length, double farthest) {
-    if (!std::isfinite(farthest))
-      mistakes_.add(place, "its size is beyond what numbers can hold");
-    else if (length <= 1e-12 * farthest)
-      mistakes_.add(place, fmt::format("its {}, {}, is lost beside its coordinates, {}; place it nearer to the origin",
-                                       what, length, farthest));
-    else
-      return false;
-    return true;
+    return elamin::lost(place, what, length, farthest, mistakes_);
   }
 
   /// K = EA/(2q₀) and B = EI/q₀, of the section where nothing else is given.
   template <class Table> static void row_stiffness(const Table& table, BondType& bond, AngleType& angle) {
-    const double E = table.youngs_modulus.value_or(0), q = bond.rest_length, t = table.thickness.value_or(table.diameter);
+    const double E = table.youngs_modulus.value_or(0), t = table.thickness.value_or(table.diameter);
+    const double q = bond.rest_length;
     bond.stiffness = table.bond_stiffness    ? *table.bond_stiffness
                      : table.axial_stiffness ? *table.axial_stiffness / (2 * q)
                                              : bond_stiffness(table.section, E, t, q);

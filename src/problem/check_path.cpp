@@ -60,7 +60,7 @@ void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
                  fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
   if (t.start_lambda && t.start.empty())
     mistakes.add(t.place, "start_lambda", "is of no use without start, the state to start from");
-  if (is_path && !staged && t.method == PathMethod::load_steps && t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
+  if (is_path && !staged && t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
     mistakes.add(t.place, t.place.keys.count("start_lambda") ? "start_lambda" : "start",
                  fmt::format("is at the load factor where the path ends, {}; a path leads from one to another", t.to));
   check_method(t, mistakes);

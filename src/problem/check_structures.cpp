@@ -45,7 +45,8 @@ class CheckStructures {
       if (middle)
         mistakes_.add(b.place, "clamped", "needs ends; give from and to, or through");
       else if (b.particles > 0 && b.particles < least)
-        mistakes_.add(b.place, "particles", fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
+        mistakes_.add(b.place, "particles",
+                      fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
     }
     row_stiffness(b.place);
   }
@@ -84,7 +85,8 @@ class CheckStructures {
     const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
     const bool is_arch = written("rise") || written("angle");
     if (is_arch && !(written("from") && written("to")))
-      mistakes_.add(b.place, written("rise") ? "rise" : "angle", "is of an arch, which stands on from and to; give both");
+      mistakes_.add(b.place, written("rise") ? "rise" : "angle",
+                    "is of an arch, which stands on from and to; give both");
     for (const char* key : {"toward", "profile"})
       if (written(key) && !is_arch)
         mistakes_.add(b.place, key, "is of an arch; give rise or angle too, or leave it out");
@@ -92,18 +94,21 @@ class CheckStructures {
     if (written("rise") && written("angle")) mistakes_.add(b.place, "angle", "follows from rise; give one of them");
     if (b.rise && *b.rise == 0) mistakes_.add(b.place, "rise", "must not be 0; leave it out for a straight beam");
     if (!written("toward") && !in_plane_ && written("from") && written("to"))
-      mistakes_.add(b.place, "toward", "is missing; the arch rises to this side of from and to. In a plane it may be left out");
+      mistakes_.add(b.place, "toward",
+                    "is missing; the arch rises to this side of from and to. In a plane it may be left out");
     if (b.from && b.to && b.toward && *b.from != *b.to && !rises({*b.from, *b.to, *b.toward}))
       mistakes_.add(b.place, "toward", "leads to no side of the line between from and to");
     if (b.particles == 2) mistakes_.add(b.place, "particles", "must be at least 3 for an arch");
     if (b.profile != Profile::sine) return;
     if (!written("rise")) mistakes_.add(b.place, "profile", "of a sine needs rise");
-    if (b.clamped) mistakes_.add(b.place, "clamped", "is not for a sine; hold its ends with a [[support]] and leave this out");
+    if (b.clamped)
+      mistakes_.add(b.place, "clamped", "is not for a sine; hold its ends with a [[support]] and leave this out");
   }
 
   void row_stiffness(TablePlace& place) {
     const auto written = [&](const char* key) { return place.keys.count(key) > 0; };
-    for (const auto& [whole, part] : {std::pair("axial_stiffness", "bond_stiffness"), {"bending_stiffness", "angle_stiffness"}})
+    for (const auto& [whole, part] :
+         {std::pair("axial_stiffness", "bond_stiffness"), {"bending_stiffness", "angle_stiffness"}})
       if (written(whole) && written(part))
         mistakes_.add(place, whole, fmt::format("stands beside {}; give one of them", part));
     const bool bonds = written("bond_stiffness") || written("axial_stiffness");

@@ -2,118 +2,15 @@
 // A problem file as plain numbers: every table a struct, every default in it. What the file says, not what it means.
 #include "core/types.hpp"
 #include "laws/region.hpp"
-#include "laws/section.hpp"
 #include "path/options.hpp"
+#include "problem/structure_tables.hpp"
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace elamin {
-
-/// Where something stands in the problem file; line 0: it came from the command line.
-struct Place { int line = 0, column = 0; };
-
-/// Where a table and its keys stand, for messages that come after reading. It is not part of what the file says:
-/// two tables that say the same are equal wherever they stand.
-struct TablePlace : Place {
-  std::string key;                              // what `--set` calls the table: "beam.column", "support.2", "path"
-  std::map<std::string, Place> keys;            // of those that are written
-  bool broken = false;                          // a mistake was found in it
-  bool operator==(const TablePlace&) const { return true; }
-};
-
-/// The rest angle of a structure's angles: "straight", "as_built", or degrees.
-struct Rest {
-  bool as_built = false;
-  double degrees = 180;
-  bool operator==(const Rest&) const = default;
-};
-
-enum class Profile { circle, sine };           // of an arch
-enum class ClampedEnds { from, to, both };
-
-struct BeamTable {
-  TablePlace place;
-  std::string name;
-  Section section = Section::cylinder;
-  int particles = 0;
-  std::optional<Vec3> from, to;                 // either these …
-  std::optional<Vec3> center, axis;             // … or these, with spacing …
-  std::optional<double> spacing;                // default: the diameter
-  std::optional<std::vector<Vec3>> through;     // … or the corners
-  std::optional<double> rise, angle;            // of an arch between from and to: its height, or the degrees of the arc
-  std::optional<Vec3> toward;                   // the side it rises to; default: in the plane, to the left
-  std::optional<Profile> profile;               // of an arch, default a circle
-  std::optional<ClampedEnds> clamped;           // ends with a particle beyond, to be held
-  double diameter = 0;
-  std::optional<double> thickness;              // default: the diameter
-  std::optional<double> youngs_modulus;         // needed unless both stiffnesses are given
-  std::optional<double> density;
-  std::optional<double> bond_stiffness, angle_stiffness, rest_length;
-  std::optional<double> axial_stiffness, bending_stiffness;   // EA and EI
-  Rest rest;
-  bool operator==(const BeamTable&) const = default;
-};
-
-struct LoopTable {
-  TablePlace place;
-  std::string name;
-  Section section = Section::cylinder;
-  int particles = 0;
-  Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
-  double radius = 0;                            // of the circle through the centres
-  double diameter = 0;
-  std::optional<double> thickness;              // default: the diameter
-  std::optional<double> youngs_modulus, density;
-  std::optional<double> bond_stiffness, angle_stiffness, rest_length;   // rest length: default the chord
-  std::optional<double> axial_stiffness, bending_stiffness;             // EA and EI
-  Rest rest;
-  bool operator==(const LoopTable&) const = default;
-};
-
-enum class SheetShape { rectangle, circle, cylinder };
-
-struct SheetTable {
-  TablePlace place;
-  std::string name;
-  SheetShape shape = SheetShape::rectangle;
-  std::optional<std::array<double, 2>> size;    // rectangle
-  std::optional<double> radius, height;         // circle: radius; cylinder: both
-  Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
-  double lattice_angle = 0;                     // degrees
-  double spacing = 0;
-  std::optional<double> thickness, diameter;    // default: the spacing
-  std::optional<double> youngs_modulus, density;
-  std::optional<double> bond_stiffness, angle_stiffness, rest_length;   // rest length: default the spacing
-  Rest rest;
-  bool operator==(const SheetTable&) const = default;
-};
-
-struct GrainsTable {
-  TablePlace place;
-  std::string name;
-  std::optional<std::vector<Vec3>> positions;   // either these …
-  std::string file;                             // … or a CSV file: x,y,z, and a diameter if there is a fourth column
-  std::optional<double> diameter;               // needed unless the file has it
-  std::optional<double> density;
-  bool operator==(const GrainsTable&) const = default;
-};
-
-/// Bonds between the particles of two groups that are near each other, and angles over these bonds.
-struct ConnectTable {
-  TablePlace place;
-  std::array<std::string, 2> between;
-  double within = 0;
-  std::optional<int> bonds_per_particle;        // of the first group: its nearest ones only; default all
-  double bond_stiffness = 0;
-  std::optional<double> rest_length;            // default: the distance as built
-  std::optional<double> angle_stiffness;        // default: no angles
-  Rest rest{true, 180};                         // as built
-  bool operator==(const ConnectTable&) const = default;
-};
 
 struct ContactTable {
   TablePlace place;

@@ -54,6 +54,14 @@ bool moves(const Problem& p, const Condition& c) {
   return true;
 }
 
+std::vector<std::string> varied(const Problem& problem, const Stage& stage) {
+  const std::vector<Condition> conditions = conditions_of(problem);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < std::min(conditions.size(), stage.scaling.size()); ++i)
+    if (stage.scaling[i].rate != 0) labels.push_back(conditions[i].label());
+  return labels;
+}
+
 Stages::Stages(const Problem& problem)
     : problem_(problem), tables_(tables_of(problem)), conditions_(conditions_of(problem).size()), from_stage_(from_stages(problem)),
       offset_(conditions_), was_in_force_(tables_.size(), true), varied_(conditions_) {

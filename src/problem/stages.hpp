@@ -54,6 +54,9 @@ class Stages {
 /// its particles where they are less its displacement so far.
 Model model_in(const Stage& stage, Model& all, const State& now);
 
+/// Labels of the conditions that the load factor of a stage scales.
+std::vector<std::string> varied(const Problem& problem, const Stage& stage);
+
 /// Whether the load factor makes a difference to a condition: a support or a wall may stand still.
 bool moves(const Problem& problem, const Condition& condition);
 

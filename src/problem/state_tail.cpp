@@ -7,28 +7,176 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <utility>
 
 namespace elamin {
+
+namespace {
+
+using Json = nlohmann::json;
+
+template <class Numbers> std::string list(const Numbers& numbers) {
+  std::string text;
+  for (const double x : numbers) fmt::format_to(std::back_inserter(text), "{}{:.17g}", text.empty() ? "" : ", ", x);
+  return "[" + text + "]";
+}
+
+std::string stage_text(const StoredStage& stage) {
+  std::string scaling;
+  for (const Scaling& s : stage.scaling)
+    scaling += fmt::format("{}[{:.17g}, {:.17g}]", scaling.empty() ? "" : ", ", s.fixed, s.rate);
+  return fmt::format("{{\"name\": {}, \"from\": {:.17g}, \"scaling\": [{}]}}", Json(stage.name).dump(), stage.from, scaling);
+}
+
+std::string path_text(const StoredPath& path) {
+  const Resume& r = path.resume;
+  std::string text = fmt::format("{{\"varied\": {}, \"rising\": {}, \"resume\": {{", Json(path.varied).dump(), path.rising);
+  auto add = [&, first = true](const char* key, const std::string& value) mutable {
+    text += fmt::format("{}\n\"{}\": {}", first ? "" : ",", key, value);
+    first = false;
+  };
+  if (!r.label.empty()) add("label", Json(r.label).dump());
+  if (r.before >= 0) add("before", std::to_string(r.before));
+  if (r.after >= 0) add("after", std::to_string(r.after));
+  if (r.modes.cols() > 0) {
+    std::string modes;
+    for (Eigen::Index k = 0; k < r.modes.cols(); ++k) modes += (k ? ",\n" : "") + list(Vector(r.modes.col(k)));
+    add("modes", "[" + modes + "]");
+  }
+  if (r.tangent.size() > 0) add("tangent", list(r.tangent));
+  if (r.direction.size() > 0) {
+    add("direction", list(r.direction));
+    for (const auto& [key, value] : {std::pair("load", r.load), {"length", r.length}, {"step", r.step}, {"shortest", r.shortest}})
+      add(key, fmt::format("{:.17g}", value));
+  }
+  if (!r.closed.empty()) add("closed", Json(r.closed).dump());
+  return text + "}}";
+}
+
+/// What LABEL.json says; every `wrong` tells a sentence and throws.
+class TailReader {
+ public:
+  TailReader(std::string file, Json json) : file_(std::move(file)), json_(std::move(json)) {}
+
+  StateTail read() const {
+    if (!json_.is_object() || !json_.contains("lambda") || !json_.contains("tail") || !number(json_["lambda"]) ||
+        !json_["tail"].is_array())
+      wrong("must hold {\"lambda\": number, \"tail\": [[x, y, z], …]}, as beside every stored state; without this file "
+            "the state is taken from its data file alone");
+    StateTail stored{json_["lambda"].get<double>(), Field(3, static_cast<Eigen::Index>(json_["tail"].size())), {}, {}};
+    for (std::size_t i = 0; i < json_["tail"].size(); ++i) {
+      const Json& t = json_["tail"][i];
+      if (!t.is_array() || t.size() != 3 || !number(t[0]) || !number(t[1]) || !number(t[2]))
+        wrong(fmt::format("tail {} must be three finite numbers [x, y, z]", i + 1));
+      stored.tail.col(static_cast<Eigen::Index>(i)) = Vec3(t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
+    }
+    if (json_.contains("stage")) stored.stage = stage(json_["stage"]);
+    if (json_.contains("path")) stored.path = path(json_["path"], static_cast<int>(stored.tail.cols()));
+    return stored;
+  }
+
+ private:
+  [[noreturn]] void wrong(const std::string& what) const { throw InputError({Mistake{file_, 0, 0, {}, what}}); }
+
+  static bool number(const Json& j) { return j.is_number() && std::isfinite(j.get<double>()); }
+  static bool integer(const Json& j, int least, int most) {
+    return j.is_number_integer() && j.get<std::int64_t>() >= least && j.get<std::int64_t>() <= most;
+  }
+  template <class Holds> static bool all(const Json& j, const Holds& holds) {
+    return j.is_array() && std::all_of(j.begin(), j.end(), holds);
+  }
+
+  StoredStage stage(const Json& j) const {
+    const auto pair = [](const Json& p) { return p.is_array() && p.size() == 2 && number(p[0]) && number(p[1]); };
+    if (!j.is_object() || !j.contains("name") || !j["name"].is_string() || !j.contains("from") || !number(j["from"]) ||
+        !j.contains("scaling") || !all(j["scaling"], pair))
+      wrong("stage must be {\"name\": text, \"from\": number, \"scaling\": [[fixed, rate], …]}");
+    StoredStage stored{j["name"].get<std::string>(), j["from"].get<double>(), {}};
+    for (const Json& s : j["scaling"]) stored.scaling.emplace_back(s[0].get<double>(), s[1].get<double>());
+    return stored;
+  }
+
+  StoredPath path(const Json& j, int particles) const {
+    if (!j.is_object() || !j.contains("varied") || !all(j["varied"], [](const Json& w) { return w.is_string(); }) ||
+        !j.contains("rising") || !j["rising"].is_boolean() || !j.contains("resume") || !j["resume"].is_object())
+      wrong("path must be {\"varied\": [text, …], \"rising\": true or false, \"resume\": {…}}");
+    return {j["varied"].get<std::vector<std::string>>(), j["rising"].get<bool>(), resume(j["resume"], particles)};
+  }
+
+  Resume resume(const Json& j, int particles) const {
+    Resume r;
+    if (j.contains("label")) {
+      if (!j["label"].is_string()) wrong("path.resume.label must be a text");
+      r.label = j["label"].get<std::string>();
+    }
+    for (const auto& [key, index] : {std::pair("before", &r.before), {"after", &r.after}})
+      if (j.contains(key)) {
+        if (!integer(j[key], 0, 3 * particles)) wrong(fmt::format("path.resume.{} must be a number of eigenvalues", key));
+        *index = j[key].get<int>();
+      }
+    std::size_t dofs = 0;
+    const auto vector = [&](const Json& values, const char* key) {
+      if (!all(values, number) || values.empty()) wrong(fmt::format("path.resume.{} must be finite numbers", key));
+      if (dofs == 0) dofs = values.size();
+      if (values.size() != dofs)
+        wrong(fmt::format("path.resume.{} has {} numbers, and what stands before it {}; all are over the same free coordinates",
+                          key, values.size(), dofs));
+      Vector v(static_cast<Eigen::Index>(dofs));
+      for (std::size_t i = 0; i < dofs; ++i) v[static_cast<Eigen::Index>(i)] = values[i].get<double>();
+      return v;
+    };
+    if (j.contains("modes")) {
+      const Json& modes = j["modes"];
+      if (!modes.is_array() || modes.empty()) wrong("path.resume.modes must be arrays of finite numbers, one for each mode");
+      for (std::size_t k = 0; k < modes.size(); ++k) {
+        const Vector mode = vector(modes[k], "modes");
+        if (k == 0) r.modes.resize(mode.size(), static_cast<Eigen::Index>(modes.size()));
+        r.modes.col(static_cast<Eigen::Index>(k)) = mode;
+      }
+    }
+    if (j.contains("tangent")) r.tangent = vector(j["tangent"], "tangent");
+    if (j.contains("direction")) {
+      r.direction = vector(j["direction"], "direction");
+      for (const auto& [key, value] : {std::pair("load", &r.load), {"length", &r.length}, {"step", &r.step}, {"shortest", &r.shortest}}) {
+        if (!j.contains(key) || !number(j[key])) wrong(fmt::format("path.resume.{} must be a finite number, as there is a direction", key));
+        *value = j[key].get<double>();
+        if (value != &r.load && *value <= 0) wrong(fmt::format("path.resume.{} must be positive", key));
+      }
+    }
+    if (j.contains("closed")) {
+      constexpr int most = std::numeric_limits<int>::max();
+      const auto contact = [&](const Json& c) {
+        return c.is_array() && c.size() == 3 && integer(c[0], 0, particles - 1) && integer(c[1], -1, particles - 1) && integer(c[2], -1, most);
+      };
+      if (!all(j["closed"], contact))
+        wrong("path.resume.closed must be contacts [particle, other or -1, wall or -1], particles counted from 0");
+      r.closed = j["closed"].get<std::vector<std::array<int, 3>>>();
+    }
+    return r;
+  }
+
+  std::string file_;
+  Json json_;
+};
+
+}  // namespace
 
 std::string tail_file(const std::string& data_file) {
   return std::filesystem::path(data_file).replace_extension(".json").string();
 }
 
-std::string tail_text(const State& state, const StoredStage* stage) {
-  std::string text = fmt::format("{{\"lambda\": {:.17g},\n", state.load_factor);
-  if (stage) {
-    std::string scaling;
-    for (const Scaling& s : stage->scaling)
-      scaling += fmt::format("{}[{:.17g}, {:.17g}]", scaling.empty() ? "" : ", ", s.fixed, s.rate);
-    text += fmt::format("\"stage\": {{\"name\": {}, \"from\": {:.17g}, \"scaling\": [{}]}},\n", nlohmann::json(stage->name).dump(),
-                        stage->from, scaling);
-  }
+std::string tail_text(const StateTail& stored) {
+  std::string text = fmt::format("{{\"lambda\": {:.17g},\n", stored.load_factor);
+  if (stored.stage) text += "\"stage\": " + stage_text(*stored.stage) + ",\n";
+  if (stored.path) text += "\"path\": " + path_text(*stored.path) + ",\n";
   text += "\"tail\": [";
-  for (Eigen::Index i = 0; i < state.particles(); ++i) {
-    const Vec3 t = state.tail.col(i).array() + 0.0;                  // no negative zeros
+  for (Eigen::Index i = 0; i < stored.tail.cols(); ++i) {
+    const Vec3 t = stored.tail.col(i).array() + 0.0;                 // no negative zeros
     fmt::format_to(std::back_inserter(text), "{}\n[{:.17g}, {:.17g}, {:.17g}]", i ? "," : "", t[0], t[1], t[2]);
   }
   return text + "]}\n";
@@ -38,30 +186,7 @@ std::optional<StateTail> read_tail(const std::string& data_file) {
   const std::string file = tail_file(data_file);
   std::ifstream in(file, std::ios::binary);
   if (!in || file == data_file) return std::nullopt;
-  const auto wrong = [&](const std::string& what) { return InputError({Mistake{file, 0, 0, {}, what}}); };
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  const auto number = [](const nlohmann::json& j) { return j.is_number() && std::isfinite(j.get<double>()); };
-  if (!json.is_object() || !json.contains("lambda") || !json.contains("tail") || !number(json["lambda"]) ||
-      !json["tail"].is_array())
-    throw wrong("must hold {\"lambda\": number, \"tail\": [[x, y, z], …]}, as beside every stored state; without this file "
-                "the state is taken from its data file alone");
-  StateTail stored{json["lambda"].get<double>(), Field(3, static_cast<Eigen::Index>(json["tail"].size())), {}};
-  for (std::size_t i = 0; i < json["tail"].size(); ++i) {
-    const auto& t = json["tail"][i];
-    if (!t.is_array() || t.size() != 3 || !number(t[0]) || !number(t[1]) || !number(t[2]))
-      throw wrong(fmt::format("tail {} must be three finite numbers [x, y, z]", i + 1));
-    stored.tail.col(static_cast<Eigen::Index>(i)) = Vec3(t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
-  }
-  if (json.contains("stage")) {
-    const auto& s = json["stage"];
-    const auto pair = [&](const nlohmann::json& j) { return j.is_array() && j.size() == 2 && number(j[0]) && number(j[1]); };
-    if (!s.is_object() || !s.contains("name") || !s["name"].is_string() || !s.contains("from") || !number(s["from"]) ||
-        !s.contains("scaling") || !s["scaling"].is_array() || !std::all_of(s["scaling"].begin(), s["scaling"].end(), pair))
-      throw wrong("stage must be {\"name\": text, \"from\": number, \"scaling\": [[fixed, rate], …]}");
-    stored.stage = StoredStage{s["name"].get<std::string>(), s["from"].get<double>(), {}};
-    for (const auto& j : s["scaling"]) stored.stage->scaling.emplace_back(j[0].get<double>(), j[1].get<double>());
-  }
-  return stored;
+  return TailReader(file, Json::parse(in, nullptr, false)).read();
 }
 
 }  // namespace elamin

@@ -1,7 +1,8 @@
 #pragma once
-// What a stored state has besides its LAMMPS data file LABEL.data: LABEL.json with the load factor and the tails of the
-// positions, so that a path goes on from it with the same numbers.
+// What a stored state has besides its LAMMPS data file LABEL.data: LABEL.json with the load factor, the tails of the
+// positions and where the path was heading, so that a path goes on from it with the same numbers.
 #include "model/model.hpp"
+#include "path/point.hpp"
 
 #include <optional>
 #include <string>
@@ -16,20 +17,30 @@ struct StoredStage {
   std::vector<Scaling> scaling;        // in the order of conditions_of
 };
 
+/// How the path of a state goes on, and which path that is.
+struct StoredPath {
+  std::vector<std::string> varied;     // labels of the conditions that its load factor scales …
+  bool rising = true;                  // … upwards, from `from` to `to`
+  Resume resume;
+};
+
 struct StateTail {
   double load_factor = 0;
   Field tail;                          // 3 × particles, in ascending order of their ids [length]
   std::optional<StoredStage> stage;
+  std::optional<StoredPath> path;      // where the state alone does not tell it
 };
 
 /// LABEL.json of LABEL.data.
 std::string tail_file(const std::string& data_file);
 
-/// {"lambda": λ, "tail": [[x, y, z], …]}, a particle a line, with 17 digits; before the tail "stage": {"name", "from",
-/// "scaling": [[fixed, rate], …]}, if there is one.
-std::string tail_text(const State& state, const StoredStage* stage = nullptr);
+/// {"lambda": λ, "tail": [[x, y, z], …]}, a particle a line, with 17 digits; before the tail, if there is one, "stage":
+/// {"name", "from", "scaling": [[fixed, rate], …]}, and "path": {"varied", "rising", "resume": what is not empty of Resume
+/// by its names, one array for each of the modes}.
+std::string tail_text(const StateTail& stored);
 
-/// What stands beside a data file; nothing if there is no such file. Throws InputError if it cannot be understood.
+/// What stands beside a data file; nothing if there is no such file. Throws InputError if it cannot be understood: vectors
+/// over the free coordinates must be of one size, contacts between particles that there are.
 std::optional<StateTail> read_tail(const std::string& data_file);
 
 }  // namespace elamin

@@ -23,6 +23,7 @@ class Record {
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
 
+  const Problem& problem() const { return problem_; }
   const Table& path() const { return path_; }
   const Table& events() const { return events_; }
   /// Names of the last columns, see observable_columns.

@@ -71,7 +71,9 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
 
 void RunDirectory::enter(const Stage& stage, const Model& model) {
   record_.enter(stage, model);
+  stage_.reset();
   if (!stage.name.empty()) stage_ = StoredStage{stage.name, stage.path.from, stage.scaling};
+  varied_ = varied(record_.problem(), stage), rising_ = stage.path.to > stage.path.from;
 }
 
 void RunDirectory::add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
@@ -79,13 +81,16 @@ void RunDirectory::add(const PathPoint& point, const Field& forces, const std::v
   record_.add(point, forces, touches, eigenvalues);
   path_.add(record_.path().rows.back());
   if (is_event(point.label)) events_.add(record_.events().rows.back());
-  if (!point.label.empty()) add_state(point.label, point.state, touches);
+  if (!point.label.empty()) add_state(point.label, point, touches);
 }
 
-void RunDirectory::add_state(const std::string& label, const State& state, const std::vector<Touch>& touches) {
+void RunDirectory::add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches) {
+  const State& state = point.state;
   write_state(state_file(label), model_, state,
               fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
-  write_text(state_file(label, ".json"), tail_text(state, stage_ ? &*stage_ : nullptr));
+  StateTail stored{state.load_factor, state.tail, stage_, {}};
+  if (point.resume) stored.path = StoredPath{varied_, rising_, *point.resume};
+  write_text(state_file(label, ".json"), tail_text(stored));
   for (const Touch& t : touches) {
     if (!(t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
     const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);

@@ -26,10 +26,11 @@ class RunDirectory {
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
 
-  /// states/LABEL.data with LABEL.json (see problem/state_tail.hpp), and every closed contact (gap < 0; at an event also what just touches) as a row of contacts.csv:
-  /// label, lambda, first (id of the particle), second (id of the other one, or the wall's name), gap, force (its
-  /// magnitude), fx, fy, fz (on the first), x, y, z (of contact).
-  void add_state(const std::string& label, const State& state, const std::vector<Touch>& touches);
+  /// states/LABEL.data with LABEL.json (see problem/state_tail.hpp), and every closed contact (gap < 0; at an event also what
+  /// just touches) as a row of contacts.csv: label, lambda, first (id of the particle), second (id of the other one, or the
+  /// wall's name), gap, force (its magnitude), fx, fy, fz (on the first), x, y, z (of contact). The label stands for the
+  /// point's own.
+  void add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches);
 
   /// states/LABEL.modes.csv of an event: id, then ux1, uy1, uz1, ux2, … of every null vector (3 × particles each).
   void add_null_vectors(const std::string& label, const std::vector<Field>& vectors);
@@ -54,6 +55,8 @@ class RunDirectory {
   Record record_;
   const Model& model_;
   std::optional<StoredStage> stage_;                  // of a path in stages
+  std::vector<std::string> varied_;                   // what the load factor scales …
+  bool rising_ = true;                                // … upwards
   std::string directory_, title_;
   std::ofstream log_;
   CsvFile path_, events_, contacts_;

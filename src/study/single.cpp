@@ -31,6 +31,8 @@ std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics
 
 SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, Progress::Style style) {
   const Stopwatch total;
+  std::optional<StateTail> stored;                             // it may be in the directory that is emptied now
+  if (!problem.path.start.empty()) stored = read_tail(problem.path.start);
   RunDirectory results(directory, problem, model, resolved_toml(problem));
   results.log(fmt::format("elamin {}: {}", version(), problem.file));
   Energy* energy = nullptr;                                    // of the stage
@@ -48,7 +50,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     const std::vector<Touch> touches = observed_touches(*energy, point.state, results.record().observables());
     results.add(point, energy->forces(point.state), touches, eigenvalues);
     if (point.modes.cols() > 0) results.add_null_vectors(point.label, null_vectors(point, energy->kinematics()));
-    if (last && point.label != "final") results.add_state("final", point.state, touches);
+    if (last && point.label != "final") results.add_state("final", point, touches);
     progress.show(point);
     summary.zero_modes = point.stability.zero_modes;
   };
@@ -69,7 +71,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         for (const Mode& m : modes) results.add_mode(m, point.state);
       },
       .note = [&](const std::string& note) { results.log(note); }};
-  const Outcome outcome = trace(problem, model, sink);
+  const Outcome outcome = trace(problem, model, stored, sink);
   progress.finish();
   results.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
 

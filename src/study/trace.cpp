@@ -89,8 +89,8 @@ NewtonOptions solver_options(const Problem& problem) {
   return {.tolerance = problem.solver.tolerance, .max_iterations = problem.solver.max_iterations};
 }
 
-Outcome trace(const Problem& problem, const Model& model, const Sink& sink) {
-  if (problem.study == StudyType::path) return trace_path(problem, model, sink);
+Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
+  if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink);
   Energy energy(model);
   sink.stage({}, energy);
   Newton newton(energy, solver_options(problem));

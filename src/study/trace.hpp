@@ -36,7 +36,7 @@ State starting_state(const Problem& problem, const Energy& energy);
 
 NewtonOptions solver_options(const Problem& problem);
 
-/// Runs the study and yields its points as they are found.
-Outcome trace(const Problem& problem, const Model& model, const Sink& sink);
+/// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from.
+Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink);
 
 }  // namespace elamin

@@ -29,15 +29,31 @@ PathOptions options_of(const Problem& problem, const PathTable& t, const Model& 
           .when_unstable = t.when_unstable.value_or(WhenUnstable::jump), .start = t.start_lambda,
           .stops = stops_of(problem), .limits = locates("limit"), .branch_points = locates("branch"),
           .contacts = locates("contact"), .branches = t.branches, .lowest = t.lowest, .highest = t.highest,
-          .most_points = t.points.value_or(0), .watches = watches(problem, model), .deflate = t.deflate,
+          .most_points = t.points.value_or(0), .watches = watches(problem, model), .resume = {}, .deflate = t.deflate,
           .deflate_at = t.deflate_at.value_or(std::vector<double>{})};
 }
 
-// One stage at work.
+// One stage at work, perhaps one that is taken up where a state was stored.
 struct Run {
-  Run(const Problem& problem, Stage in_force, Model in_stage, const State& start)
-      : stage(std::move(in_force)), model(std::move(in_stage)), energy(model), newton(energy, solver_options(problem)),
-        path(make_path(newton, start, options_of(problem, stage.path, model))) {}
+  Run(const Problem& problem, Stage in_force, Model in_stage, const State& start, const std::optional<StateTail>& stored)
+      : stage(std::move(in_force)), model(std::move(in_stage)), energy(model), newton(energy, solver_options(problem)) {
+    PathOptions options = options_of(problem, stage.path, model);
+    if (stored && goes_on(*stored, problem)) options.resume = stored->path->resume;
+    path = make_path(newton, start, options);
+  }
+
+  // Whether this is the path that the state is of: the same load factor, that scales the same and goes the same way, and the
+  // same free coordinates.
+  bool goes_on(const StateTail& stored, const Problem& problem) const {
+    if (!stored.path || stage.path.start_lambda != stored.load_factor) return false;
+    if (stored.path->varied != varied(problem, stage) || stored.path->rising != (stage.path.to > stage.path.from)) return false;
+    const Resume& r = stored.path->resume;
+    for (const Eigen::Index size : {r.modes.rows(), r.tangent.size(), r.direction.size()})
+      if (size != 0 && size != energy.dofs()) return false;
+    const int walls = static_cast<int>(model.walls.size());
+    return std::all_of(r.closed.begin(), r.closed.end(), [&](const auto& contact) { return contact[2] < walls; });
+  }
+
   Stage stage;
   Model model;
   Energy energy;
@@ -89,11 +105,10 @@ class Numbers {
 
 }  // namespace
 
-Outcome trace_path(const Problem& problem, const Model& model, const Sink& sink) {
+Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
   Stages stages(problem);
   int k = 0;
-  if (!problem.path.start.empty())
-    if (const auto stored = read_tail(problem.path.start); stored && stored->stage && stages.resume(*stored->stage)) k = stages.next();
+  if (stored && stored->stage && stages.resume(*stored->stage)) k = stages.next();
   const int first = k;
   Numbers numbers;
   Model all = model;                                   // with everything in force
@@ -106,7 +121,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const Sink& sink)
     Stage stage = stages.enter(unclear);
     Model in_stage = model_in(stage, all, start);
     before = std::move(run);
-    run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start);
+    run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, held ? std::nullopt : stored);
     bool begun = false;
     while (std::optional<PathPoint> point = run->path->next()) {
       if (held) {

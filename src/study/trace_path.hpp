@@ -4,6 +4,7 @@
 namespace elamin {
 
 /// The study "path": the path that [path] asks for, or one after the other those of its stages. Watches the [[event]]s.
-Outcome trace_path(const Problem& problem, const Model& model, const Sink& sink);
+/// stored: what stands beside the state to start from; if it is of this very path, that goes on as if it had never stopped.
+Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink);
 
 }  // namespace elamin

@@ -116,7 +116,7 @@ TEST_CASE("closed contacts of labelled states stand in contacts.csv", "[run_dire
                            "contact:1,0.75,3,floor,-0.75,32,0,0,32,0,0,0\n"
                            "contact:1,0.75,3,floor,-0.0625,3,-3,0,0,0,0,0\n";
   CHECK(text_of(scratch / "run/contacts.csv") == header + rows);                    // there before the run ends
-  run.add_state("final", m.start, {sample_touches()[3]});
+  run.add_state("final", sample_point(m, 3, 0), {sample_touches()[3]});
   CHECK(text_of(scratch / "run/contacts.csv") == header + rows + "final,0,2,floor,-0.5,16,0,0,16,0,0,0\n");
   CHECK(std::filesystem::exists(run.state_file("final")));
   RunDirectory again(scratch / "run", problem, m, "");
@@ -145,6 +145,7 @@ TEST_CASE("a state has its tails beside it, an event its null vectors, and a sta
   CHECK(stored->stage->name == "load");
   CHECK(stored->stage->from == 0.1 + 0.2);
   CHECK(stored->stage->scaling == stage.scaling);
+  CHECK(!stored->path);
   CHECK(!read_tail(scratch / "run/states/none.data"));
 
   Field first = Field::Zero(3, 5), second = Field::Zero(3, 5);

@@ -1,0 +1,139 @@
+// Every event that the problems of problems/ run into, held against its own equations.
+#include "catch.hpp"
+#include "path/arc.hpp"
+#include "problem/sweep.hpp"
+#include "study/observed.hpp"
+#include "study/trace.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+
+using namespace elamin;
+
+namespace {
+
+// A path as it was found; of a path in stages one of them, with the model that was in force there.
+struct StagePoints {
+  Model model;
+  std::vector<PathPoint> points;
+};
+
+struct Found {
+  std::deque<StagePoints> stages;
+  Outcome outcome;
+};
+
+Found found_by(const PreparedRun& run) {
+  Found found;
+  const Sink sink{.stage = [&](const Stage&, Energy& energy) { found.stages.push_back({energy.model(), {}}); },
+                  .point = [&](const PathPoint& point, bool) { found.stages.back().points.push_back(point); },
+                  .modes = [&](const PathPoint& point, const std::vector<Mode>&) { found.stages.back().points.push_back(point); },
+                  .note = [](const std::string&) {}};
+  found.outcome = trace(run.problem, run.model, {}, sink);
+  return found;
+}
+
+std::string kind_of(const PathPoint& p) { return p.label.substr(0, p.label.find(':')); }
+bool located(const PathPoint& p) { return p.label.find(':') != std::string::npos && kind_of(p) != "jump"; }
+
+// Null vectors: orthonormal, H φ = 0, and the load does work along that of a limit point, along none of a branch point.
+void check_modes(const PathPoint& p, Energy& energy, double stiffness) {
+  REQUIRE(p.multiplicity >= 1);
+  REQUIRE(p.modes.cols() == p.multiplicity);
+  CHECK((p.modes.transpose() * p.modes - Eigen::MatrixXd::Identity(p.multiplicity, p.multiplicity)).cwiseAbs().maxCoeff() <= 1e-12);
+  const Vector rate = energy.load_derivative();
+  for (int k = 0; k < p.multiplicity; ++k) {
+    const Vector mode = p.modes.col(k);
+    CAPTURE(k, energy.multiply(mode).norm() / stiffness, mode.dot(rate) / rate.norm());
+    CHECK(energy.multiply(mode).norm() <= 1e-8 * stiffness);
+    if (kind_of(p) == "limit") CHECK(std::abs(mode.dot(rate)) > 1e-5 * rate.norm());
+    else CHECK(std::abs(mode.dot(rate)) <= 1e-5 * rate.norm());
+  }
+}
+
+void check_contact(const PathPoint& p, Energy& energy) {
+  const std::vector<double>& diameter = energy.model().diameter;
+  const double reach = 1e-9 * *std::max_element(diameter.begin(), diameter.end());
+  double least = std::numeric_limits<double>::infinity();
+  for (const Touch& t : energy.touches(p.state, reach)) least = std::min(least, std::abs(t.gap) / diameter[t.particle]);
+  CHECK(least <= 1e-9);
+}
+
+void check_watch(const PathPoint& p, const std::vector<Watch>& watches) {
+  const auto watch = std::find_if(watches.begin(), watches.end(), [&](const Watch& w) { return w.name == kind_of(p); });
+  REQUIRE(watch != watches.end());
+  CHECK(watch->observable(p.state) == Approx(watch->value).epsilon(1e-9));
+}
+
+// Right beside an event, where nothing else happens in between, the Morse index is what the event says of its two sides.
+void check_index(const std::vector<PathPoint>& points, std::size_t k) {
+  const PathPoint& p = points[k];
+  const auto ordinary = [&](const PathPoint& q) {
+    return q.branch == p.branch && (q.label.empty() || q.label == "initial" || q.label == "final") && q.stability.critical == 0;
+  };
+  if (k > 0 && ordinary(points[k - 1])) CHECK(p.negative_before == points[k - 1].stability.negative);
+  if (k + 1 < points.size() && ordinary(points[k + 1])) CHECK(p.negative_after == points[k + 1].stability.negative);
+}
+
+void check_events(const StagePoints& stage, const Problem& problem) {
+  Energy energy(stage.model);
+  Factors factors(energy);
+  const std::vector<Watch> watched = watches(problem, stage.model);
+  for (std::size_t k = 0; k < stage.points.size(); ++k) {
+    const PathPoint& p = stage.points[k];
+    if (p.label.empty()) continue;
+    CAPTURE(p.label, p.step, p.branch, p.state.load_factor);
+    energy.evaluate(p.state);
+    CHECK(energy.relative(energy.gradient()) <= problem.solver.tolerance);
+    if (!located(p)) continue;
+    check_index(stage.points, k);
+    if (kind_of(p) == "contact") check_contact(p, energy);
+    else if (kind_of(p) == "limit" || kind_of(p) == "branch") check_modes(p, energy, factors.zero_level() / (16 * epsilon));
+    else check_watch(p, watched);
+  }
+}
+
+void check_twins(const StagePoints& stage) {
+  std::vector<const PathPoint*> events;
+  double loads = 0;
+  for (const PathPoint& p : stage.points) {
+    loads = std::max(loads, std::abs(p.state.load_factor));
+    if (located(p)) events.push_back(&p);
+  }
+  const double size = span(stage.model);
+  for (std::size_t a = 0; a < events.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      if (kind_of(*events[a]) != kind_of(*events[b])) continue;
+      const double moved = displacement(events[a]->state, events[b]->state).cwiseAbs().maxCoeff();
+      const bool twins = moved <= 1e-9 * size && std::abs(events[a]->state.load_factor - events[b]->state.load_factor) <= 1e-9 * loads;
+      CAPTURE(events[a]->label, events[b]->label, events[a]->state.load_factor);
+      CHECK_FALSE(twins);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("every event of the problems satisfies its own equations, and stands there once", "[events][problems]") {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(ELAMIN_ROOT) + "/problems"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  REQUIRE(files.size() > 1);
+  for (const std::string& file : files)
+    DYNAMIC_SECTION(std::filesystem::path(file).stem().string()) {
+      const PreparedRuns prepared = prepare_runs(file);
+      const std::size_t last = prepared.runs.size() - 1;
+      for (const std::size_t number : last == 0 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, last}) {
+        const PreparedRun& run = prepared.runs[number];
+        const Found found = found_by(run);
+        CAPTURE(number, found.outcome.why);
+        CHECK(found.outcome.status == Status::converged);
+        REQUIRE_FALSE(found.stages.empty());
+        for (const StagePoints& stage : found.stages) {
+          check_events(stage, run.problem);
+          check_twins(stage);
+        }
+      }
+    }
+}
