@@ -60,7 +60,7 @@ void ArcLength::begin() {
   }
   std::string sentence;
   const double at = options_.start.value_or(options_.from);
-  Equilibrium e = first_equilibrium(newton_, start_, at, options_.when_unstable, sentence);
+  Equilibrium e = first_equilibrium(newton_, start_, at, options_.when_unstable, options_.resume.has_value(), sentence);
   if (!sentence.empty()) note(sentence);
   if (!e.point.report.converged()) return end(e.point.report.status, e.point.report.why);
   metric_ = metric_for(newton_.energy(), e, options_);
@@ -76,11 +76,19 @@ void ArcLength::begin() {
   set_out(e, direction_of(e, metric_, towards), e.point.stability.negative, closed_contacts(newton_.energy(), e.point.state));
 }
 
+// As if the path had never stopped here.
 void ArcLength::take_up(Equilibrium at, const Resume& resume) {
-  if (std::optional<Event> event = resumed_event(resume, at)) at = std::move(event->at);
+  metric_.length = resume.length;
+  if (std::optional<Event> event = resumed_event(resume, at)) {
+    if (event->before == 0 && event->after > 0 && options_.when_unstable != WhenUnstable::follow) {
+      lose_stability(*event);
+      return;
+    }
+    at = std::move(event->at);
+  }
+  if (resume.tangent.size() == at.tangent.size()) at.tangent = resume.tangent;
   at.point.label.clear();
   at.point.stability.critical = 0;
-  metric_.length = resume.length;
   set_out(at, {resume.direction, resume.load}, resume.after >= 0 ? resume.after : at.point.stability.negative, resumed_contacts(resume),
           resume.step, resume.shortest);
 }
@@ -159,11 +167,11 @@ bool ArcLength::lose_stability(Event& event) {
   landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
   landed.point.what = what;
   landed.point.negative_before = event.before, landed.point.negative_after = landed.point.stability.negative;
-  emit(landed.point);
-  landed.point.label.clear();
   const Direction towards{Vector::Zero(landed.tangent.size()), range_of(options_) > 0 ? metric_.load : -metric_.load};
   set_out(landed, direction_of(landed, metric_, towards), landed.point.stability.negative,
           closed_contacts(newton_.energy(), landed.point.state));
+  landed.point.resume = resume_here({landed, {}, {}});
+  emit(landed.point);
   return true;
 }
 

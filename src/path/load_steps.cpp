@@ -50,7 +50,7 @@ void LoadSteps::advance() {
 void LoadSteps::begin() {
   begun_ = true;
   std::string sentence;
-  Equilibrium first = first_equilibrium(newton_, start_, interval_start_, options_.when_unstable, sentence);
+  Equilibrium first = first_equilibrium(newton_, start_, interval_start_, options_.when_unstable, options_.resume.has_value(), sentence);
   if (!sentence.empty()) note(sentence);
   if (!first.point.report.converged()) return end(first.point.report.status, first.point.report.why);
   first.point.label = "initial";
@@ -59,6 +59,7 @@ void LoadSteps::begin() {
   settle(first, interval_start_);
   if (options_.resume) {
     closed_ = resumed_contacts(*options_.resume);
+    if (options_.resume->tangent.size() == current_.tangent.size()) current_.tangent = options_.resume->tangent;
     if (std::optional<Event> event = resumed_event(*options_.resume, first)) {
       told_already_ = true;
       return lose_stability(std::move(*event), targets_.empty() ? options_.to : targets_[interval_]);

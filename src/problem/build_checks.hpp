@@ -19,7 +19,7 @@ void check_plane(const Problem& problem, const Model& model, const Field& positi
 /// as long as the forces on them cancel. What is held, and by supports only, may not move as a whole.
 void check_held(const Problem& problem, const Model& model, Mistakes& mistakes);
 
-/// A study of modes cannot have more of them than there are free coordinates.
+/// A study cannot have more modes or eigenvalues than there are free coordinates.
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes);
 
 }  // namespace elamin

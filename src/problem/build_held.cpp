@@ -139,16 +139,20 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
 }
 
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes) {
-  if (problem.study != StudyType::modes) return;
+  const bool modes = problem.study == StudyType::modes;
+  if (!modes && !(problem.study == StudyType::path && problem.stages.empty())) return;     // what stages let go is free
   using Flags = Eigen::Matrix<bool, 3, Eigen::Dynamic>;
   Flags held = Flags::Constant(3, model.particles(), false);
   if (model.plane_normal) held.row(*model.plane_normal).setConstant(true);
   for (const Support& s : model.supports)
     for (const int i : s.particles)
       for (int c = 0; c < 3; ++c) held(c, i) = held(c, i) || s.held[c];
-  if (const auto free = held.size() - held.count(); free < problem.modes.count)
-    mistakes.add(problem.modes.place, "count",
-                 fmt::format("asks for {} modes; only {} coordinates are free", problem.modes.count, free));
+  const auto free = held.size() - held.count();
+  const auto limit = [&](const TablePlace& place, const char* key, int count, const char* what) {
+    if (free < count) mistakes.add(place, key, fmt::format("asks for {} {}; only {} coordinates are free", count, what, free));
+  };
+  if (modes) limit(problem.modes.place, "count", problem.modes.count, "modes");
+  else limit(problem.path.place, "eigenvalues", problem.path.eigenvalues, "eigenvalues");
 }
 
 }  // namespace elamin

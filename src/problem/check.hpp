@@ -17,8 +17,8 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
 /// Columns that the tables of every run have; an observable may not take one of these names.
 const std::vector<std::string>& standing_columns();
 
-/// Columns that a study of modes has besides: eigenvalue_1, …
-std::vector<std::string> eigenvalue_columns(int count);
+/// Columns that a study of modes and a path with `eigenvalues` have besides: eigenvalue_1, …
+std::vector<std::string> eigenvalue_columns(const Problem& problem);
 
 /// The `at` of an expectation about all runs of a sweep together: the threshold that a bisection finds.
 inline constexpr const char* at_sweep = "sweep";

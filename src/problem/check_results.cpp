@@ -20,7 +20,8 @@ const std::vector<std::string>& standing_columns() {
   return columns;
 }
 
-std::vector<std::string> eigenvalue_columns(int count) {
+std::vector<std::string> eigenvalue_columns(const Problem& p) {
+  const int count = p.study == StudyType::modes ? p.modes.count : p.study == StudyType::path ? p.path.eigenvalues : 0;
   std::vector<std::string> columns;
   for (int i = 1; i <= count; ++i) columns.push_back(fmt::format("eigenvalue_{}", i));
   return columns;
@@ -35,8 +36,7 @@ bool is_in(const std::vector<std::string>& list, const std::string& word) {
 /// The columns of a problem's tables besides its observables.
 std::vector<std::string> columns_of(const Problem& p) {
   std::vector<std::string> columns = standing_columns();
-  if (p.study != StudyType::modes) return columns;
-  const std::vector<std::string> eigenvalues = eigenvalue_columns(p.modes.count);
+  const std::vector<std::string> eigenvalues = eigenvalue_columns(p);
   columns.insert(columns.end(), eigenvalues.begin(), eigenvalues.end());
   return columns;
 }

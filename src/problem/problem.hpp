@@ -131,6 +131,7 @@ struct PathTable {
   double from = 0, to = 1;
   std::optional<WhenUnstable> when_unstable;    // default: jump; of arc_length: follow
   int branches = 0;                             // branch points to switch at
+  int eigenvalues = 0;                          // columns eigenvalue_1 … of every point
   std::vector<std::string> locate{"limit", "branch", "contact"};
   std::optional<std::vector<double>> stops;     // load factors that are met besides
   std::optional<double> lowest, highest;        // load factors that end a branch in arc length

@@ -50,6 +50,7 @@ template <class IO> void describe(IO& io, PathTable& t) {
   io.word("when_unstable", t.when_unstable, when_unstable_words);
   io.may("branches", t.branches, Range{0, most_branches});
   io.words("locate", t.locate, event_words);
+  io.may("eigenvalues", t.eigenvalues, Range{0, most_modes});
   io.may("stops", t.stops);
   io.may("lowest", t.lowest);
   io.may("highest", t.highest);
@@ -60,7 +61,7 @@ template <class IO> void describe(IO& io, PathTable& t) {
   io.may("start_lambda", t.start_lambda);
 }
 
-template <class IO> void describe(IO& io, ModesTable& t) { io.may("count", t.count, Range{1, 1000}); }
+template <class IO> void describe(IO& io, ModesTable& t) { io.may("count", t.count, Range{1, most_modes}); }
 
 template <class IO> void describe(IO& io, SolverTable& t) {
   io.word("method", t.method, solver_words);

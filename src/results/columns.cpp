@@ -41,8 +41,7 @@ std::vector<std::string> first_events(const Problem& problem) {
 std::vector<std::string> observable_columns(const Problem& problem) {
   std::vector<std::string> names;
   for (const ObserveTable& o : problem.observe) names.push_back(o.name);
-  if (problem.study == StudyType::modes)
-    for (const std::string& name : eigenvalue_columns(problem.modes.count)) names.push_back(name);
+  for (const std::string& name : eigenvalue_columns(problem)) names.push_back(name);
   return names;
 }
 

@@ -10,7 +10,7 @@
 
 namespace elamin {
 
-/// The names of every [[observe]], and behind them eigenvalue_1 … eigenvalue_count of a study of modes.
+/// The names of every [[observe]], and behind them eigenvalue_1 … as many as the study has.
 std::vector<std::string> observable_columns(const Problem& problem);
 
 /// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, external, residual, iterations, negative,

@@ -19,7 +19,7 @@ class Record {
   void enter(const Stage& stage, const Model& model);
 
   /// A point of the path; forces: −∂U/∂x of all particles with the loads, 3 × particles; touches: see
-  /// Observables::evaluate; eigenvalues: of a study of modes. An event (a label such as "branch:1") stands in both tables.
+  /// Observables::evaluate; eigenvalues: the lowest, where the study has them. An event (a label such as "branch:1") stands in both tables.
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
 

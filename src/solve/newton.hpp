@@ -64,6 +64,7 @@ class Newton {
 
   Energy& energy() { return energy_; }
   Factors& factors() { return factors_; }
+  double tolerance() const { return options_.tolerance; }
 
  private:
   /// A step p = −M⁻¹g + (a direction of negative curvature), M = H + τI, with what the model predicts along it.

@@ -3,6 +3,7 @@
 #include "core/timing.hpp"
 #include "problem/resolved.hpp"
 #include "results/run_directory.hpp"
+#include "study/eigenvalues.hpp"
 #include "study/observed.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
@@ -36,6 +37,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   RunDirectory results(directory, problem, model, resolved_toml(problem));
   results.log(fmt::format("elamin {}: {}", version(), problem.file));
   Energy* energy = nullptr;                                    // of the stage
+  std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
   double setup = 0;
 
   Progress progress(stdout, style, starting_load_factor(problem), problem.path.to);
@@ -58,12 +60,15 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
       .stage = [&](const Stage& stage, Energy& in_force) {
         energy = &in_force;
         results.enter(stage, energy->model());
+        if (problem.study == StudyType::path && problem.path.eigenvalues > 0) lowest.emplace(energy->model(), problem.path.eigenvalues);
         results.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
                                 stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), model.bonds.size(),
                                 model.angles.size(), energy->dofs(), energy->hessian().nonZeros()));
         if (setup == 0) setup = total.seconds();
       },
-      .point = [&](const PathPoint& point, bool last) { add(point, last, {}); },
+      .point = [&](const PathPoint& point, bool last) {
+        add(point, last, lowest ? lowest->at(point.state) : std::vector<double>{});
+      },
       .modes = [&](const PathPoint& point, const std::vector<Mode>& modes) {
         std::vector<double> eigenvalues;
         for (const Mode& m : modes) eigenvalues.push_back(m.eigenvalue);

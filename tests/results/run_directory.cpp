@@ -123,6 +123,40 @@ TEST_CASE("closed contacts of labelled states stand in contacts.csv", "[run_dire
   CHECK(text_of(scratch / "run/contacts.csv") == header);
 }
 
+TEST_CASE("a state has beside it how its path goes on, with all digits", "[run_directory]") {
+  ScratchDirectory scratch;
+  const Model m = sample_model();
+  Problem problem = sample_problem();
+  problem.supports.resize(2);
+  problem.supports[1].name = "top";
+  RunDirectory run(scratch / "run", problem, m, "");
+  Stage stage;
+  stage.path.from = 1, stage.path.to = 0, stage.scaling = {{1, 0}, {0, 1}};
+  run.enter(stage, m);
+  PathPoint p = sample_point(m, 0, 1.0 / 3, "branch:2");
+  Resume r;
+  r.label = "branch:2", r.before = 0, r.after = 2;
+  r.modes = Eigen::MatrixXd::Constant(3, 2, 1.0 / 3), r.modes(2, 1) = -1e-300 / 7;
+  r.tangent = Vector::LinSpaced(3, -1.0 / 3, 0.7), r.direction = r.tangent / 3;
+  r.load = -0.1 / 3, r.length = 1e-5 / 3, r.step = 1.0 / 7, r.shortest = 1e-9 / 7;
+  r.closed = {{0, 4, -1}, {2, -1, 1}};
+  p.resume = r;
+  run.add(p, Field::Zero(3, 5), {});
+  const auto stored = read_tail(run.state_file("branch:2"));
+  REQUIRE(stored);
+  REQUIRE(stored->path);
+  CHECK(stored->path->varied == std::vector<std::string>{"support.top"});
+  CHECK_FALSE(stored->path->rising);
+  const Resume& back = stored->path->resume;
+  CHECK(back.label == r.label);
+  CHECK((back.before == 0 && back.after == 2));
+  CHECK(back.modes == r.modes);
+  CHECK(back.tangent == r.tangent);
+  CHECK(back.direction == r.direction);
+  CHECK((back.load == r.load && back.length == r.length && back.step == r.step && back.shortest == r.shortest));
+  CHECK(back.closed == r.closed);
+}
+
 TEST_CASE("a state has its tails beside it, an event its null vectors, and a stage its name", "[run_directory]") {
   ScratchDirectory scratch;
   Model m = sample_model();

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <limits>
+#include <set>
 
 using namespace elamin;
 
@@ -38,17 +40,33 @@ std::string kind_of(const PathPoint& p) { return p.label.substr(0, p.label.find(
 bool located(const PathPoint& p) { return p.label.find(':') != std::string::npos && kind_of(p) != "jump"; }
 
 // Null vectors: orthonormal, H φ = 0, and the load does work along that of a limit point, along none of a branch point.
-void check_modes(const PathPoint& p, Energy& energy, double stiffness) {
+// Slender structures bend so much more easily than they stretch that H φ is small beside H for any bending φ: so φ·Hφ is
+// held against what it is one point before or after too.
+void check_modes(const std::vector<PathPoint>& points, std::size_t at, Energy& energy, Factors& factors) {
+  const PathPoint& p = points[at];
   REQUIRE(p.multiplicity >= 1);
   REQUIRE(p.modes.cols() == p.multiplicity);
   CHECK((p.modes.transpose() * p.modes - Eigen::MatrixXd::Identity(p.multiplicity, p.multiplicity)).cwiseAbs().maxCoeff() <= 1e-12);
+  const double stiffness = factors.zero_level() / (16 * epsilon);
   const Vector rate = energy.load_derivative();
+  std::vector<double> left;
   for (int k = 0; k < p.multiplicity; ++k) {
     const Vector mode = p.modes.col(k);
     CAPTURE(k, energy.multiply(mode).norm() / stiffness, mode.dot(rate) / rate.norm());
     CHECK(energy.multiply(mode).norm() <= 1e-8 * stiffness);
     if (kind_of(p) == "limit") CHECK(std::abs(mode.dot(rate)) > 1e-5 * rate.norm());
     else CHECK(std::abs(mode.dot(rate)) <= 1e-5 * rate.norm());
+    left.push_back(std::abs(energy.quadratic_form(mode)));
+  }
+  for (int k = 0; k < p.multiplicity; ++k) {
+    double beside = 0;
+    for (const std::size_t other : {at - 1, at + 1}) {
+      if (other >= points.size() || points[other].branch != p.branch) continue;
+      energy.evaluate(points[other].state);
+      beside = std::max(beside, std::abs(energy.quadratic_form(p.modes.col(k))));
+    }
+    CAPTURE(k, left[k] / beside);
+    CHECK(left[k] <= 1e-6 * beside);
   }
 }
 
@@ -60,10 +78,12 @@ void check_contact(const PathPoint& p, Energy& energy) {
   CHECK(least <= 1e-9);
 }
 
-void check_watch(const PathPoint& p, const std::vector<Watch>& watches) {
-  const auto watch = std::find_if(watches.begin(), watches.end(), [&](const Watch& w) { return w.name == kind_of(p); });
-  REQUIRE(watch != watches.end());
-  CHECK(watch->observable(p.state) == Approx(watch->value).epsilon(1e-9));
+void check_watch(const PathPoint& p, const std::vector<PathPoint>& points, const std::vector<Watch>& watched) {
+  const auto watch = std::find_if(watched.begin(), watched.end(), [&](const Watch& w) { return w.name == kind_of(p); });
+  REQUIRE(watch != watched.end());
+  double most = 0;
+  for (const PathPoint& q : points) most = std::max(most, std::abs(watch->observable(q.state)));
+  CHECK(std::abs(watch->observable(p.state) - watch->value) <= 1e-9 * most);
 }
 
 // Right beside an event, where nothing else happens in between, the Morse index is what the event says of its two sides.
@@ -89,8 +109,8 @@ void check_events(const StagePoints& stage, const Problem& problem) {
     if (!located(p)) continue;
     check_index(stage.points, k);
     if (kind_of(p) == "contact") check_contact(p, energy);
-    else if (kind_of(p) == "limit" || kind_of(p) == "branch") check_modes(p, energy, factors.zero_level() / (16 * epsilon));
-    else check_watch(p, watched);
+    else if (kind_of(p) == "limit" || kind_of(p) == "branch") check_modes(stage.points, k, energy, factors);
+    else check_watch(p, stage.points, watched);
   }
 }
 
@@ -130,10 +150,14 @@ TEST_CASE("every event of the problems satisfies its own equations, and stands t
         CAPTURE(number, found.outcome.why);
         CHECK(found.outcome.status == Status::converged);
         REQUIRE_FALSE(found.stages.empty());
+        std::set<std::string> labels;
         for (const StagePoints& stage : found.stages) {
           check_events(stage, run.problem);
           check_twins(stage);
+          for (const PathPoint& p : stage.points) labels.insert(p.label);
         }
+        for (const ExpectTable& e : run.problem.expect)
+          if (e.at.find(':') != std::string::npos) CHECK(labels.count(e.at) == 1);
       }
     }
 }

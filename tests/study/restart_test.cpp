@@ -7,44 +7,83 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 
 namespace {
 
-/// Runs the file, then again from each of its labelled states, and compares every row behind that state. A row at the very
-/// load factor of the state may come again (an event that the state is).
-void compare_restarts(const std::string& text, const std::vector<std::string>& labels, double tolerance) {
+const std::set<std::string> energies{"energy", "bond", "angle", "contact", "wall", "cohesion", "external"};
+const std::set<std::string> words{"label", "parent", "stage", "stable"};
+const std::set<std::string> counted{"step", "branch", "iterations", "residual"};
+
+/// "limit" of "limit:2". Which one is the last point depends on what else is traced.
+std::string kind_of(const std::string& label) { return label == "final" ? "" : label.substr(0, label.find(':')); }
+
+/// What is rounding's beside: of energies the largest of them on the whole path, of other columns their own largest number.
+std::map<std::string, double> scales(const std::vector<TableRow>& rows) {
+  std::map<std::string, double> largest;
+  double energy = 0;
+  for (const TableRow& row : rows)
+    for (const auto& [column, cell] : row.cells) {
+      if (words.count(column) || cell.empty()) continue;
+      double& most = energies.count(column) ? energy : largest[column];
+      most = std::max(most, std::abs(std::stod(cell)));
+    }
+  for (const std::string& column : energies) largest[column] = energy;
+  return largest;
+}
+
+/// The same numbers to `tolerance` of the scale, and the same kinds of events: a path that is taken up counts anew.
+void same_rows(const std::vector<TableRow>& rows, const std::vector<TableRow>& expected, const std::map<std::string, double>& scale,
+               double tolerance) {
+  REQUIRE(rows.size() == expected.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const auto& [column, cell] : expected[i].cells) {
+      if (counted.count(column) || (column == "parent" && rows[i].text("branch") == "0")) continue;    // 0: where it started
+      INFO("row " << i << ", " << column << ": " << rows[i].text(column) << ", expected " << cell);
+      if (words.count(column)) CHECK(kind_of(rows[i].text(column)) == kind_of(cell));
+      else CHECK(std::abs(std::stod(rows[i].text(column)) - std::stod(cell)) <= tolerance * scale.at(column));
+    }
+}
+
+enum class Rest { all, branch };
+
+/// Runs the file, then again from each of its labelled states, and compares every row behind that state, or those on its
+/// branch. `more`: further arguments of both. Gives the kinds of states that it began at.
+std::set<std::string> compare_restarts(const std::string& text, const std::string& more = "", Rest compared = Rest::all) {
+  constexpr double tolerance = 1e-12;
   const ScratchDirectory scratch;
   const std::string file = scratch.file("p.toml", text);
-  REQUIRE(elamin_says("'" + file + "' --quiet -o '" + (scratch / "whole") + "'").status == 0);
+  REQUIRE(elamin_says("'" + file + "' --quiet -o '" + (scratch / "whole") + "'" + more).status == 0);
   const std::vector<TableRow> whole = table_of(scratch / "whole/path.csv");
-  for (const std::string& label : labels) {
+  const auto scale = scales(whole);
+  std::set<std::string> kinds;
+  for (std::size_t k = 0; k + 1 < whole.size(); ++k) {
+    const std::string &label = whole[k].text("label"), &branch = whole[k].text("branch");
+    if (label.empty()) continue;
+    kinds.insert(kind_of(label));
     std::string state = label;
     std::replace(state.begin(), state.end(), ':', '-');
     INFO("from " << label);
-    const Answer answer = elamin_says("'" + file + "' --quiet -o '" + (scratch / "rest") + "' --set path.start='\"whole/states/" + state + ".data\"'");
+    const Answer answer = elamin_says("'" + file + "' --quiet -o '" + (scratch / "rest") + "'" + more + " --set path.start='\"whole/states/" + state + ".data\"'");
     INFO(answer.text);
     REQUIRE(answer.status == 0);
-    std::vector<TableRow> rest = table_of(scratch / "rest/path.csv"), expected = whole;
-    const auto from = std::find_if(expected.begin(), expected.end(), [&](const TableRow& r) { return r.text("label") == label; });
-    REQUIRE(from != expected.end());
-    REQUIRE(rest.front()["lambda"] == (*from)["lambda"]);
-    REQUIRE(rest.front()["energy"] == Approx((*from)["energy"]).epsilon(1e-14));
-    expected.erase(expected.begin(), from + 1);
-    const std::string here = rest.front().text("lambda");
+    std::vector<TableRow> rest = table_of(scratch / "rest/path.csv"), expected(whole.begin() + static_cast<std::ptrdiff_t>(k) + 1, whole.end());
+    REQUIRE(rest.front()["lambda"] == whole[k]["lambda"]);
+    REQUIRE(rest.front()["energy"] == Approx(whole[k]["energy"]).epsilon(1e-14));
     rest.erase(rest.begin());
-    while (rest.size() > expected.size() && rest.front().text("lambda") == here) rest.erase(rest.begin());
-    REQUIRE(rest.size() == expected.size());
-    for (std::size_t i = 0; i < rest.size(); ++i)
-      for (const char* column : {"lambda", "energy", "bond", "angle", "z", "negative", "stage"}) {
-        if (!rest[i].cells.count(column)) continue;
-        INFO("row " << i << ", " << column);
-        const std::string &a = rest[i].text(column), &b = expected[i].text(column);
-        if (tolerance == 0 || a.empty() || std::isalpha(static_cast<unsigned char>(a[0]))) CHECK(a == b);
-        else CHECK(std::stod(a) == Approx(std::stod(b)).epsilon(tolerance).margin(1e-20));
-      }
+    if (compared == Rest::branch) {
+      std::erase_if(expected, [&](const TableRow& r) { return r.text("branch") != branch; });
+      std::erase_if(rest, [](const TableRow& r) { return r.text("branch") != "0"; });
+    }
+    same_rows(rest, expected, scale, tolerance);
   }
+  return kinds;
 }
+
+std::string problem(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
 
 const std::string column = column_and_ends + R"(
 [[support]]
@@ -68,12 +107,76 @@ value = 0.73
 }  // namespace
 
 TEST_CASE("load steps go on from a stored state with the same numbers", "[restart]") {
-  compare_restarts(column, {"initial", "branch:1", "jump:1"}, 1e-12);
+  CHECK(compare_restarts(column) == std::set<std::string>{"initial", "branch", "jump"});
+  CHECK(compare_restarts(truss + "[path]\nsteps = 30\nto = 0.1\n[[event]]\nname = \"low\"\nobservable = \"z\"\nvalue = 0.4\n") ==
+        std::set<std::string>{"initial", "low", "limit", "jump"});
+}
+
+TEST_CASE("load steps go on at contacts, branch points, limit points and behind jumps", "[restart]") {
+  const std::set<std::string> all{"initial", "branch", "jump", "contact", "limit"};
+  CHECK(compare_restarts(problem("two_beams")) == all);
+  CHECK(compare_restarts(problem("column_between_walls")) == all);
+}
+
+TEST_CASE("an arc-length path goes on at limit points and branch points, up or down", "[restart]") {
+  CHECK(compare_restarts(problem("truss_tall")) == std::set<std::string>{"initial", "branch", "limit"});
+  CHECK(compare_restarts(problem("arch_buckled")) == std::set<std::string>{"initial", "compression", "branch", "limit"});
+  CHECK(compare_restarts(problem("truss_tall"), " --set path.when_unstable='\"jump\"'") == std::set<std::string>{"initial", "branch", "jump"});
+}
+
+TEST_CASE("an arc-length path goes on at contacts", "[restart]") {
+  const std::string arc_length = " --set path.method='\"arc_length\"' --set path.when_unstable='\"follow\"'";
+  CHECK(compare_restarts(problem("column_between_walls"), arc_length) == std::set<std::string>{"initial", "branch", "contact", "limit"});
+}
+
+TEST_CASE("a path that is taken up on a side branch goes on along it", "[restart]") {
+  const std::string branches = column + "[[event]]\nname = \"bent\"\nobservable = \"z\"\nvalue = 5e-4\n";
+  CHECK(compare_restarts(branches, " --set path.method='\"arc_length\"' --set path.branches=1", Rest::branch).count("bent"));
+}
+
+const std::string snapping = truss + "[path]\nmethod = \"arc_length\"\nsteps = 20\nto = 0.2\n[[event]]\nname = \"flat\"\nobservable = \"z\"\nvalue = 0\n";
+
+TEST_CASE("the final state of an arc-length path knows where the path was heading", "[restart]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("p.toml", snapping), run = "'" + file + "' --quiet -o '";
+  REQUIRE(elamin_says(run + (scratch / "whole") + "'").status == 0);
+  REQUIRE(elamin_says(run + (scratch / "half") + "' --set event.flat.stop=true").status == 0);
+  REQUIRE(elamin_says(run + (scratch / "rest") + "' --set path.start='\"half/states/final.data\"'").status == 0);
+  std::vector<TableRow> whole = table_of(scratch / "whole/path.csv"), rest = table_of(scratch / "rest/path.csv");
+  const std::size_t behind = table_of(scratch / "half/path.csv").size();
+  const auto scale = scales(whole);
+  whole.erase(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(behind)), rest.erase(rest.begin());
+  CHECK(whole.size() > 10);
+  same_rows(rest, whole, scale, 1e-12);
+
+  // Beyond its end it is another path.
+  const Answer ended = elamin_says(run + (scratch / "none") + "' --set path.start='\"whole/states/final.data\"'");
+  CHECK(ended.status == 1);
+  CHECK(ended.text.find("is at the load factor where the path ends") != std::string::npos);
+}
+
+TEST_CASE("where a stored path was heading is left aside by any other path", "[restart]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("p.toml", snapping), run = "'" + file + "' --quiet -o '";
+  REQUIRE(elamin_says(run + (scratch / "p") + "'").status == 0);
+  // From the flat truss, z = 0, the load falls along the path; a path of its own goes towards `to`.
+  const auto change = [&](const std::string& more) {
+    const Answer answer = elamin_says(run + (scratch / "q") + "' --set path.start='\"p/states/flat-1.data\"'" + more);
+    INFO(answer.text);
+    REQUIRE(answer.status == 0);
+    const std::vector<TableRow> rows = table_of(scratch / "q/path.csv");
+    return rows.at(1)["lambda"] - rows.at(0)["lambda"];
+  };
+  CHECK(change("") < 0);
+  CHECK(change(" --set path.steps=25") < 0);
+  CHECK(change(" --set path.start_lambda=1e-3") > 0);
+  CHECK(change(" --set path.parameter='\"load.weight\"'") > 0);
+  CHECK(change(" --set path.from=0.2 --set path.to=-0.2") < 0);
 }
 
 TEST_CASE("a stored state says in which stage it is, and a restart goes on there", "[restart]") {
   const std::string stages = "[path]\nsteps = 10\n[[stage]]\nname = \"load\"\nto = 0.4\n[[stage]]\nname = \"unload\"\nto = 0.1\n[[stage]]\nname = \"hold\"\nto = 0.05\n";
-  compare_restarts(truss + stages, {"initial", "load", "unload"}, 1e-12);
+  CHECK(compare_restarts(truss + stages) == std::set<std::string>{"initial", "load", "unload", "limit", "jump"});
 }
 
 TEST_CASE("a support that entered before the state was stored goes on from there", "[restart]") {
@@ -99,7 +202,7 @@ name = "back"
 vary = "support.hand"
 to = 0.5
 )";
-  compare_restarts(truss + stages, {"press", "pull"}, 1e-12);
+  CHECK(compare_restarts(truss + stages) == std::set<std::string>{"initial", "press", "pull"});
 }
 
 TEST_CASE("what stands beside a state", "[restart]") {
@@ -131,5 +234,24 @@ TEST_CASE("what stands beside a state", "[restart]") {
   const Answer broken = elamin_says("'" + file + again);
   CHECK(broken.status == 1);
   CHECK(broken.text.find("jump-1.json: must hold {\"lambda\"") != std::string::npos);
+  const std::string lambda = json["lambda"].dump(), tail = json["tail"].dump();
+  for (const auto& [path, sentence] : std::vector<std::pair<std::string, std::string>>{
+           {"[]", "path must be {\"varied\""},
+           {R"({"varied": [], "rising": 1, "resume": {}})", "path must be {\"varied\""},
+           {R"({"varied": [], "rising": true, "resume": {"modes": 3}})", "path.resume.modes must be arrays"},
+           {R"({"varied": [], "rising": true, "resume": {"modes": [[1, 2], [3]]}})", "path.resume.modes has 1 numbers, and what stands before it 2"},
+           {R"({"varied": [], "rising": true, "resume": {"modes": [[1]], "tangent": [1, 2]}})", "path.resume.tangent has 2 numbers"},
+           {R"({"varied": [], "rising": true, "resume": {"tangent": ["a"]}})", "path.resume.tangent must be finite numbers"},
+           {R"({"varied": [], "rising": true, "resume": {"direction": [1], "load": 1, "length": 0, "step": 1, "shortest": 1}})", "path.resume.length must be positive"},
+           {R"({"varied": [], "rising": true, "resume": {"direction": [1]}})", "path.resume.load must be a finite number"},
+           {R"({"varied": [], "rising": true, "resume": {"closed": [[0, 14, -1]]}})", "path.resume.closed must be contacts"},
+           {R"({"varied": [], "rising": true, "resume": {"before": -2}})", "path.resume.before must be a number"},
+           {R"({"varied": [], "rising": true, "resume": {"label": 1}})", "path.resume.label must be a text"}}) {
+    INFO(path);
+    scratch.file("p/states/branch-1.json", "{\"lambda\": " + lambda + ", \"path\": " + path + ", \"tail\": " + tail + "}");
+    const Answer mistake = elamin_says("'" + file + "' --quiet -o '" + (scratch / "q") + "' --set path.start='\"p/states/branch-1.data\"'");
+    CHECK(mistake.status == 1);
+    CHECK(mistake.text.find("branch-1.json: " + sentence) != std::string::npos);
+  }
   CHECK_FALSE(std::filesystem::exists(scratch / "q"));
 }
