@@ -96,6 +96,7 @@ void ArcLength::take_up(Equilibrium at, const Resume& resume) {
 void ArcLength::set_out(const Equilibrium& from, const Direction& direction, int negative, ContactSet closed, double step, double shortest) {
   WalkOptions w = walk_options(options_);
   w.step = step, w.shortest = shortest;
+  if (step > 0 && options_.resume && !walk_) w.told = options_.resume->label;
   walk_.emplace(newton_, from, direction, negative, std::move(closed), metric_, std::move(w));
   first_ = from, first_direction_ = direction, left_ = false;
 }

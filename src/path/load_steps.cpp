@@ -60,6 +60,8 @@ void LoadSteps::begin() {
   if (options_.resume) {
     closed_ = resumed_contacts(*options_.resume);
     if (options_.resume->tangent.size() == current_.tangent.size()) current_.tangent = options_.resume->tangent;
+    for (std::size_t k = 0; k < side_.size(); ++k)
+      if (options_.resume->label.starts_with(options_.watches[k].name + ":")) side_[k] = 0;      // not known yet
     if (std::optional<Event> event = resumed_event(*options_.resume, first)) {
       told_already_ = true;
       return lose_stability(std::move(*event), targets_.empty() ? options_.to : targets_[interval_]);

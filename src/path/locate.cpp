@@ -143,13 +143,16 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
       start.tangent -= modes * (modes.transpose() * start.tangent);
       e = segment.at(t, start);
     }
-    if (!e.point.report.converged()) e = segment.at(t, from.e);
-    if (!e.point.report.converged()) return {};
+    // A force that is left along them breaks the branch point: then there is none.
+    const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
+    if (!e.point.report.converged() || e.point.report.residual > rounding) e = segment.at(t, from.e);
+    if (!e.point.report.converged() || e.point.report.residual > rounding) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
     const double value = critical_value(newton, e, index);
     return Sample{t, value, std::move(e)};
   });
-  if (!zero || std::abs(zero->f) > 1e-6 * scale) return {};
+  // A jump over zero, from one branch to another next to it, is none.
+  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return {};
   return done(finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known), zero->t);
 }
 

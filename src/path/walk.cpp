@@ -28,7 +28,8 @@ int sign_of(double x) { return x < 0 ? -1 : 1; }
 Walk::Walk(Newton& newton, Equilibrium start, Direction direction, int negative, ContactSet closed, Metric metric, WalkOptions options)
     : newton_(newton), metric_(metric), options_(std::move(options)), current_(std::move(start)), direction_(std::move(direction)),
       negative_(negative), sign_(sign_of(direction_.load)), closed_(std::move(closed)) {
-  for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
+  for (const Watch& w : options_.watches)
+    side_.push_back(options_.told.starts_with(w.name + ":") ? 0 : w.side(current_.point.state));
   constexpr double least = 1e-6;                               // of the span
   least_length_ = std::min(metric_.length, least * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();

@@ -15,6 +15,7 @@ struct WalkOptions {
   bool contacts = true;
   std::vector<double> stops;           // load factors at which it stops on the way
   std::vector<Watch> watches;
+  std::string told;                    // label of the event that it begins at: a watch's own side is not known there
   double step = 0, shortest = 0;       // of the first step, in the metric; 0: as long as the limits above let it be
 };
 

@@ -151,7 +151,8 @@ class TailReader {
     if (j.contains("closed")) {
       constexpr int most = std::numeric_limits<int>::max();
       const auto contact = [&](const Json& c) {
-        return c.is_array() && c.size() == 3 && integer(c[0], 0, particles - 1) && integer(c[1], -1, particles - 1) && integer(c[2], -1, most);
+        return c.is_array() && c.size() == 3 && integer(c[0], 0, particles - 1) && integer(c[1], -1, particles - 1) &&
+               integer(c[2], -1, most);
       };
       if (!all(j["closed"], contact))
         wrong("path.resume.closed must be contacts [particle, other or -1, wall or -1], particles counted from 0");

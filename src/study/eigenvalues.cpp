@@ -1,7 +1,6 @@
 #include "study/eigenvalues.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace elamin {
 
@@ -9,9 +8,8 @@ std::vector<double> LowestEigenvalues::at(const State& state) {
   constexpr int more = 4;
   constexpr double accuracy = 1e-14;
   energy_.evaluate(state);
-  const bool cold = std::getenv("COLD");
-  const double guess = !cold && before_.values.size() > 0 ? std::max(0.0, -2 * before_.values[0]) : 0.0;
-  before_ = factors_.lowest(cold ? count_ + 1 : count_ + more, guess, accuracy, cold ? Eigen::MatrixXd() : before_.vectors);
+  const double guess = before_.values.size() > 0 ? std::max(0.0, -2 * before_.values[0]) : 0.0;
+  before_ = factors_.lowest(count_ + more, guess, accuracy, before_.vectors);
   const Eigen::Index count = std::min<Eigen::Index>(count_, before_.values.size());
   return {before_.values.data(), before_.values.data() + count};
 }

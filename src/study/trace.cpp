@@ -92,7 +92,8 @@ NewtonOptions solver_options(const Problem& problem) {
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
   if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink);
   Energy energy(model);
-  sink.stage({}, energy);
+  Stage whole;
+  sink.stage(whole, energy);
   Newton newton(energy, solver_options(problem));
   if (problem.study == StudyType::modes) return trace_modes(problem, newton, sink);
   return problem.study == StudyType::energy ? trace_energy(problem, newton, sink) : trace_equilibrium(problem, newton, sink);

@@ -152,3 +152,28 @@ TEST_CASE("a watch is located and may end the path", "[path]") {
     CHECK(t.points.back().state.load_factor == Approx(0.5).epsilon(1e-12));
   }
 }
+
+TEST_CASE("a column that is all but perfect bends to the side that it is pushed to", "[path]") {
+  const nlohmann::json c = reference("exact/post_buckling_clamped.json")["cases"][0];
+  const int steps = GENERATE(10, 50, 137);
+  const double part = GENERATE(1e-4, 1e-6, 1e-7);              // of the end force at buckling, to the side
+  const PathMethod method = GENERATE(PathMethod::load_steps, PathMethod::arc_length);
+  const nlohmann::json& s = c["states"][0];
+  Model model = clamped(c, true, s["end_shortening"]);
+  const int middle = model.particles() / 2;
+  Load nudge;
+  nudge.particles = {middle}, nudge.force = Vec3(part * s["end_force_compressive"].get<double>(), 0, 0);
+  nudge.scaling = Scaling::constant();
+  model.loads = {nudge};
+  Energy energy(model);
+  Newton newton(energy);
+  PathOptions options = arcs(1, steps);
+  options.method = method;
+  const Trace t = trace(newton, model.start, options);
+  CAPTURE(steps, part, method == PathMethod::arc_length, t.why, t.points.size());
+  CHECK(t.status == Status::converged);
+  CHECK(t.labels() == std::vector<std::string>{"initial"});
+  const PathPoint& last = t.points.back();
+  CHECK(last.state.load_factor == 1);
+  CHECK(last.state.position(0, middle) > 0.9 * s["mid_deflection"].get<double>());
+}
