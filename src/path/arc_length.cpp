@@ -18,6 +18,17 @@ constexpr double same_point = 1e-6;           // of the structure's displacement
 
 double range_of(const PathOptions& o) { return o.to - o.from; }
 
+// The two particles of a bond that has shrunk to nothing, where its energy has a kink and a branch its end; else "".
+std::string collapsed(const Model& model, const State& state) {
+  constexpr double nothing = 1e-6;            // of the rest length
+  for (const Bond& b : model.bonds) {
+    const auto [i, j] = b.particles;
+    if ((state.at(j) - state.at(i)).hi.norm() <= nothing * model.bond_types[b.type].rest_length)
+      return fmt::format("particles {} and {}, which a bond joins, come together", model.id[i], model.id[j]);
+  }
+  return "";
+}
+
 }  // namespace
 
 Metric metric_for(const Energy& energy, const Equilibrium& start, const PathOptions& options) {
@@ -108,7 +119,11 @@ void ArcLength::advance() {
     return end(Status::converged, fmt::format("stopped after {} points of one branch (path.points), at load factor {:.10g}", most,
                                               walk_->at().point.state.load_factor));
   std::optional<Waypoint> waypoint = walk_->next();
-  if (!waypoint) return end(walk_->status(), walk_->why());
+  if (!waypoint) {
+    const std::string together = collapsed(newton_.energy().model(), walk_->at().point.state);
+    if (walk_->status() != Status::not_converged || together.empty()) return end(walk_->status(), walk_->why());
+    return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", walk_->at().point.state.load_factor, together));
+  }
   show(std::move(*waypoint));
 }
 

@@ -1,9 +1,11 @@
 #include "path/equilibrium.hpp"
 
 #include "model/rigid_motion.hpp"
+#include "path/contact_event.hpp"
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 
 namespace elamin {
@@ -93,22 +95,13 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
   if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more particles");
 }
 
-constexpr int most_iterations = 12;           // of a corrector that stays on its branch
-
-// Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
-// tell, but for a part (a branch that bends like a parabola into a limit point, from there to its vertex, has one half); and
-// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect.
-bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
-  constexpr double largest_part = 0.45, least_cosine = 0.5;
-  const Vector moved = energy.kinematics().restrict(displacement(a.point.state, b.point.state));
-  const double change = b.point.state.load_factor - a.point.state.load_factor;
-  const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
-               by_both = (moved - change / 2 * (a.tangent + b.tangent)).norm();
-  const double rounding = 1e-12 * b.point.state.position.norm();
-  if (std::min({by_a, by_b, by_both}) > largest_part * moved.norm() + rounding) return false;
-  if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
-  return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
+// Whether contacts are made from one state to the other, and none is lost.
+bool only_touches_more(Energy& energy, const State& from, const State& to) {
+  const ContactSet before = closed_contacts(energy, from), after = closed_contacts(energy, to);
+  return after.size() > before.size() && std::includes(after.begin(), after.end(), before.begin(), before.end());
 }
+
+constexpr int most_iterations = 12;           // of a corrector that stays on its branch
 
 }  // namespace
 
@@ -147,6 +140,18 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   return e;
 }
 
+bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
+  constexpr double largest_part = 0.45, least_cosine = 0.5;
+  const Vector moved = energy.kinematics().restrict(displacement(a.point.state, b.point.state));
+  const double change = b.point.state.load_factor - a.point.state.load_factor;
+  const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
+               by_both = (moved - change / 2 * (a.tangent + b.tangent)).norm();
+  const double rounding = 1e-12 * b.point.state.position.norm();
+  if (std::min({by_a, by_b, by_both}) > largest_part * moved.norm() + rounding) return false;
+  if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
+  return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
+}
+
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor) {
   const Kinematics& kinematics = newton.energy().kinematics();
   Energy& energy = newton.energy();
@@ -180,7 +185,8 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   if (energy.passage(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   Equilibrium e = assess(newton, state, report);
-  if (!same_branch(energy, from, e)) return fail(state, report, "the corrector went to another branch");
+  // What is beyond a contact that is made need not lie on the tangent of what is before: then the contact comes first.
+  if (!(meets && only_touches_more(energy, start, state)) && !same_branch(energy, from, e)) return fail(state, report, "the corrector went to another branch");
   return e;
 }
 

@@ -16,8 +16,13 @@ struct Equilibrium {
 Equilibrium assess(Newton& newton, const State& state, const Report& report);
 
 /// Follows the branch from one equilibrium to the load factor λ: tangent predictor, Newton corrector.
-/// Converged only if the corrector moved less than the predictor did, so that it stays on the branch.
+/// Converged only if it is on the same branch, as far as can be told; beyond a contact that is made on the way it cannot.
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor);
+
+/// Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
+/// tell, but for a part (a branch that bends like a parabola into a limit point, from there to its vertex, has one half); and
+/// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect.
+bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 
 /// Orthonormal modes of a multiple eigenvalue (dofs × count), turned so that their choice does not depend on rounding: the
 /// first one follows x as much as the span can, else y, else z, and each has a positive sum or leading entry.

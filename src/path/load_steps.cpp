@@ -96,7 +96,7 @@ void LoadSteps::step() {
   std::optional<ContactChange> contact;
   bool accepted = candidate.point.report.converged();
   if (accepted && options_.contacts && (contact = locate_contact(newton_, segment, closed_, current_, candidate))) {
-    accepted = contact->found;
+    accepted = contact->found && same_branch(newton_.energy(), current_, contact->at);
     if (accepted) candidate = contact->at, segment.b = contact->at_parameter;
   }
   if (accepted && candidate.point.stability.negative != negative_) {
