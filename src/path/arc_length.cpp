@@ -63,7 +63,7 @@ ArcLength::ArcLength(Newton& newton, SideBranch side, std::string parent, const 
 
 void ArcLength::begin() {
   if (side_) {
-    branch_ = ++this->numbering().branches;
+    branch_ = ++numbering().branches;
     emit(side_->first.point);
     set_out(side_->first, side_->direction, side_->first.point.stability.negative,
             closed_contacts(newton_.energy(), side_->first.point.state));
@@ -145,9 +145,8 @@ void ArcLength::show(Waypoint waypoint) {
   emit(waypoint.at.point);
   if (waypoint.stop) {
     const double stop = *waypoint.stop;
-    const std::vector<double> inner = options_.stops;
     if (stop == options_.to) return end(Status::converged, fmt::format("load factor {:.10g} reached", stop));
-    if (std::find(inner.begin(), inner.end(), stop) == inner.end())
+    if (std::find(options_.stops.begin(), options_.stops.end(), stop) == options_.stops.end())
       return end(Status::converged, fmt::format("the branch leaves the range of load factors at {:.10g}", stop));
   }
   if (closes_loop(waypoint)) end(Status::converged, fmt::format("the branch closes to a loop at load factor {:.10g}", load));

@@ -16,7 +16,7 @@ namespace {
 /// asked for have been switched at; then the equilibria that deflation finds.
 class Diagram final : public Path {
  public:
-  Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options), start_(start) {
+  Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options) {
     if (options.method == PathMethod::arc_length) now_ = std::make_unique<ArcLength>(newton, start, options, &numbering());
     else now_ = std::make_unique<LoadSteps>(newton, start, options, &numbering());
   }
@@ -98,7 +98,6 @@ class Diagram final : public Path {
 
   Newton& newton_;
   PathOptions options_;
-  State start_;
   Metric metric_;
   std::unique_ptr<Path> now_;
   bool done_ = false, deflated_ = false;

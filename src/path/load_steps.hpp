@@ -17,7 +17,6 @@ class LoadSteps : public Path {
  private:
   void begin();
   void step();
-  void arrive(Equilibrium candidate);
   bool explore(double target);
   void meet(ContactChange change);
   void reach(Event watched);
