@@ -177,16 +177,11 @@ bool ArcLength::lose_stability(Event& event) {
     end(landed.point.report.status, landed.point.report.why);
     return false;
   }
-  parent_ = event.at.point.label;
-  branch_ = ++numbering().branches;
-  landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
-  landed.point.what = what;
-  landed.point.negative_before = event.before, landed.point.negative_after = landed.point.stability.negative;
   const Direction towards{Vector::Zero(landed.tangent.size()), range_of(options_) > 0 ? metric_.load : -metric_.load};
   set_out(landed, direction_of(landed, metric_, towards), landed.point.stability.negative,
           closed_contacts(newton_.energy(), landed.point.state));
   landed.point.resume = resume_here({landed, {}, {}});
-  emit(landed.point);
+  emit_landing(landed.point, what, event.before, event.at.point.label);
   return true;
 }
 

@@ -190,6 +190,13 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   return e;
 }
 
+Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
+  if (a.cols() > 0) both.leftCols(a.cols()) = a;
+  if (b.cols() > 0) both.rightCols(b.cols()) = b;
+  return both;
+}
+
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {
   Eigen::MatrixXd left = modes, chosen(modes.rows(), 0);
   while (left.cols() > 0) {

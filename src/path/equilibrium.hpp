@@ -24,6 +24,9 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect.
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 
+/// The columns of both, for what is held together.
+Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// Orthonormal modes of a multiple eigenvalue (dofs × count), turned so that their choice does not depend on rounding: the
 /// first one follows x as much as the span can, else y, else z, and each has a positive sum or leading entry.
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes);

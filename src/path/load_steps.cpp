@@ -116,7 +116,7 @@ void LoadSteps::step() {
                                                   std::abs(target - here), why));
   }
   if (event) return lose_stability(std::move(*event), goal);
-  if (std::optional<Event> seen = watched(segment, candidate)) return reach(std::move(*seen));
+  if (std::optional<Event> seen = locate_watch(options_.watches, side_, segment, current_, candidate, negative_)) return reach(std::move(*seen));
   if (contact) return meet(std::move(*contact));
 
   const std::int64_t done = arrived;
@@ -126,26 +126,6 @@ void LoadSteps::step() {
   done_ = done;
   if (done_ == whole) ++interval_, interval_start_ = goal, done_ = 0;
   if (halvings_ > 0 && done_ % (2 * part) == 0) --halvings_;
-}
-
-// The first watch whose observable passes its value on the segment.
-std::optional<Event> LoadSteps::watched(const Segment& given, const Equilibrium& candidate) {
-  std::optional<Event> first;
-  Segment segment = given;
-  Equilibrium last = candidate;
-  for (std::size_t k = 0; k < options_.watches.size(); ++k) {
-    const Watch& w = options_.watches[k];
-    const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
-    const double side = w.side(last.point.state);
-    if (side_[k] == 0 || (side != 0 && (side_[k] < 0) == (side < 0)) || (f(current_) < 0) != (side_[k] < 0)) continue;
-    std::optional<Event> event = side == 0 ? event_at(last, segment.b) : locate_root(segment, current_, last, f);
-    if (!event) continue;
-    event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
-    event->before = event->after = negative_;
-    segment.b = event->at_parameter, last = event->at;
-    first = std::move(event);
-  }
-  return first;
 }
 
 void LoadSteps::reach(Event event) {
@@ -237,9 +217,7 @@ void LoadSteps::lose_stability(Event event, double target) {
 void LoadSteps::pass(const Event& event, double target) {
   const double at = event.at.point.state.load_factor;
   Equilibrium start = event.at;
-  Eigen::MatrixXd held(event.modes.rows(), start.zero_modes.cols() + event.modes.cols());
-  if (start.zero_modes.cols() > 0) held.leftCols(start.zero_modes.cols()) = start.zero_modes;
-  held.rightCols(event.modes.cols()) = event.modes;
+  const Eigen::MatrixXd held = side_by_side(start.zero_modes, event.modes);
   const Eigen::MatrixXd zero_modes = start.zero_modes;
   start.zero_modes = held;
   Equilibrium next;
@@ -265,12 +243,7 @@ bool LoadSteps::fall(double target) {
   note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
                    at, before, report.energy));
   Equilibrium landed = assess(newton_, state, report);
-  branch_ = ++numbering().branches, parent_.clear();
-  landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
-  landed.point.what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target);
-  landed.point.negative_before = negative_, landed.point.negative_after = landed.point.stability.negative;
-  emit(landed.point);
-  landed.point.label.clear();
+  emit_landing(landed.point, fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target), negative_, "");
   settle(std::move(landed), target);
   return true;
 }
@@ -282,12 +255,7 @@ void LoadSteps::jump(const Event& event, double target) {
   Equilibrium landed = jump_from(newton_, event, past, what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
   if (!landed.point.report.converged()) return end(landed.point.report.status, landed.point.report.why);
-  branch_ = ++numbering().branches, parent_ = event.at.point.label;
-  landed.point.label = fmt::format("jump:{}", ++numbering().jumps);
-  landed.point.what = what;
-  landed.point.negative_before = event.before, landed.point.negative_after = landed.point.stability.negative;
-  emit(landed.point);
-  landed.point.label.clear();
+  emit_landing(landed.point, what, event.before, event.at.point.label);
   settle(std::move(landed), past);
 }
 

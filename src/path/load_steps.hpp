@@ -25,7 +25,6 @@ class LoadSteps : public Path {
   bool fall(double target);
   void jump(const Event& event, double target);
   void settle(Equilibrium at, double load_factor);
-  std::optional<Event> watched(const Segment& segment, const Equilibrium& candidate);
 
   Newton& newton_;
   PathOptions options_;

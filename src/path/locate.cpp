@@ -87,13 +87,6 @@ Eigen::MatrixXd soft_modes(const Equilibrium& e, double most, const Eigen::Matri
   return modes;
 }
 
-Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
-  if (a.cols() > 0) both.leftCols(a.cols()) = a;
-  if (b.cols() > 0) both.rightCols(b.cols()) = b;
-  return both;
-}
-
 void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, const Eigen::MatrixXd& modes) {
   newton.energy().evaluate(e.point.state);
   newton.factors().factorize_holding(side_by_side(known, modes));
@@ -168,6 +161,25 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
   });
   if (!zero) return {};
   return event_at(zero->e, zero->t);
+}
+
+std::optional<Event> locate_watch(const std::vector<Watch>& watches, const std::vector<double>& side, Segment segment,
+                                  const Equilibrium& a, const Equilibrium& b, int negative) {
+  std::optional<Event> first;
+  Equilibrium last = b;
+  for (std::size_t k = 0; k < watches.size(); ++k) {
+    const Watch& w = watches[k];
+    const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
+    const double there = w.side(last.point.state);
+    if (side[k] == 0 || (there != 0 && (side[k] < 0) == (there < 0)) || (f(a) < 0) != (side[k] < 0)) continue;
+    std::optional<Event> event = there == 0 ? event_at(last, segment.b) : locate_root(segment, a, last, f);
+    if (!event) continue;
+    event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
+    event->before = event->after = negative;
+    segment.b = event->at_parameter, last = event->at;
+    first = std::move(event);
+  }
+  return first;
 }
 
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,

@@ -1,6 +1,7 @@
 #pragma once
 // Where between two equilibria an eigenvalue crosses zero, or touches it: branch points and limit points.
 #include "path/event.hpp"
+#include "path/options.hpp"
 #include "path/segment.hpp"
 
 #include <optional>
@@ -23,6 +24,11 @@ inline Event event_at(const Equilibrium& e, double parameter) {
 /// The root of a function of the equilibria of a segment that has different signs at its ends, or nothing.
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                  const std::function<double(const Equilibrium&)>& f);
+
+/// The first of the watches whose observable passes its value on the segment. side: of each, observable − value from `a` on,
+/// 0: not known. negative: the Morse index from `a` on.
+std::optional<Event> locate_watch(const std::vector<Watch>& watches, const std::vector<double>& side, Segment segment,
+                                  const Equilibrium& a, const Equilibrium& b, int negative);
 
 /// The branch point that a side branch arrives at between `a` and `b`, where the load factor turns although no eigenvalue
 /// changes sign. `slope`: dλ/ds, which changes sign. On the side branch the equations are singular there; so the place is

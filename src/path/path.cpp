@@ -48,4 +48,12 @@ void Path::emit(Event& event) {
   emit(point);
 }
 
+void Path::emit_landing(PathPoint point, std::string what, int before, std::string parent) {
+  branch_ = ++numbering_.branches, parent_ = std::move(parent);
+  point.label = fmt::format("jump:{}", ++numbering_.jumps);
+  point.what = std::move(what);
+  point.negative_before = before, point.negative_after = point.stability.negative;
+  emit(std::move(point));
+}
+
 }  // namespace elamin

@@ -25,10 +25,7 @@ class Switch {
     state = event_.at.point.state;
     kinematics().retract(state, along, amplitude);
     Plane plane{along / (metric_.length * metric_.length), 0, metric_.length, metric_.load, others.cols() > 0};
-    Eigen::MatrixXd held(along.size(), zero().cols() + others.cols());
-    if (zero().cols() > 0) held.leftCols(zero().cols()) = zero();
-    if (others.cols() > 0) held.rightCols(others.cols()) = others;
-    return newton_.correct(state, held, nullptr, 30, &plane);
+    return newton_.correct(state, side_by_side(zero(), others), nullptr, 30, &plane);
   }
 
   /// A bond turned by one radian, or a particle moved by its diameter, is amplitude one over this.

@@ -65,7 +65,9 @@ std::optional<Waypoint> Walk::next() {
       s /= 2;
       continue;
     }
-    find_watches(segment, *c);
+    segment.b = c->s;
+    if (std::optional<Event> seen = locate_watch(options_.watches, side_, segment, current_, c->e, negative_))
+      c->s = seen->at_parameter, c->e = seen->at, c->event = std::move(seen);
     find_stop(segment, arc, *c);
     step_ = s;
     return accept(std::move(*c), arc);
@@ -125,22 +127,6 @@ bool Walk::find_critical(Segment segment, const Arc& arc, Candidate& c, std::str
   c.s = event->at_parameter, c.e = event->at;
   c.event = std::move(event);
   return true;
-}
-
-void Walk::find_watches(Segment segment, Candidate& c) {
-  for (std::size_t k = 0; k < options_.watches.size(); ++k) {
-    const Watch& w = options_.watches[k];
-    segment.b = c.s;
-    const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
-    const double side = w.side(c.e.point.state);
-    if (side_[k] == 0 || (side != 0 && (side_[k] < 0) == (side < 0)) || (f(current_) < 0) != (side_[k] < 0)) continue;
-    std::optional<Event> event = side == 0 ? event_at(c.e, c.s) : locate_root(segment, current_, c.e, f);
-    if (!event) continue;
-    event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
-    event->before = event->after = negative_;
-    c.s = event->at_parameter, c.e = event->at;
-    c.event = std::move(event);
-  }
 }
 
 // The first of the load factors to stop at, exactly there.

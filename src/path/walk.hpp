@@ -61,7 +61,6 @@ class Walk {
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   bool find_contact(const Segment& segment, Candidate& c, std::string& why);
   bool find_critical(Segment segment, const Arc& arc, Candidate& c, std::string& why);
-  void find_watches(Segment segment, Candidate& c);
   void find_stop(Segment segment, const Arc& arc, Candidate& c);
   void weigh(const Equilibrium& e, Direction& direction);
   Waypoint accept(Candidate c, const Arc& arc);
