@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "results/summary.hpp"
 #include "study/check_command.hpp"
+#include "study/compare.hpp"
 #include "study/energy_command.hpp"
 #include "study/run.hpp"
 #include "study/verify_command.hpp"
@@ -22,7 +23,8 @@ const char* const description =
     "  elamin problem.toml            run the study; results go to a directory named like the file\n"
     "  elamin energy problem.toml     energies and forces of the starting state, nothing solved\n"
     "  elamin check problem.toml      every mistake in the file, or what was understood of it\n"
-    "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n";
+    "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
+    "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
     "130 interrupted.\n"
@@ -65,16 +67,25 @@ int main(int argc, char** argv) {
   CLI::App* verify_app = app.add_subcommand("verify", "run, and hold the results against [[expect]]");
   verify_app->add_option("problems", files, "problem files")->type_name("FILE")->required();
   running(verify_app);
+  CompareOptions comparison;
+  CLI::App* compare_app = app.add_subcommand("compare", "run the problem by every method that can, side by side; nothing is written");
+  compare_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
+  compare_app->add_option("--methods", comparison.methods, "methods as solver.method has them, with commas between (default: those that fit)")->delimiter(',');
+  compare_app->add_option("--limit", comparison.limit, "seconds that a method may take (default: 60)")->check(CLI::PositiveNumber);
+  compare_app->add_option("--threads", comparison.threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+  compare_app->add_flag("--json", comparison.json, "print JSON");
+  common(compare_app);
   app.require_subcommand(0, 1);
 
   try {
     app.parse(argc, argv);
     std::vector<Setting> settings;
     for (const std::string& s : set) settings.push_back(parse_setting(s));
-    options.settings = energy.settings = settings;
-    options.file = energy.file = file;
+    options.settings = energy.settings = comparison.settings = settings;
+    options.file = energy.file = comparison.file = file;
     if (*energy_app) return energy_command(energy), exit_done;
     if (*check_app) return check_command(file, settings), exit_done;
+    if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
     return run(options).exit_status;

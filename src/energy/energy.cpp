@@ -9,7 +9,7 @@ namespace elamin {
 
 namespace {
 
-enum Place { bonds, angles, contacts, cohesion, walls, pressures, places };   // in the list of groups
+enum Place { bonds, angles, contacts, cohesion, walls, pressures, hard_pairs, hard_walls, places };   // in the list of groups
 
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, turn or overlap of order one.
 double stiffest(const Model& model) {
@@ -24,8 +24,8 @@ double stiffest(const Model& model) {
     for (const int p : particles) most = std::max(most, modulus * model.diameter[p] * model.diameter[p]);
   };
   for (const PairContact& c : model.contacts)
-    for (const auto& side : c.particles) contact(c.effective_modulus, side);
-  for (const Wall& w : model.walls) contact(w.effective_modulus, w.particles);
+    for (const auto& side : c.particles) contact(c.hard ? 0.0 : c.effective_modulus, side);
+  for (const Wall& w : model.walls) contact(w.hard ? 0.0 : w.effective_modulus, w.particles);
   for (const PairContact& c : model.contacts)
     if (c.law == PairContact::Law::lj) most = std::max(most, c.epsilon / c.sigma);
   return most;
@@ -67,7 +67,7 @@ Energy::Energy(const Model& model)
   idle_.reserve(loose_.size());
   groups_.resize(places);
   groups_[bonds] = bond_group(model), groups_[angles] = angle_group(model), groups_[walls] = wall_group(model);
-  groups_[pressures] = pressure_group(model);
+  groups_[pressures] = pressure_group(model), groups_[hard_walls] = hard_wall_group(model);
   neighbours_.refresh(model.restart.value_or(model.start));
   assemble_groups();
 }
@@ -76,6 +76,7 @@ Energy::Energy(const Model& model)
 void Energy::assemble_groups() {
   const std::unique_ptr<Assembler> before = std::move(assembler_);
   groups_[contacts] = contact_group(model_, neighbours_), groups_[cohesion] = cohesion_group(model_, neighbours_);
+  groups_[hard_pairs] = hard_pair_group(model_, neighbours_);
   assembler_ = std::make_unique<Assembler>(kinematics_, groups_);
   if (!before || !same_pattern(before->hessian(), assembler_->hessian())) ++pattern_version_;
 }
@@ -127,7 +128,8 @@ void Energy::anchor_idle() {
   for (const int d : loose_)
     if (stiffness[d] == 0) {
       const double fall = std::abs(gradient_[d]) / (2 * model_.diameter[kinematics_.site_of(d)]);
-      h.valuePtr()[h.outerIndexPtr()[d]] = fall > 0 ? std::max(fall, 1e-12 * largest) : largest > 0 ? largest : 1.0;
+      h.valuePtr()[h.outerIndexPtr()[d]] = fall > 0 ? std::max(fall, 1e-12 * largest)
+                                            : largest > 0 ? largest : force_scale_ > 0 ? force_scale_ / model_.diameter[kinematics_.site_of(d)] : 1.0;
       idle_.push_back(d);
     }
 }
@@ -173,6 +175,18 @@ double Energy::relative(const Vector& force) const {
 
 std::vector<Touch> Energy::touches(const State& state, double within) {
   return find_touches(model_, neighbours_.rules(), state, within);
+}
+
+void Energy::look_around(const State& state) {
+  if (neighbours_.refresh(state)) assemble_groups();
+}
+
+std::vector<HardForce> Energy::hard_contacts(const State& state, double reach) {
+  cover(state);
+  std::vector<HardForce> found = hard_candidates(model_, neighbours_, state, reach);
+  const auto held = [&](int p) { return p < 0 || (kinematics_.dof(p, 0) < 0 && kinematics_.dof(p, 1) < 0 && kinematics_.dof(p, 2) < 0); };
+  std::erase_if(found, [&](const HardForce& h) { return held(h.particle) && held(h.other); });
+  return found;
 }
 
 double Energy::gap(int particle, int other, int wall, const State& state) const {

@@ -1,6 +1,7 @@
 #pragma once
 // The total energy of a model as a function of its free dofs and of the load factor.
 #include "energy/assembler.hpp"
+#include "energy/hard_gaps.hpp"
 #include "energy/neighbours.hpp"
 #include "energy/passage.hpp"
 #include "energy/terms.hpp"
@@ -14,6 +15,8 @@ namespace elamin {
 /// loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. The topology is taken once from the model, which must outlive this; the candidates of contact are looked for
 /// anew whenever a state is evaluated that the last list does not cover, so that no contact is ever missed. Not for use by
 /// several threads at once; inside, every evaluation is shared over the cores with the same bits for any number of them.
+/// Hard contacts have no energy. With the forces f of State::hard, gradient, Hessian, load_derivative and forces are those of
+/// the Lagrangian  L = E − Σ f c,  c the gaps: at an equilibrium ∂L/∂q = 0, c ≥ 0, f ≥ 0 and f c = 0.
 class Energy {
  public:
   explicit Energy(const Model& model);
@@ -62,8 +65,16 @@ class Energy {
   double relative(const Vector& force) const;
 
   /// Every contact that is closed, and every one whose gap is at most `within` [length]: particle pairs in ascending
-  /// order, then wall after wall.
+  /// order, then wall after wall. A hard contact is closed where it bears a force.
   std::vector<Touch> touches(const State& state, double within = 0);
+
+  /// Looks for the candidates of contact now: from here on every particle may move by freedom() before that happens again.
+  void look_around(const State& state);
+  /// The hard contacts that may close while every particle moves by less than `reach`, and by less than freedom() from where the
+  /// candidates were looked for last; with their forces. Not those between what is held altogether.
+  std::vector<HardForce> hard_contacts(const State& state, double reach);
+  /// How far particles may move until the candidates of contact are looked for anew; infinity: there are none. [length]
+  double freedom() const { return neighbours_.freedom(); }
 
   /// Gap of two particles (wall −1), or of a particle and the nearest face of a wall (other −1): distance of the surfaces,
   /// negative: overlap; infinity where the wall does not see the particle. [length]

@@ -1,6 +1,7 @@
 #include "energy/groups.hpp"
 
 #include "energy/changes.hpp"
+#include "energy/hard_group.hpp"
 #include "energy/wall_group.hpp"
 #include "laws/cohesion.hpp"
 #include "laws/cosine_angle.hpp"
@@ -124,5 +125,11 @@ std::unique_ptr<ElementGroup> cohesion_group(const Model& model, const Neighbour
 }
 
 std::unique_ptr<ElementGroup> wall_group(const Model& model) { return std::make_unique<WallGroup>(model); }
+
+std::unique_ptr<ElementGroup> hard_pair_group(const Model& model, const Neighbours& neighbours) {
+  return std::make_unique<HardPairGroup>(model, neighbours.hard());
+}
+
+std::unique_ptr<ElementGroup> hard_wall_group(const Model& model) { return std::make_unique<HardWallGroup>(model); }
 
 }  // namespace elamin

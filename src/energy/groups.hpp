@@ -17,6 +17,9 @@ std::unique_ptr<ElementGroup> pressure_group(const Model& model);
 std::unique_ptr<ElementGroup> contact_group(const Model& model, const Neighbours& neighbours);
 std::unique_ptr<ElementGroup> cohesion_group(const Model& model, const Neighbours& neighbours);
 std::unique_ptr<ElementGroup> wall_group(const Model& model);
+/// What hard contacts add to the Lagrangian.
+std::unique_ptr<ElementGroup> hard_pair_group(const Model& model, const Neighbours& neighbours);
+std::unique_ptr<ElementGroup> hard_wall_group(const Model& model);
 
 /// The law between two particles that have a Hertz table.
 HertzContact hertz_contact(const Model& model, int table, int i, int j);

@@ -6,14 +6,15 @@
 namespace elamin {
 
 namespace {
-constexpr double skin_of_diameter = 0.3;
+constexpr double skin_of_diameter = 0.3, hard_skin_of_diameter = 1;
 }
 
 Neighbours::Neighbours(const Model& model) : model_(model), rules_(model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < model.particles(); ++i)
     if (rules_.reach(i) > 0) smallest = std::min(smallest, 2 * rules_.reach(i));
-  skin_ = rules_.any() ? skin_of_diameter * smallest : 0;
+  const bool hard = std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.hard; });
+  skin_ = rules_.any() ? (hard ? hard_skin_of_diameter : skin_of_diameter) * smallest : 0;
 }
 
 bool Neighbours::covers(const State& state) const {
@@ -23,6 +24,8 @@ bool Neighbours::covers(const State& state) const {
     if (rules_.reach(static_cast<int>(i)) > 0 &&
         !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= skin_ * skin_ / 4))
       return false;
+  for (const HardForce& h : state.hard)
+    if (h.wall < 0 && !std::binary_search(pairs_[2].begin(), pairs_[2].end(), IndexPair{h.particle, h.other})) return false;
   return true;
 }
 
@@ -33,15 +36,20 @@ bool Neighbours::refresh(const State& state) {
   for (int i = 0; i < model_.particles(); ++i)
     if (rules_.reach(i) > 0) radii[i] = rules_.reach(i) + skin_ / 2;
   const auto feel = [&](int i, int j) { return rules_.hertz(i, j) >= 0 || rules_.lj(i, j) >= 0; };
-  std::array<std::vector<IndexPair>, 2> now;
+  std::array<std::vector<IndexPair>, 3> now;
   for (const IndexPair& p : near_pairs(state.position, radii, feel)) {
     const auto [i, j] = p;
     const double apart = (state.position.col(j) - state.position.col(i)).norm() - skin_;
-    if (rules_.hertz(i, j) >= 0 && apart <= (model_.diameter[i] + model_.diameter[j]) / 2) now[0].push_back(p);
+    if (const int t = rules_.hertz(i, j); t >= 0 && apart <= (model_.diameter[i] + model_.diameter[j]) / 2)
+      now[model_.contacts[t].hard ? 2 : 0].push_back(p);
     if (const int t = rules_.lj(i, j); t >= 0 && apart <= model_.contacts[t].cutoff) now[1].push_back(p);
   }
+  for (const HardForce& h : state.hard)
+    if (h.wall < 0) now[2].push_back({h.particle, h.other});
+  std::sort(now[2].begin(), now[2].end());
+  now[2].erase(std::unique(now[2].begin(), now[2].end()), now[2].end());
   bool changed = false;
-  for (int law = 0; law < 2; ++law)
+  for (int law = 0; law < 3; ++law)
     changed = changed || !std::includes(pairs_[law].begin(), pairs_[law].end(), now[law].begin(), now[law].end());
   if (changed) pairs_ = std::move(now);
   return changed;

@@ -4,11 +4,13 @@
 #include "energy/contact_rules.hpp"
 
 #include <array>
+#include <limits>
 
 namespace elamin {
 
-/// Candidate pairs: all that feel each other, and all that would if every particle moved by half the skin.
-/// The skin is 0.3 of the smallest diameter in any table. Not rebuilt without need: while nothing has moved by half the
+/// Candidate pairs: all that feel each other or bear a hard contact's force, and all that would if every particle moved by half the skin.
+/// The skin is 0.3 of the smallest diameter in any table, or that diameter itself where there are hard contacts, whose
+/// methods are begun anew with every new list. Not rebuilt without need: while nothing has moved by half the
 /// skin the list holds, and a new list that is part of the old one changes nothing.
 class Neighbours {
  public:
@@ -19,16 +21,19 @@ class Neighbours {
   bool covers(const State& state) const;
   /// Makes the list hold for the state. True if the candidates have changed.
   bool refresh(const State& state);
-  /// Pairs with a Hertz table, and pairs with a Lennard-Jones table, ascending.
+  /// Pairs with a Hertz table that is not hard, pairs with a Lennard-Jones table, and hard pairs, ascending.
   const std::vector<IndexPair>& hertz() const { return pairs_[0]; }
   const std::vector<IndexPair>& lj() const { return pairs_[1]; }
+  const std::vector<IndexPair>& hard() const { return pairs_[2]; }
+  /// How far every particle may move before the list must be looked at anew; infinity without tables. [length]
+  double freedom() const { return rules_.any() ? skin_ / 2 : std::numeric_limits<double>::infinity(); }
 
  private:
   const Model& model_;
   ContactRules rules_;
   double skin_ = 0;
   State listed_;                                 // where the list was made
-  std::array<std::vector<IndexPair>, 2> pairs_;
+  std::array<std::vector<IndexPair>, 3> pairs_;
 };
 
 }  // namespace elamin

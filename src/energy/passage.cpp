@@ -17,7 +17,7 @@ constexpr double chunk = 10;                   // movement looked at in one go, 
 
 // Distance at which a pair touches; 0: it feels nothing.
 double touching(const Model& model, const ContactRules& rules, int i, int j) {
-  if (const int t = rules.hertz(i, j); t >= 0 && model.contacts[t].effective_modulus > 0)
+  if (const int t = rules.hertz(i, j); t >= 0 && (model.contacts[t].effective_modulus > 0 || model.contacts[t].hard))
     return (model.diameter[i] + model.diameter[j]) / 2;
   const int t = rules.lj(i, j);
   return t >= 0 && model.contacts[t].epsilon > 0 ? model.contacts[t].sigma : 0;
@@ -94,7 +94,7 @@ double free_passage(const Model& model, const ContactRules& rules, const State& 
   if (!u.allFinite()) return 0;
   double part = rules.any() ? among_particles(model, rules, from, u) : 1;
   for (const Wall& wall : model.walls)
-    if (wall.effective_modulus > 0) part = std::min(part, at_wall(model, wall, from, to, u));
+    if (wall.effective_modulus > 0 || wall.hard) part = std::min(part, at_wall(model, wall, from, to, u));
   return part;
 }
 

@@ -1,9 +1,11 @@
 #include "energy/touches.hpp"
 
 #include "energy/groups.hpp"
+#include "energy/hard_gaps.hpp"
 #include "energy/wall_group.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +34,39 @@ Points<2> points(int i, int j, const State& state) {
   x.tail << state.tail.col(i), state.tail.col(j);
   return x;
 }
+
+// Hard contacts: closed where they bear a force, or overlap by more than rounding.
+class HardTouches {
+ public:
+  HardTouches(const Model& model, const State& state) : model_(model), state_(state), forces_(state.hard) {
+    std::sort(forces_.begin(), forces_.end(), before);
+  }
+
+  double slack(int particle) const { return 1e-12 * model_.diameter[particle]; }
+
+  /// Those that bear a force …
+  void add_bearing(std::vector<Touch>& touches) const {
+    HardGap gap;
+    for (const HardForce& h : forces_)
+      if (h.force > 0 && hard_gap(model_, h, state_, gap))
+        touches.push_back({h.particle, h.other, h.wall, gap.value, h.force * gap.gradient.head<3>(), gap.point});
+  }
+
+  /// … and another one, if it is near enough.
+  void add(const HardForce& at, double within, std::vector<Touch>& touches) const {
+    const auto found = std::lower_bound(forces_.begin(), forces_.end(), at, before);
+    if (found != forces_.end() && key(*found) == key(at) && found->force > 0) return;
+    HardGap gap;
+    if (hard_gap(model_, at, state_, gap) && (gap.value < -slack(at.particle) || (within > 0 && gap.value <= within)))
+      touches.push_back({at.particle, at.other, at.wall, gap.value, Vec3::Zero(), gap.point});
+  }
+
+ private:
+  static bool before(const HardForce& a, const HardForce& b) { return key(a) < key(b); }
+  const Model& model_;
+  const State& state_;
+  std::vector<HardForce> forces_;
+};
 
 Touch between(const Model& model, const HertzContact& law, int i, int j, const State& state) {
   const Points<2> x = points(i, j, state);
@@ -63,9 +98,15 @@ std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, c
   std::vector<Touch> touches;
   within = std::max(within, 0.0);
   const auto near = [&](double gap) { return gap < 0 || (gap <= within && within > 0); };
+  const HardTouches hard(model, state);
+  hard.add_bearing(touches);
   if (rules.any())
     for (const auto& [i, j] : candidates(model, rules, state, within)) {
       const int table = rules.hertz(i, j);
+      if (model.contacts[table].hard) {
+        hard.add({i, j, -1, -1, 0}, within, touches);
+        continue;
+      }
       if (model.contacts[table].effective_modulus == 0) continue;
       const Touch t = between(model, hertz_contact(model, table, i, j), i, j, state);
       if (near(t.gap)) touches.push_back(t);
@@ -74,12 +115,19 @@ std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, c
     const WallContact wall = wall_at(model.walls[w], state.load_factor);
     std::array<WallTouch, WallContact::most_faces> faces;
     for (const int p : model.walls[w].particles) {
-      const int n = wall.touches(state.at(p), model.diameter[p] / 2, within, faces);
+      const int n = wall.touches(state.at(p), model.diameter[p] / 2, model.walls[w].hard ? std::max(within, hard.slack(p)) : within, faces);
+      if (model.walls[w].hard) {
+        for (int k = 0; k < n; ++k) hard.add({p, -1, static_cast<int>(w), faces[k].face, 0}, within, touches);
+        continue;
+      }
       for (int k = 0; k < n; ++k)
         if (near(faces[k].gap))
           touches.push_back({p, -1, static_cast<int>(w), faces[k].gap, faces[k].force * faces[k].normal, faces[k].point});
     }
   }
+  std::stable_sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
+    return std::array{a.wall, a.particle, a.other} < std::array{b.wall, b.particle, b.other};
+  });
   return touches;
 }
 

@@ -9,7 +9,7 @@ constexpr std::int64_t grain = 500;
 WallContact wall_at(const Wall& wall, double load_factor) {
   const double part = wall.scaling.at(load_factor);
   return {wall.region.moved(part * wall.displacement, part * wall.radius_change), wall.inside,
-          wall.effective_modulus, wall.curved};
+          wall.hard ? 0.0 : wall.effective_modulus, wall.curved};
 }
 
 WallGroup::WallGroup(const Model& model) : model_(model) {

@@ -6,7 +6,8 @@
 
 namespace elamin {
 
-/// The wall as it stands at the load factor λ: moved by s(λ) d, its radius larger by s(λ) ΔR.
+/// The wall as it stands at the load factor λ: moved by s(λ) d, its radius larger by s(λ) ΔR. A hard one has no modulus: what
+/// it does is in HardWallGroup.
 WallContact wall_at(const Wall& wall, double load_factor);
 
 /// U of all walls. They move with the load factor themselves:

@@ -39,6 +39,14 @@ struct Cohesion {
     return u;
   }
 
+  /// −2 ∂U/∂q within the cutoff: times d the force on site 1, with ε = depth and σ = size, in the plain
+  /// arithmetic of the scalar T.
+  template <class T>
+  static T push(const T& q, const T& depth, const T& size) {
+    const T t = size / q * size, s = t * t * t;
+    return T(24.0) * depth * s * (T(2.0) * s - T(1.0)) / q;
+  }
+
  private:
   static Exact squared(const ExactVector& d) { return dot(d, d); }   // q = r²
 

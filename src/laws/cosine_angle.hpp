@@ -2,6 +2,7 @@
 #include "laws/exact_geometry.hpp"
 #include "laws/law.hpp"
 #include "laws/section.hpp"
+#include "laws/triple.hpp"
 
 #include <limits>
 
@@ -41,6 +42,10 @@ struct CosineAngle {
   explicit CosineAngle(double stiffness, double rest = pi, int kept = -1)
       : B(stiffness), straight_(rest == pi), kept_(straight_ ? -1 : kept), cos_rest_(std::cos(pi - rest)),
         sin_rest_(std::sin(pi - rest)) {}
+
+  /// b⊥ = b − (a·b) a, of which a straight angle makes ∂U/∂u = −B b⊥/|u| (and of a⊥ ∂U/∂w), in the plain arithmetic of T.
+  template <class T>
+  static Triple<T> across(const Triple<T>& a, const Triple<T>& b) { return multiply_add(-dot(a, b), a, b); }
 
   double value(const Points<3>& x) const {
     const Turn t(x, *this);

@@ -20,6 +20,10 @@ struct HarmonicBond {
     return K * e * e;
   }
 
+  /// ∂U/∂r = 2K (r − r₀), the pull along the bond, in the plain arithmetic of the scalar T.
+  template <class T>
+  static T pull(const T& r, const T& K, const T& r0) { return T(2.0) * K * (r - r0); }
+
   Local<2> derivatives(const Points<2>& x) const {
     const ExactVector d = x.edge(0, 1);
     return derivatives(d, stretch(d));

@@ -43,6 +43,13 @@ struct HertzContact {
     return u;
   }
 
+  /// k δ^{3/2} of the overlap δ ≥ 0, the force along n, in the plain arithmetic of the scalar T.
+  template <class T>
+  static T push(const T& overlap, const T& stiffness) {
+    using std::sqrt;
+    return stiffness * overlap * sqrt(overlap);
+  }
+
   /// r − ρ, the distance of the surfaces, exact differences; negative: overlap. [length]
   double gap(const Points<2>& x) const { return gap(x.edge(0, 1)); }
 

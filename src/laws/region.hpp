@@ -27,7 +27,7 @@ struct Region {
   /// Whether x is inside (on the surface: inside).
   bool contains(const Vec3& x) const { return contains(ExactVector{x, Vec3::Zero()}); }
   bool contains(const ExactVector& x) const;
-  bool any_open() const { return open != std::array<bool, 6>{}; }
+  bool any_open() const { return open[0] || open[1] || open[2] || open[3] || open[4] || open[5]; }
   /// The same region moved by d and with its radius (of a cone: both) larger by `growth`.
   Region moved(const Vec3& d, double growth) const;
   bool operator==(const Region&) const = default;

@@ -71,6 +71,7 @@ int WallContact::touches(const ExactVector& x, double r, double reach, std::arra
     touch.point = x.hi - g.distance.value * touch.normal;
     touch.effective_radius = g.radius.value;
     touch.force = contact_force(effective_modulus, g);
+    touch.face = g.face;
   }
   return count;
 }

@@ -12,6 +12,14 @@ struct WallTouch {
   Vec3 point = Vec3::Zero();                   // of the wall's surface, nearest to the sphere
   double effective_radius = 0;
   double force = 0;                            // ≥ 0
+  int face = 0;                                // see WallGap
+};
+
+/// One face that a sphere overlaps, in plain arithmetic.
+struct WallPress {
+  double overlap = 0;                          // δ > 0
+  Vec3 normal = Vec3::Zero();                  // unit, the direction of the force on the sphere
+  double effective_radius = 0;
 };
 
 /// Hertz's contact of a sphere of radius r with a rigid wall, the sum over the faces that it overlaps of
@@ -46,6 +54,11 @@ struct WallContact {
   /// Every face nearer than `reach` (distance of the surfaces ≤ reach; force zero where they do not overlap), at most
   /// most_faces; returns their number.
   int touches(const ExactVector& x, double r, double reach, std::array<WallTouch, most_faces>& out) const;
+  /// The faces that the sphere overlaps, most_faces at most, in plain doubles: planes, blocks from inside, spheres and the
+  /// sides of endless cylinders at once, all others by way of touches(). Each pushes with k δ^{3/2} along its normal.
+  int presses(const Vec3& x, double r, std::array<WallPress, most_faces>& out) const;
+  /// What ∇R_eff adds to that: the force on the sphere less what the faces push; zero but at a curved cone.
+  Vec3 curving_force(const Vec3& x, double r) const;
 };
 
 }  // namespace elamin

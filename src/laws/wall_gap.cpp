@@ -55,8 +55,10 @@ class Search {
 
   void block_inside() {
     for (int c = 0; c < 3; ++c) {
-      if (!region_.open[2 * c]) flat(offset(x_[c], region_.lo[c]), Vec3::Unit(c));
-      if (!region_.open[2 * c + 1]) flat(-offset(x_[c], region_.hi[c]), -Vec3::Unit(c));
+      face_ = 2 * c;
+      if (!region_.open[face_]) flat(offset(x_[c], region_.lo[c]), Vec3::Unit(c));
+      face_ = 2 * c + 1;
+      if (!region_.open[face_]) flat(-offset(x_[c], region_.hi[c]), -Vec3::Unit(c));
     }
   }
 
@@ -89,10 +91,13 @@ class Search {
   void frustum_inside() {
     const Frustum f(region_);
     const AxialPoint p = axial_point(region_, x_);
-    if (!region_.open[2])
+    face_ = 2;
+    if (!region_.open[face_])
       if (const auto foot = side(f, p)) add(f, p, *foot, -1);
-    if (!region_.open[0]) flat(p.above_lo, p.along);
-    if (!region_.open[1]) flat(-p.above_hi, -p.along);
+    face_ = 0;
+    if (!region_.open[face_]) flat(p.above_lo, p.along);
+    face_ = 1;
+    if (!region_.open[face_]) flat(-p.above_hi, -p.along);
   }
 
   void frustum_outside() {
@@ -121,7 +126,7 @@ class Search {
 
   void add(Exact distance, const Varying& d, const Varying& radius) {
     const double overlap = (Exact{r_, 0} - distance).value();
-    if (overlap >= -reach_) found_.gap[found_.count++] = {overlap, d, radius};
+    if (overlap >= -reach_) found_.gap[found_.count++] = {overlap, d, radius, face_};
   }
 
   void flat(Exact distance, const Vec3& n) {
@@ -194,6 +199,7 @@ class Search {
   const ExactVector& x_;
   double r_, reach_;
   WallGaps& found_;
+  int face_ = 0;                                          // that is being looked at
 };
 
 }  // namespace

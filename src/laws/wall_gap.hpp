@@ -17,6 +17,7 @@ struct WallGap {
   double overlap;                              // δ = r − d, with all its digits; negative: the distance of the surfaces
   Varying distance;                            // d of the centre from the face; by x its gradient is n, into the sphere
   Varying radius;                              // R_eff; +inf where the wall has no room for the sphere's curvature
+  int face = 0;                                // with the centre inside: as Region::open counts them; outside, where one point acts: 0
 };
 
 struct WallGaps {

@@ -41,6 +41,7 @@ struct Support {
   Vec3 displacement = Vec3::Zero();             // [length]
   Scaling scaling;
   std::vector<ExactVector> reference = {};      // of each of the particles, unless empty
+  Vec3 velocity = Vec3::Zero();                 // of what is held, in dynamics [length/time]
 };
 
 /// Dead load on each of these particles: energy −s(λ) Σ F·x.
@@ -81,6 +82,18 @@ struct Change {
   Scaling scaling;
 };
 
+/// What a contact does beside its elastic force, in dynamics only; with k = F/δ, a = √(R_eff δ), m the
+/// effective mass: normal damping −η vₙ with η = γ (velocity), γ m (mass_velocity), γ a m (viscoelastic), γ √(m k) (tsuji);
+/// friction without history, −min(μ |Fₙ|, x η |vₜ|) vₜ/|vₜ|.  The words and factors of LAMMPS's pair_style granular.
+struct ContactDamping {
+  enum class Model { none, velocity, mass_velocity, viscoelastic, tsuji };
+  Model model = Model::none;
+  double coefficient = 0;                       // γ; of tsuji from the coefficient of restitution
+  double tangential = 0;                        // x, ratio of tangential to normal damping
+  double friction = 0;                          // μ
+  bool operator==(const ContactDamping&) const = default;
+};
+
 /// What two particles feel of each other that are not glued: Hertz's contact or Lennard-Jones's cohesion.
 /// Where two tables of one law speak of a pair, the later one holds, as with LAMMPS's pair_coeff; different laws add.
 struct PairContact {
@@ -91,6 +104,8 @@ struct PairContact {
   double effective_modulus = 0;                 // hertz: E_eff; 0: no contact
   double epsilon = 0, sigma = 0, cutoff = 0;    // lj
   std::optional<int> exclude_bonds;             // pairs this many bonds apart or nearer feel nothing; see Energy
+  bool hard = false;                            // hertz: impenetrable, gap ≥ 0, instead of elastic
+  ContactDamping damping = {};
 };
 
 /// A rigid surface that the particles of a group touch: moved by s(λ) d, its radius larger by s(λ) ΔR.
@@ -104,6 +119,8 @@ struct Wall {
   Vec3 displacement = Vec3::Zero();             // d of the wall [length]
   double radius_change = 0;                     // ΔR of its radius (of a cone: of both) [length]
   Scaling scaling;
+  bool hard = false;                            // impenetrable, gap ≥ 0, instead of elastic
+  ContactDamping damping = {};
 };
 
 /// Drag −γ v: no energy; matters in dynamics and in the forces of a moving state.
@@ -127,6 +144,7 @@ struct Model {
   std::vector<int> type, molecule;              // from 1
   std::vector<double> diameter, density;        // density 0: not given
   Field velocity;                               // 3 × particles, or empty: at rest
+  Field spin;                                   // angular velocities, 3 × particles, or empty: none
   std::vector<BondType> bond_types;
   std::vector<AngleType> angle_types;
   std::vector<Bond> bonds;

@@ -2,7 +2,17 @@
 // Where everything is: the configuration that an energy is a function of.
 #include "core/exact.hpp"
 
+#include <vector>
+
 namespace elamin {
+
+/// The force with which a hard contact keeps its gap from closing further: a multiplier, positive. Between a particle and
+/// another one, or a wall's face (numbered as its open faces are).
+struct HardForce {
+  int particle = 0, other = -1, wall = -1, face = -1;
+  double force = 0;
+  bool operator==(const HardForce&) const = default;
+};
 
 /// Positions of all particles as position + tail (about 32 digits), and the load factor λ.
 /// A chain of N particles has a condition number of about 5 N⁴; the tails keep differences of neighbours exact to the
@@ -11,6 +21,7 @@ struct State {
   Field position;          // 3 × particles [length]
   Field tail;              // 3 × particles, what the rounding of `position` left out
   double load_factor = 0;
+  std::vector<HardForce> hard;   // of the hard contacts that bear a force
 
   State() = default;
   explicit State(Field positions) : position(std::move(positions)), tail(Field::Zero(3, position.cols())) {}

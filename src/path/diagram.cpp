@@ -1,5 +1,6 @@
 #include "path/arc_length.hpp"
 #include "path/deflation.hpp"
+#include "path/held_steps.hpp"
 #include "path/load_steps.hpp"
 #include "path/path.hpp"
 
@@ -17,7 +18,12 @@ namespace {
 class Diagram final : public Path {
  public:
   Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options) {
-    if (options.method == PathMethod::arc_length) now_ = std::make_unique<ArcLength>(newton, start, options, &numbering());
+    if (any_hard(newton.energy().model())) {
+      now_ = std::make_unique<HeldSteps>(newton, start, options, &numbering());
+      if (options.branches > 0 || options.deflate > 0 || options.method == PathMethod::arc_length)
+        note("with hard contacts a path goes by load steps, without switching branches and without deflation");
+      options_.branches = options_.deflate = 0;
+    } else if (options.method == PathMethod::arc_length) now_ = std::make_unique<ArcLength>(newton, start, options, &numbering());
     else now_ = std::make_unique<LoadSteps>(newton, start, options, &numbering());
   }
 

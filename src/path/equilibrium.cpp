@@ -2,6 +2,7 @@
 
 #include "model/rigid_motion.hpp"
 #include "path/contact_event.hpp"
+#include "solve/contact_equilibrium.hpp"
 
 #include <Eigen/QR>
 
@@ -117,8 +118,20 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     e.point.stability.stable = true;
     return e;
   }
-  const Inertia inertia = newton.factors().inertia();
   Stability& s = e.point.stability;
+  if (!state.hard.empty()) {                                    // what moves keeps the hard contacts closed
+    ContactEquilibrium held(energy);
+    const Inertia inertia = held.inertia(state);
+    s.negative = s.negative_rigid = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
+    name_idle(energy, s.zero_modes);
+    if (inertia.zero > 0) e.zero_modes = held.lowest(state, inertia.negative + inertia.zero).vectors.rightCols(inertia.zero);
+    const bool named = inertia.zero == 0 || name_zero_modes(energy, state, e.zero_modes, s.zero_modes);
+    s.critical = named ? 0 : inertia.zero;
+    s.stable = s.negative == 0 && named;
+    e.tangent = held.tangent(state).q;
+    return e;
+  }
+  const Inertia inertia = newton.factors().inertia();
   s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
   name_idle(energy, s.zero_modes);
   bool named = true;
@@ -152,7 +165,7 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 
-Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor) {
+Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor, const Corrector& correct) {
   const Kinematics& kinematics = newton.energy().kinematics();
   Energy& energy = newton.energy();
   const State& start = from.point.state;
@@ -174,9 +187,9 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     if (energy.passage(start, predicted) < 1) predicted = driven;
   }
   State state = predicted;
-  Report report = newton.correct(state, from.zero_modes, &start, most_iterations);
+  Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, most_iterations);
   const bool meets = !energy.model().contacts.empty() || !energy.model().walls.empty();
-  if (report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
+  if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = predicted;
     report = newton.minimise(state, Pace::long_steps, most_iterations);

@@ -1,6 +1,6 @@
 #pragma once
 // One equilibrium with what its neighbours are computed from.
-#include "path/point.hpp"
+#include "path/options.hpp"
 #include "solve/newton.hpp"
 
 namespace elamin {
@@ -15,9 +15,9 @@ struct Equilibrium {
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
 Equilibrium assess(Newton& newton, const State& state, const Report& report);
 
-/// Follows the branch from one equilibrium to the load factor λ: tangent predictor, Newton corrector.
+/// Follows the branch from one equilibrium to the load factor λ: tangent predictor, Newton's corrector or another one.
 /// Converged only if it is on the same branch, as far as can be told; beyond a contact that is made on the way it cannot.
-Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor);
+Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor, const Corrector& correct = {});
 
 /// Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
 /// tell, but for a part (a branch that bends like a parabola into a limit point, from there to its vertex, has one half); and

@@ -21,8 +21,9 @@ constexpr int most_explored = 400;                  // steps in arc length then
 constexpr std::int64_t whole = std::int64_t(1) << finest;
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a jump is made
 
-// Load factors to hit, in order: the even steps and the stops asked for.
-std::vector<double> targets_of(const PathOptions& o) {
+}  // namespace
+
+std::vector<double> load_targets(const PathOptions& o) {
   std::vector<double> targets;
   const double sign = o.to > o.from ? 1 : -1, start = o.start.value_or(o.from);
   const double same = 1e-12 * std::max(std::abs(o.from), std::abs(o.to));
@@ -36,10 +37,8 @@ std::vector<double> targets_of(const PathOptions& o) {
   return targets;
 }
 
-}  // namespace
-
 LoadSteps::LoadSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
-    : Path(numbering), newton_(newton), options_(std::move(options)), start_(start), targets_(targets_of(options_)),
+    : Path(numbering), newton_(newton), options_(std::move(options)), start_(start), targets_(load_targets(options_)),
       interval_start_(options_.start.value_or(options_.from)) {}
 
 void LoadSteps::advance() {
@@ -90,7 +89,7 @@ void LoadSteps::step() {
   const double goal = targets_[interval_];
   const double target = arrived == whole ? goal : interval_start_ + (goal - interval_start_) * (static_cast<double>(arrived) / whole);
 
-  Equilibrium candidate = continue_to(newton_, current_, target);
+  Equilibrium candidate = continue_to(newton_, current_, target, options_.correct);
   Segment segment{here, target, [this](double t, const Equilibrium& nearest) { return continue_to(newton_, nearest, t); }};
   std::optional<Event> event;
   std::optional<ContactChange> contact;

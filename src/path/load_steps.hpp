@@ -3,6 +3,9 @@
 
 namespace elamin {
 
+/// Load factors to hit, in order: the even steps and the stops asked for.
+std::vector<double> load_targets(const PathOptions& options);
+
 /// A branch in steps of the load factor. Steps that fail are halved, down to 2⁻²⁰ of a step; halved steps double again, so
 /// that every multiple of the step is hit. The Morse index is known at every equilibrium; where it changes the event is
 /// located before going on. Where steps fail, the branch is followed in arc length to see what is there: a limit point, a

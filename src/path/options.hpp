@@ -1,5 +1,6 @@
 #pragma once
 #include "path/point.hpp"
+#include "solve/report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,9 @@ struct Watch {
   }
 };
 
+/// Finds an equilibrium near the state, from where it was predicted.
+using Corrector = std::function<Report(State& state)>;
+
 struct PathOptions {
   PathMethod method = PathMethod::load_steps;
   double from = 0, to = 1;               // load factors
@@ -47,6 +51,7 @@ struct PathOptions {
   std::optional<double> lowest, highest; // arc length ends where the load factor leaves these; see ArcLength
   int most_points = 0;                   // on one branch; 0: twenty times `steps`
   std::vector<Watch> watches;
+  Corrector correct;                     // of load steps; none: Newton's method. What is between two steps is Newton's.
   std::optional<Resume> resume;          // of the point that the path is taken up at
   int deflate = 0;                       // further equilibria to look for …
   std::vector<double> deflate_at;        // … at these load factors; none: at `to`

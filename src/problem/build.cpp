@@ -34,6 +34,7 @@ class Builder {
     for (const std::string& name : unknown_) groups.add_unknown(name);
     for (const GroupTable& g : p_.groups) groups.add(g);
     bool holding = add_connections(p_, groups, model_, mistakes_);
+    if (p_.in_time()) need_masses(p_, model_, mistakes_);
     holding = add_supports(p_, groups, model_, mistakes_) && holding;
     add_loads(p_, groups, model_, mistakes_);
     holding = add_contacts(p_, groups, model_, mistakes_) && holding;
@@ -42,6 +43,7 @@ class Builder {
     model_.groups = groups.groups();
     if (whole_ && !p_.path.start.empty() && !p_.path.place.broken) restart();
     if (holding && whole_) check_sides(p_, model_, mistakes_);
+    if (holding && whole_ && p_.in_time() && !mistakes_.any()) check_timestep(p_, model_, mistakes_);
     return std::move(model_);
   }
 
@@ -74,7 +76,7 @@ class Builder {
     for (int i = 0; i < n; ++i)
       if (const double d = model_.diameter[i]; model_.density[i] == 0 && d > 0 && !data->mass.empty())
         model_.density[i] = data->mass[i] / (pi / 6 * d * d * d);
-    if (data->velocity.cols() == n) model_.velocity = std::move(data->velocity);
+    take_velocities(*data);
     model_.bond_types = std::move(data->bond_types);
     model_.angle_types = std::move(data->angle_types);
     model_.bonds = std::move(data->bonds);
@@ -97,8 +99,14 @@ class Builder {
     }
   }
 
+  /// At rest where the file tells no velocities.
+  void take_velocities(LammpsData& data) {
+    model_.velocity = std::move(data.velocity);
+    model_.spin = data.spin.isZero(0) ? Field() : std::move(data.spin);
+  }
+
   void restart() {
-    const auto data = read(p_.path.start, "");
+    auto data = read(p_.path.start, "");
     if (!data) return;
     if (data->id != model_.id) {
       mistakes_.add(p_.path.place, "start",
@@ -110,6 +118,7 @@ class Builder {
     }
     check_plane(p_, model_, data->position, p_.path.place, mistakes_);
     model_.restart = State(data->position);
+    if (p_.in_time()) take_velocities(*data);
     model_.restart->load_factor = p_.path.start_lambda.value_or(p_.path.from);
     try {
       if (const auto stored = read_tail(p_.path.start)) {

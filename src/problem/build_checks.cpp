@@ -1,5 +1,7 @@
 #include "problem/build_checks.hpp"
 
+#include "dynamics/timestep.hpp"
+
 #include "problem/build_structures.hpp"
 
 #include <fmt/format.h>
@@ -59,6 +61,16 @@ void check_plane(const Problem& problem, const Model& model, const Field& positi
     mistakes.add(whose, fmt::format("particle {} is not in the plane \"{}\" of particle {}: {} is {} instead of {}",
                                     model.id[static_cast<std::size_t>(i)], problem.plane, model.id[0], "xyz"[c],
                                     coordinate[i], level));
+}
+
+void check_timestep(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  const DynamicsTable& d = problem.dynamics;
+  if (d.place.broken || !d.timestep || d.allow_unstable) return;
+  Energy energy(model);
+  State state = model.restart.value_or(model.start);
+  energy.kinematics().prescribe(state, problem.path.start_lambda.value_or(1.0));
+  if (const std::string why = unstable(timestep_limit(energy, state), *d.timestep); !why.empty())
+    mistakes.add(d.place, "timestep", why + "; allow_unstable = true takes it nevertheless");
 }
 
 }  // namespace elamin

@@ -22,4 +22,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes);
 /// A study cannot have more modes or eigenvalues than there are free coordinates.
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes);
 
+/// Of dynamics: the timestep must be a stable one at the starting state, or be allowed not to be.
+void check_timestep(const Problem& problem, const Model& model, Mistakes& mistakes);
+
 }  // namespace elamin

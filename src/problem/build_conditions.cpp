@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace elamin {
@@ -48,6 +49,10 @@ class Holders {
  private:
   void compare(int table, int earlier, int particle, int c) {
     const SupportTable &a = problem_.supports[table], &b = problem_.supports[earlier];
+    if (a.velocity[c] != b.velocity[c] && told_.insert({table, earlier}).second)
+      return mistakes_.add(a.place, "velocity", fmt::format("moves {} of particle {} otherwise than {} ({} here, {} there); one coordinate has "
+                                                            "one velocity", "xyz"[c], model_.id[particle], named(b.place),
+                                                            a.velocity[c], b.velocity[c]));
     const double here = a.displacement[c], there = b.displacement[c];
     if ((here == 0 && there == 0) || told_.count({table, earlier})) return;
     const Condition one = condition_of("support", problem_.supports, table), other = condition_of("support", problem_.supports, earlier);
@@ -71,8 +76,8 @@ class Holders {
   std::set<std::pair<int, int>> told_;
 };
 
-/// Every structure that has a particle without mass among these is told once. Particles and structures both ascend.
-void need_density(const Problem& problem, const Model& model, const std::vector<int>& particles, const TablePlace& by,
+/// Every structure that has a particle without mass among these, which `needed` names, is told once. Particles and structures both ascend.
+void need_density(const Problem& problem, const Model& model, const std::vector<int>& particles, const std::string& needed,
                   std::set<std::string>& told, Mistakes& mistakes) {
   auto s = model.structures.begin();
   for (const int i : particles) {
@@ -81,10 +86,10 @@ void need_density(const Problem& problem, const Model& model, const std::vector<
     if (!told.insert(s->name).second) continue;
     if (s->kind == "lammps")
       mistakes.add(problem.lammps->place, "data",
-                   fmt::format("particle {} has no mass, which {} needs", model.id[i], named(by)));
+                   fmt::format("particle {} has no mass, which {} needs", model.id[i], needed));
     else
       mistakes.add(place_of(problem, *s), "density",
-                   fmt::format("is missing; it must be a positive number, {} needs it", named(by)));
+                   fmt::format("is missing; it must be a positive number, {} needs it", needed));
   }
 }
 
@@ -175,6 +180,13 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
 
 }  // namespace
 
+void need_masses(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  std::vector<int> all(model.particles());
+  std::iota(all.begin(), all.end(), 0);
+  std::set<std::string> told;
+  need_density(problem, model, all, "dynamics", told, mistakes);
+}
+
 bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
   bool whole = true;
   Holders holders(problem, model, mistakes);
@@ -188,7 +200,9 @@ bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes
     Support s{table.group, *particles, {false, false, false}, table.displacement,
               scaling_of(problem, condition_of("support", problem.supports, t))};
     for (const char letter : table.directions) s.held[letter - 'x'] = true;
+    s.velocity = table.velocity;
     stay_in_plane(problem, model, table.place, "displacement", s.displacement, mistakes);
+    stay_in_plane(problem, model, table.place, "velocity", s.velocity, mistakes);
     holders.hold(t, s);
     model.supports.push_back(std::move(s));
   }
@@ -217,13 +231,20 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
     const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
     if (!particles) continue;
     stay_in_plane(problem, model, table.place, "acceleration", table.acceleration, mistakes);
-    need_density(problem, model, *particles, table.place, told, mistakes);
+    need_density(problem, model, *particles, named(table.place), told, mistakes);
     model.gravity.push_back({table.group, *particles, table.acceleration,
                              scaling_of(problem, condition_of("gravity", problem.gravity, t))});
   }
   for (const ViscosityTable& table : problem.viscosity)
     if (const auto* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
       model.viscosity.push_back({*particles, table.coefficient});
+  for (const VelocityTable& table : problem.velocities) {
+    const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    if (!particles) continue;
+    stay_in_plane(problem, model, table.place, "velocity", table.velocity, mistakes);
+    if (model.velocity.cols() == 0) model.velocity = Field::Zero(3, model.particles());
+    for (const int i : *particles) model.velocity.col(i) = table.velocity;
+  }
   add_pressures(problem, model);
   add_changes(problem, groups, model, mistakes);
 }

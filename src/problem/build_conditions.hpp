@@ -12,4 +12,7 @@ bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes
 /// gravity on particles without density; a change of nothing, or to nothing.
 void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
+/// Every particle must have a mass, or that is told; of dynamics.
+void need_masses(const Problem& problem, const Model& model, Mistakes& mistakes);
+
 }  // namespace elamin

@@ -1,5 +1,6 @@
 #include "problem/build_contacts.hpp"
 
+#include "dynamics/contact_damping.hpp"
 #include "model/connect.hpp"
 #include "problem/build_structures.hpp"
 #include "problem/conditions.hpp"
@@ -37,6 +38,12 @@ double effective_modulus(const WallTable& t) {
   return E / (2 * ((1 - nu) * (1 + nu)));
 }
 
+ContactDamping damping_of(const DampingKeys& keys) {
+  ContactDamping d{keys.model, keys.coefficient.value_or(0), keys.friction_damping, keys.friction};
+  if (d.model == ContactDamping::Model::tsuji) d.coefficient = tsuji_coefficient(*keys.restitution);
+  return d;
+}
+
 class ContactBuilder {
  public:
   ContactBuilder(Groups& groups, Model& model, Mistakes& mistakes)
@@ -51,9 +58,10 @@ class ContactBuilder {
       c.law = PairContact::Law::lj;
       c.epsilon = *t.epsilon, c.sigma = *t.sigma, c.cutoff = *t.cutoff;
     } else {
-      c.effective_modulus = effective_modulus(t);
+      c.hard = t.hard, c.damping = damping_of(t.damping);
+      c.effective_modulus = t.hard ? 0 : effective_modulus(t);
       if (!has_number(t.place, c.effective_modulus)) return false;
-      if (c.effective_modulus > 0)
+      if (c.hard || c.effective_modulus > 0)
         if (!round(t.place, "between", c.particles[0]) || !round(t.place, "between", c.particles[1])) return false;
     }
     model_.contacts.push_back(std::move(c));
@@ -63,10 +71,10 @@ class ContactBuilder {
   bool add(const WallTable& t, const Scaling& scaling) {
     const std::vector<int>* particles = t.place.broken ? nullptr : groups_.find(t.place, "group", t.group);
     if (!particles) return false;
-    Wall w{t.name, t.group, *particles, with_unit_normal(t.region), t.inside, effective_modulus(t), t.curved,
-           t.displacement, t.radius_change, scaling};
+    Wall w{t.name, t.group, *particles, with_unit_normal(t.region), t.inside, t.hard ? 0 : effective_modulus(t), t.curved,
+           t.displacement, t.radius_change, scaling, t.hard, damping_of(t.damping)};
     if (!has_number(t.place, w.effective_modulus)) return false;
-    if (w.effective_modulus > 0 && !round(t.place, "group", w.particles)) return false;
+    if ((w.hard || w.effective_modulus > 0) && !round(t.place, "group", w.particles)) return false;
     model_.walls.push_back(std::move(w));
     return true;
   }
@@ -199,7 +207,7 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
   std::vector<State> states;
   for (const double factor : factors) states.push_back(start_at(model, factor));
   for (const Wall& w : model.walls) {
-    if (w.region.any_open() || w.effective_modulus == 0) continue;
+    if (w.region.any_open() || (w.effective_modulus == 0 && !w.hard)) continue;
     const auto wrong = [&](int i) {
       return std::all_of(states.begin(), states.end(), [&](const State& state) {
         const double part = w.scaling.at(state.load_factor);

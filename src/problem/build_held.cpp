@@ -19,7 +19,7 @@ std::vector<int> structure_of(const Model& model) {
   return of;
 }
 
-bool acts(const PairContact& c) { return c.effective_modulus > 0 || c.epsilon > 0; }
+bool acts(const PairContact& c) { return c.hard || c.effective_modulus > 0 || c.epsilon > 0; }
 
 /// The glued parts, and which of them may touch each other.
 class Parts {
@@ -37,7 +37,7 @@ class Parts {
       if (acts(c)) touch(c);
     std::vector<bool> walled(count);
     for (const Wall& w : model.walls)
-      if (w.effective_modulus > 0)
+      if (w.hard || w.effective_modulus > 0)
         for (const int i : w.particles) touched_[part_[i]] = walled[part_[i]] = true;
     for (int p = 0; p < count; ++p)
       if (held_[p] || walled[p]) kept_[find(p)] = true;
@@ -95,6 +95,7 @@ std::vector<bool> driven(const Model& model, const Parts& parts) {
 
 void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
   if (problem.study == StudyType::energy || problem.study == StudyType::modes) return;   // a free motion is a mode
+  if (problem.in_time()) return;           // … or a motion
   const Parts parts(model);
   const std::vector<bool> force = driven(model, parts);
   const std::vector<int> structure = structure_of(model);

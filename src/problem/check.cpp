@@ -61,7 +61,7 @@ void Names::refer(TablePlace& place, const char* key, const std::array<std::stri
 
 namespace {
 
-void check_support(SupportTable& s, Mistakes& mistakes) {
+void check_support(const Problem& problem, SupportTable& s, Mistakes& mistakes) {
   const std::string& d = s.directions;
   std::set<char> letters(d.begin(), d.end());
   if (d.empty() || letters.size() != d.size() || d.find_first_not_of("xyz") != std::string::npos)
@@ -71,6 +71,45 @@ void check_support(SupportTable& s, Mistakes& mistakes) {
     if (s.displacement[c] != 0 && !letters.count("xyz"[c]))
       mistakes.add(s.place, "displacement", fmt::format("moves along {}, which is not among the directions \"{}\"; "
                                                         "give 0 there or hold that direction", "xyz"[c], d));
+  for (int c = 0; c < 3; ++c)
+    if (s.velocity[c] != 0 && !letters.count("xyz"[c]))
+      mistakes.add(s.place, "velocity", fmt::format("moves along {}, which is not among the directions \"{}\"; "
+                                                    "give 0 there or hold that direction", "xyz"[c], d));
+  if (s.velocity.isZero(0)) return;
+  if (problem.study != StudyType::dynamics)
+    mistakes.add(s.place, "velocity", "belongs to dynamics, study.type = \"dynamics\"; elsewhere give a displacement");
+  else if (problem.dynamics.relax)
+    mistakes.add(s.place, "velocity", "does not go with dynamics.relax, which ends in an equilibrium; leave one of them out");
+}
+
+}  // namespace
+
+namespace {
+
+void check_solving(Problem& problem, Mistakes& mistakes) {
+  SolverTable& s = problem.solver;
+  const bool newton = s.method == "newton";
+  if (!newton && problem.study == StudyType::modes)
+    mistakes.add(s.place, "method", "must be \"newton\" in a study of modes, is " + quoted(s.method));
+  if (!newton && problem.study == StudyType::path) {
+    const auto by_newton = [&](TablePlace& place, const char* key, const char* what) {
+      mistakes.add(place, key, fmt::format("{} follows stable and unstable equilibria, which {} does not; use solver.method = "
+                                           "\"newton\"", what, quoted(s.method)));
+    };
+    if (problem.path.method == PathMethod::arc_length) by_newton(problem.path.place, "method", "arc length");
+    else if (problem.path.when_unstable == WhenUnstable::follow) by_newton(problem.path.place, "when_unstable", "\"follow\"");
+    if (problem.path.branches > 0) by_newton(problem.path.place, "branches", "branch switching");
+    if (problem.path.deflate > 0) by_newton(problem.path.place, "deflate", "deflation");
+    for (StageTable& t : problem.stages)
+      if (t.method == PathMethod::arc_length) by_newton(t.place, "method", "arc length");
+  }
+  if (problem.study != StudyType::dynamics) return;
+  DynamicsTable& d = problem.dynamics;
+  if (d.place.broken) return;
+  if (!d.relax && !d.timestep)
+    mistakes.add(d.place, "timestep", "is missing; it must be a positive number (`elamin check` tells the largest stable one for any)");
+  if (d.relax && d.timestep) mistakes.add(d.place, "timestep", "is of no use with relax = true, which chooses its own");
+  if (d.relax && d.record) mistakes.add(d.place, "record", "is of no use with relax = true, whose way to equilibrium is no motion");
 }
 
 }  // namespace
@@ -81,11 +120,16 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
   check_groups(problem, names, mistakes);
   for (SupportTable& s : problem.supports) {
     names.refer(s.place, "group", s.group);
-    check_support(s, mistakes);
+    check_support(problem, s, mistakes);
   }
   check_loads(problem, names, mistakes);
   for (ViscosityTable& v : problem.viscosity) names.refer(v.place, "group", v.group);
+  for (VelocityTable& v : problem.velocities) {
+    names.refer(v.place, "group", v.group);
+    if (!problem.in_time()) mistakes.add(v.place, "velocity", "belongs to dynamics, study.type = \"dynamics\" without relax");
+  }
   check_path(problem, mistakes);
+  check_solving(problem, mistakes);
   check_interactions(problem, names, mistakes);
   check_results(problem, names, mistakes);
 }

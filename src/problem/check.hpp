@@ -26,6 +26,9 @@ inline constexpr const char* at_sweep = "sweep";
 /// The load factor of "lambda=0.5"; nothing of another `at`.
 std::optional<double> load_factor_of(const std::string& at);
 
+/// The step of "step=100", in dynamics; nothing of another `at`.
+std::optional<int> step_of(const std::string& at);
+
 /// Why an observable is no column of numbers at `at` (see ExpectTable), or ""; and why no row of a run is meant by `at`.
 std::string wrong_observable(const Problem& problem, const std::string& observable, const std::string& at);
 std::string wrong_at(const Problem& problem, const std::string& at);

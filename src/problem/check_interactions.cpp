@@ -58,6 +58,8 @@ class CheckInteractions {
     const bool whole = !c.place.broken;
     names_.refer(c.place, "between", c.between);
     if (!whole || c.law != "hertz") return;
+    damping(c.place, c.damping);
+    if (c.hard) return hard(c.place);
     const bool effective = written(c, "effective_modulus"), E = written(c, "youngs_modulus"),
                nu = written(c, "poissons_ratio");
     if (effective) return only_one(c.place, E, nu);
@@ -77,14 +79,16 @@ class CheckInteractions {
     const bool whole = !w.place.broken;
     names_.refer(w.place, "group", w.group);
     if (!whole) return;
+    check_region(w.place, w.region, false, mistakes_);
+    radius(w, scaling);
+    damping(w.place, w.damping);
+    if (w.hard) return hard(w.place);
     const bool effective = written(w, "effective_modulus"), E = written(w, "youngs_modulus"),
                nu = written(w, "poissons_ratio");
     if (effective)
       only_one(w.place, E, nu);
     else if (!E)
       mistakes_.add(w.place, "youngs_modulus", "is missing; it must be a positive number, or give effective_modulus");
-    check_region(w.place, w.region, false, mistakes_);
-    radius(w, scaling);
   }
 
  private:
@@ -93,6 +97,32 @@ class CheckInteractions {
   void only_one(TablePlace& place, bool E, bool nu) {
     if (E) mistakes_.add(place, "effective_modulus", "youngs_modulus is there too; give one of them");
     if (nu && !E) mistakes_.add(place, "poissons_ratio", "is of no use beside effective_modulus; leave it out");
+  }
+
+  /// What is impenetrable has no modulus, and only some methods know it.
+  void hard(TablePlace& place) {
+    for (const char* key : {"youngs_modulus", "poissons_ratio", "effective_modulus"})
+      if (place.keys.count(key)) mistakes_.add(place, key, "is of no use with hard = true; what is impenetrable has no modulus");
+    if (problem_.in_time())
+      mistakes_.add(place, "hard", "cannot be had in dynamics; give it a modulus");
+    else if (problem_.study == StudyType::dynamics || problem_.solver.method == "newton" || problem_.solver.method == "fire")
+      mistakes_.add(place, "hard", "needs a method for inequality constraints: solver.method = \"ipopt\"");
+  }
+
+  void damping(TablePlace& place, const DampingKeys& d) {
+    using Model = ContactDamping::Model;
+    const auto wrong = [&](const char* key, const char* what) { mistakes_.add(place, key, what); };
+    if (d.model == Model::none) {
+      if (d.coefficient) wrong("damping_coefficient", "is of no use without damping: \"velocity\", \"mass_velocity\" or \"viscoelastic\"");
+      if (d.restitution) wrong("restitution", "is of no use without damping = \"tsuji\"");
+      if (d.friction > 0) wrong("friction", "needs damping, which limits it at small sliding velocities");
+    } else if (d.model == Model::tsuji) {
+      if (d.coefficient) wrong("damping_coefficient", "is not for damping = \"tsuji\", which has restitution");
+      if (!d.restitution) wrong("restitution", "is missing; damping = \"tsuji\" needs a number between 0 and 1");
+    } else {
+      if (d.restitution) wrong("restitution", "is for damping = \"tsuji\" only; give damping_coefficient");
+      if (!d.coefficient) wrong("damping_coefficient", "is missing; it must be a number not below 0");
+    }
   }
 
   /// The radius must stay one at every load factor in use.

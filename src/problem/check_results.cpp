@@ -11,6 +11,12 @@
 
 namespace elamin {
 
+const std::vector<std::string>& trajectory_standing_columns() {
+  static const std::vector<std::string> columns{"step", "label", "time", "energy", "bond", "angle", "contact", "wall", "cohesion",
+                                                "external", "kinetic", "work", "dissipation", "balance", "status"};
+  return columns;
+}
+
 const std::vector<std::string>& standing_columns() {
   static const std::vector<std::string> columns{"step",     "label",    "branch",     "lambda",   "energy", "bond",
                                                 "angle",    "contact",  "wall",       "cohesion", "external",
@@ -35,7 +41,7 @@ bool is_in(const std::vector<std::string>& list, const std::string& word) {
 
 /// The columns of a problem's tables besides its observables.
 std::vector<std::string> columns_of(const Problem& p) {
-  std::vector<std::string> columns = standing_columns();
+  std::vector<std::string> columns = p.in_time() ? trajectory_standing_columns() : standing_columns();
   const std::vector<std::string> eigenvalues = eigenvalue_columns(p);
   columns.insert(columns.end(), eigenvalues.begin(), eigenvalues.end());
   return columns;
@@ -93,6 +99,14 @@ std::optional<double> load_factor_of(const std::string& at) {
   return lambda;
 }
 
+std::optional<int> step_of(const std::string& at) {
+  int step = 0;
+  if (at.compare(0, 5, "step=") != 0) return std::nullopt;
+  const auto [end, error] = std::from_chars(at.data() + 5, at.data() + at.size(), step);
+  if (error != std::errc() || end != at.data() + at.size() || step < 0) return std::nullopt;
+  return step;
+}
+
 std::string wrong_observable(const Problem& p, const std::string& observable, const std::string& at) {
   const std::vector<std::string> no_numbers{"label", "status", "parent", "what", "stage"},
       of_events{"multiplicity", "negative_before", "negative_after"};
@@ -109,6 +123,10 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
 
 std::string wrong_at(const Problem& p, const std::string& at) {
   if (at == at_sweep || at == "final" || (at == "initial" && p.study == StudyType::path)) return "";
+  if (p.in_time()) {
+    if (at == "initial" || step_of(at)) return "";
+    return "must be \"initial\", \"final\" or a step such as \"step=100\" in dynamics, is " + quoted(at);
+  }
   if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + quoted(at);
   const std::string allowed =
       "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", " +

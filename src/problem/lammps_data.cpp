@@ -67,14 +67,14 @@ bool take_atoms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
 
 void take_velocities(LammpsLines& lines, const LammpsRows& rows, LammpsData& data) {
   std::vector<int> from(data.id.size(), 0);         // line that gave it
-  data.velocity = Field::Zero(3, data.position.cols());
+  data.velocity = data.spin = Field::Zero(3, data.position.cols());
   for (const VelocityRow& v : rows.velocities) {
     const int i = index_of(data.id, v.id);
     if (i < 0) lines.mistake(v.line, 1, "Velocities: id", fmt::format("there is no atom {}", v.id));
     else if (from[i] > 0)
       lines.mistake(v.line, 1, "Velocities: id",
                     fmt::format("{} stands twice; the first is on line {}", v.id, from[i]));
-    else from[i] = v.line, data.velocity.col(i) = v.velocity;
+    else from[i] = v.line, data.velocity.col(i) = v.velocity, data.spin.col(i) = v.spin;
   }
 }
 

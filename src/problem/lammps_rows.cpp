@@ -198,13 +198,13 @@ class Reader {
 
   bool velocity(const DataLine& line) {
     if (!has_size(line, {4, 7}, "id, velocity, and of spheres the angular velocity")) return false;
-    VelocityRow v{line.number, 0, Vec3::Zero()};
+    VelocityRow v{line.number, 0, Vec3::Zero(), Vec3::Zero()};
     const auto id = lines_.integer(line, 0, "Velocities: id", 1, largest);
     bool good = id.has_value();
     for (std::size_t c = 1; c < line.size(); ++c) {
       const auto value = lines_.number(line, c, c < 4 ? "Velocities: velocity" : "Velocities: angular velocity");
       good = good && value;
-      if (good && c < 4) v.velocity[static_cast<int>(c) - 1] = *value;
+      if (good) (c < 4 ? v.velocity : v.spin)[static_cast<int>(c - 1) % 3] = *value;
     }
     if (good) v.id = *id, rows_.velocities.push_back(v);
     return good;

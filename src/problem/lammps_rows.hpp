@@ -12,7 +12,7 @@
 namespace elamin {
 
 struct AtomRow { int line, id, type, molecule; double diameter, density; Vec3 position; };
-struct VelocityRow { int line, id; Vec3 velocity; };
+struct VelocityRow { int line, id; Vec3 velocity, spin; };
 struct CoefficientRow { int line, type; double stiffness, rest; };   // rest length, or rest angle [rad]
 struct MassRow { int line, type; double mass; };
 struct TopologyRow { int line, type; std::array<int, 3> id, column; };   // of a bond the third is not used

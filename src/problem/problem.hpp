@@ -2,6 +2,7 @@
 // A problem file as plain numbers: every table a struct, every default in it. What the file says, not what it means.
 #include "core/types.hpp"
 #include "laws/region.hpp"
+#include "model/model.hpp"
 #include "path/options.hpp"
 #include "problem/structure_tables.hpp"
 
@@ -12,6 +13,15 @@
 
 namespace elamin {
 
+/// What a contact does in dynamics beside its elastic force; see ContactDamping.
+struct DampingKeys {
+  ContactDamping::Model model = ContactDamping::Model::none;
+  std::optional<double> coefficient;            // γ …
+  std::optional<double> restitution;            // … or of tsuji this
+  double friction = 0, friction_damping = 1;    // μ; ratio of tangential to normal damping
+  bool operator==(const DampingKeys&) const = default;
+};
+
 struct ContactTable {
   TablePlace place;
   std::array<std::string, 2> between;
@@ -20,6 +30,8 @@ struct ContactTable {
   std::optional<double> effective_modulus;
   std::optional<int> exclude_bonds;
   std::optional<double> epsilon, sigma, cutoff;
+  bool hard = false;                            // hertz: impenetrable instead of elastic
+  DampingKeys damping;
   std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const ContactTable&) const = default;
 };
@@ -33,6 +45,8 @@ struct WallTable {
   bool curved = false;                          // effective_radius = "curved"
   Vec3 displacement = Vec3::Zero();
   double radius_change = 0;
+  bool hard = false;                            // impenetrable instead of elastic
+  DampingKeys damping;
   std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const WallTable&) const = default;
 };
@@ -63,6 +77,7 @@ struct SupportTable {
   std::string name;                             // "" here and below: it has none but its number
   std::string group, directions = "xyz";
   Vec3 displacement = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();                 // in dynamics: x = x(0) + V t
   bool constant = false;
   std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const SupportTable&) const = default;
@@ -115,7 +130,15 @@ struct ViscosityTable {
   bool operator==(const ViscosityTable&) const = default;
 };
 
-enum class StudyType { energy, equilibrium, path, modes };
+/// Velocity at the start of a motion, of every particle of a group; what is held moves as its support says.
+struct VelocityTable {
+  TablePlace place;
+  std::string group = "all";
+  Vec3 velocity = Vec3::Zero();
+  bool operator==(const VelocityTable&) const = default;
+};
+
+enum class StudyType { energy, equilibrium, path, modes, dynamics };
 
 struct ModesTable {
   TablePlace place;
@@ -145,10 +168,27 @@ struct PathTable {
 
 struct SolverTable {
   TablePlace place;
-  std::string method = "newton";
+  std::string method = "newton";                // or "ipopt", "fire", "nlopt:NAME"
   double tolerance = 1e-10;                     // residual, relative to the largest internal force
-  int max_iterations = 200;
+  std::optional<int> max_iterations;            // default: by method
+  int max_evaluations = 100'000;                // of NLopt
+  bool polish = false;                          // of NLopt: ends with Newton's method
+  bool precondition = true;                     // of NLopt: in variables in which the Hessian at the start is the identity
+  std::optional<double> bounds;                 // of NLopt's global methods: half the width of the box about the start [length]
+  int seed = 1;                                 // of NLopt's random numbers
   bool operator==(const SolverTable&) const = default;
+};
+
+/// Velocity Verlet in time, or damped to an equilibrium.
+struct DynamicsTable {
+  TablePlace place;
+  std::optional<double> timestep;               // only `relax` chooses its own
+  int steps = 1000;
+  int every = 100;                              // steps between rows of trajectory.csv
+  std::optional<std::vector<int>> record;       // steps whose frames are written, rows too; default: every `every`
+  bool relax = false;                           // damped dynamics (FIRE) to equilibrium, in at most `steps` steps
+  bool allow_unstable = false;                  // of a timestep beyond the stable limit
+  bool operator==(const DynamicsTable&) const = default;
 };
 
 enum class Quantity { position, displacement, reaction, velocity, gap, contacts };
@@ -218,14 +258,18 @@ struct Problem {
   std::vector<ContactTable> contacts;
   std::vector<WallTable> walls;
   std::vector<ViscosityTable> viscosity;
+  std::vector<VelocityTable> velocities;
   StudyType study = StudyType::path;
   PathTable path;
   ModesTable modes;
   SolverTable solver;
+  DynamicsTable dynamics;
   std::vector<ObserveTable> observe;
   std::vector<EventTable> events;
   std::vector<StageTable> stages;
   std::vector<ExpectTable> expect;
+  /// A motion in time is asked for; damped dynamics ends in an equilibrium.
+  bool in_time() const { return study == StudyType::dynamics && !dynamics.relax; }
   bool operator==(const Problem&) const = default;
 };
 

@@ -67,6 +67,27 @@ template <class IO> void describe(IO& io, SolverTable& t) {
   io.word("method", t.method, solver_words);
   io.may("tolerance", t.tolerance, Range{0, 1e-2, true});
   io.may("max_iterations", t.max_iterations, Range{1, most_steps});
+  if (t.method.rfind("nlopt:", 0) != 0) {
+    for (const char* key : {"max_evaluations", "polish", "precondition", "bounds", "seed"})
+      io.foreign(key, "the method " + t.method + "; it is for NLopt's");
+    return;
+  }
+  io.may("max_evaluations", t.max_evaluations, range::count);
+  io.may("polish", t.polish);
+  io.may("precondition", t.precondition);
+  io.may("bounds", t.bounds, range::positive);
+  io.may("seed", t.seed, range::id);
+}
+
+template <class IO> void describe(IO& io, DynamicsTable& t) {
+  io.may("relax", t.relax);
+  io.may("timestep", t.timestep, range::positive);
+  if constexpr (IO::reading)
+    if (t.relax) t.steps = 200'000;
+  io.may("steps", t.steps, Range{0, 2e9});
+  io.may("every", t.every, range::id);
+  io.may("record", t.record, Range{0, 2e9});
+  io.may("allow_unstable", t.allow_unstable);
 }
 
 template <class IO> void describe(IO& io, ObserveTable& t) {
@@ -138,14 +159,16 @@ template <class IO> void describe(IO& io, ProblemFile& f) {
   io.tables("contact", p.contacts);
   io.tables("wall", p.walls);
   io.tables("viscosity", p.viscosity);
+  io.tables("velocity", p.velocities);
   if constexpr (IO::reading)
-    p.study = io.has("path") || io.has("stage") ? StudyType::path : io.has("modes") ? StudyType::modes : StudyType::equilibrium;
+    p.study = io.has("dynamics") ? StudyType::dynamics : io.has("path") || io.has("stage") ? StudyType::path : io.has("modes") ? StudyType::modes : StudyType::equilibrium;
   StudyTable study{{}, p.study};
   io.table("study", study);
   p.study = study.type;
   io.table("path", p.path);
   io.table("modes", p.modes);
   io.table("solver", p.solver);
+  io.table("dynamics", p.dynamics);
   io.tables("stage", p.stages);
   io.tables("observe", p.observe);
   io.tables("event", p.events);

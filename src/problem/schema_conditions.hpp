@@ -88,6 +88,7 @@ template <class IO> void describe(IO& io, SupportTable& t) {
   io.must("group", t.group);
   io.may("directions", t.directions);
   io.may("displacement", t.displacement);
+  io.may("velocity", t.velocity);
   io.may("constant", t.constant);
   io.may("from_stage", t.from_stage);
 }
@@ -130,6 +131,15 @@ template <class IO> void describe(IO& io, ChangeTable& t) {
   io.may("from_stage", t.from_stage);
 }
 
+/// Damping and friction stand among the keys of a contact's table.
+template <class IO> void describe_damping(IO& io, DampingKeys& d) {
+  io.word("damping", d.model, damping_words);
+  io.may("damping_coefficient", d.coefficient, range::not_negative);
+  io.may("restitution", d.restitution, Range{0, 1});
+  io.may("friction", d.friction, range::not_negative);
+  io.may("friction_damping", d.friction_damping, range::not_negative);
+}
+
 template <class IO> void describe(IO& io, ContactTable& t) {
   io.must("between", t.between);
   io.may("from_stage", t.from_stage);
@@ -139,12 +149,15 @@ template <class IO> void describe(IO& io, ContactTable& t) {
     io.one_or_two("poissons_ratio", t.poissons_ratio, range::poissons_ratio);
     io.may("effective_modulus", t.effective_modulus, range::not_negative);
     for (const char* key : {"epsilon", "sigma", "cutoff"})
-      io.foreign(key, "law \"hertz\", which has youngs_modulus, poissons_ratio, effective_modulus and exclude_bonds");
+      io.foreign(key, "law \"hertz\", which has youngs_modulus, poissons_ratio, effective_modulus, hard, damping and exclude_bonds");
+    io.may("hard", t.hard);
+    describe_damping(io, t.damping);
   } else {
     io.must("epsilon", t.epsilon, range::not_negative);
     io.must("sigma", t.sigma, range::positive);
     io.must("cutoff", t.cutoff, range::positive);
-    for (const char* key : {"youngs_modulus", "poissons_ratio", "effective_modulus"})
+    for (const char* key : {"youngs_modulus", "poissons_ratio", "effective_modulus", "hard", "damping",
+                            "damping_coefficient", "restitution", "friction", "friction_damping"})
       io.foreign(key, "law \"lj\", which has epsilon, sigma, cutoff and exclude_bonds");
   }
   io.may("exclude_bonds", t.exclude_bonds, Range{0, 1000});
@@ -160,6 +173,8 @@ template <class IO> void describe(IO& io, WallTable& t) {
   io.word("effective_radius", t.curved, effective_radius_words);
   io.may("displacement", t.displacement);
   io.may("radius_change", t.radius_change);
+  io.may("hard", t.hard);
+  describe_damping(io, t.damping);
   io.may("from_stage", t.from_stage);
   describe_region(io, t.region);
 }
@@ -167,6 +182,11 @@ template <class IO> void describe(IO& io, WallTable& t) {
 template <class IO> void describe(IO& io, ViscosityTable& t) {
   io.may("group", t.group);
   io.must("coefficient", t.coefficient, range::not_negative);
+}
+
+template <class IO> void describe(IO& io, VelocityTable& t) {
+  io.may("group", t.group);
+  io.must("velocity", t.velocity);
 }
 
 }  // namespace elamin

@@ -46,13 +46,46 @@ inline constexpr Word<const char*> law_words[]{{"hertz", "hertz"}, {"lj", "lj"}}
 inline constexpr Word<StudyType> study_words[]{{"energy", StudyType::energy},
                                                {"equilibrium", StudyType::equilibrium},
                                                {"path", StudyType::path},
-                                               {"modes", StudyType::modes}};
+                                               {"modes", StudyType::modes},
+                                               {"dynamics", StudyType::dynamics}};
 inline constexpr Word<PathMethod> path_method_words[]{{"load_steps", PathMethod::load_steps},
                                                       {"arc_length", PathMethod::arc_length}};
 inline constexpr Word<WhenUnstable> when_unstable_words[]{
     {"jump", WhenUnstable::jump}, {"follow", WhenUnstable::follow}, {"stop", WhenUnstable::stop}};
 inline constexpr Word<const char*> event_words[]{{"limit", "limit"}, {"branch", "branch"}, {"contact", "contact"}};
-inline constexpr Word<const char*> solver_words[]{{"newton", "newton"}};
+inline constexpr Word<const char*> solver_words[]{
+    {"newton", "newton"},
+    {"ipopt", "ipopt"},
+    {"fire", "fire"},
+    {"nlopt:LD_LBFGS", "nlopt:LD_LBFGS"},
+    {"nlopt:LD_TNEWTON", "nlopt:LD_TNEWTON"},
+    {"nlopt:LD_TNEWTON_RESTART", "nlopt:LD_TNEWTON_RESTART"},
+    {"nlopt:LD_TNEWTON_PRECOND", "nlopt:LD_TNEWTON_PRECOND"},
+    {"nlopt:LD_TNEWTON_PRECOND_RESTART", "nlopt:LD_TNEWTON_PRECOND_RESTART"},
+    {"nlopt:LD_VAR1", "nlopt:LD_VAR1"},
+    {"nlopt:LD_VAR2", "nlopt:LD_VAR2"},
+    {"nlopt:LD_SLSQP", "nlopt:LD_SLSQP"},
+    {"nlopt:LD_MMA", "nlopt:LD_MMA"},
+    {"nlopt:LD_CCSAQ", "nlopt:LD_CCSAQ"},
+    {"nlopt:LN_COBYLA", "nlopt:LN_COBYLA"},
+    {"nlopt:LN_BOBYQA", "nlopt:LN_BOBYQA"},
+    {"nlopt:LN_NEWUOA", "nlopt:LN_NEWUOA"},
+    {"nlopt:LN_PRAXIS", "nlopt:LN_PRAXIS"},
+    {"nlopt:LN_NELDERMEAD", "nlopt:LN_NELDERMEAD"},
+    {"nlopt:LN_SBPLX", "nlopt:LN_SBPLX"},
+    {"nlopt:G_MLSL", "nlopt:G_MLSL"},
+    {"nlopt:G_MLSL_LDS", "nlopt:G_MLSL_LDS"},
+    {"nlopt:GD_STOGO", "nlopt:GD_STOGO"},
+    {"nlopt:GN_DIRECT", "nlopt:GN_DIRECT"},
+    {"nlopt:GN_DIRECT_L", "nlopt:GN_DIRECT_L"},
+    {"nlopt:GN_CRS2_LM", "nlopt:GN_CRS2_LM"},
+    {"nlopt:GN_ISRES", "nlopt:GN_ISRES"},
+    {"nlopt:GN_ESCH", "nlopt:GN_ESCH"}};
+inline constexpr Word<ContactDamping::Model> damping_words[]{{"none", ContactDamping::Model::none},
+                                                             {"velocity", ContactDamping::Model::velocity},
+                                                             {"mass_velocity", ContactDamping::Model::mass_velocity},
+                                                             {"viscoelastic", ContactDamping::Model::viscoelastic},
+                                                             {"tsuji", ContactDamping::Model::tsuji}};
 inline constexpr Word<Reduce> reduce_words[]{
     {"mean", Reduce::mean}, {"sum", Reduce::sum}, {"min", Reduce::min}, {"max", Reduce::max}};
 

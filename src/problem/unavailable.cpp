@@ -15,12 +15,6 @@ struct Refusal {
 const Refusal refusals[]{
     {"body", "", "not available in this version; available structures: beam, loop, sheet, grains, lammps"},
     {"contact.law", "rounded", std::string("\"rounded\" is ") + not_yet + "; use \"hertz\" or \"lj\""},
-    {"dynamics", "", std::string(not_yet) + "; available studies: energy, equilibrium, path, modes"},
-    {"support.velocity", "", std::string(not_yet) + "; it belongs to dynamics"},
-    {"study.type", "dynamics",
-     std::string("\"dynamics\" is ") + not_yet + "; use \"energy\", \"equilibrium\", \"path\" or \"modes\""},
-    {"solver.method", "ipopt", std::string("\"ipopt\" is ") + not_yet + "; use \"newton\""},
-    {"solver.method", "nlopt:*", std::string("NLopt is ") + not_yet + "; use \"newton\""},
 };
 
 bool matches(std::string_view pattern, std::string_view word) {

@@ -1,6 +1,7 @@
 #include "results/columns.hpp"
 
 #include "problem/check.hpp"
+#include "results/trajectory.hpp"
 
 #include <algorithm>
 
@@ -31,7 +32,8 @@ std::vector<std::string> with_rest(std::vector<std::string> columns, const std::
 }
 
 std::vector<std::string> first_events(const Problem& problem) {
-  std::vector<std::string> labels{"branch:1", "limit:1", "contact:1"};
+  std::vector<std::string> labels;
+  if (!problem.in_time()) labels = {"branch:1", "limit:1", "contact:1"};
   for (const EventTable& e : problem.events) labels.push_back(e.name + ":1");
   return labels;
 }
@@ -43,6 +45,11 @@ std::vector<std::string> observable_columns(const Problem& problem) {
   for (const ObserveTable& o : problem.observe) names.push_back(o.name);
   for (const std::string& name : eigenvalue_columns(problem)) names.push_back(name);
   return names;
+}
+
+std::vector<std::string> run_columns(const Problem& problem) {
+  const std::vector<std::string> observables = observable_columns(problem);
+  return problem.in_time() ? trajectory_columns(observables) : path_columns(observables, !problem.stages.empty());
 }
 
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged) {
@@ -79,7 +86,7 @@ std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, con
   std::vector<std::string> columns = keys;
   columns.push_back("status");
   append(columns, first_events(problem));
-  append(columns, path_columns(observable_columns(problem), !problem.stages.empty()));
+  append(columns, run_columns(problem));
   return columns;
 }
 

@@ -13,6 +13,9 @@ namespace elamin {
 /// The names of every [[observe]], and behind them eigenvalue_1 … as many as the study has.
 std::vector<std::string> observable_columns(const Problem& problem);
 
+/// The columns of the table of a run: of path.csv, or of trajectory.csv.
+std::vector<std::string> run_columns(const Problem& problem);
+
 /// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, external, residual, iterations, negative,
 /// stable, then the observables, parent, negative_rigid, and `stage` of a path in stages.
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged = false);
@@ -29,8 +32,8 @@ Row event_row(const PathPoint& point, const std::vector<double>& observables,
 /// An event's label has a colon and a number, as in "branch:1"; "initial" and "final" are no events.
 bool is_event(const std::string& label);
 
-/// The swept keys, status, the load factors of branch:1, limit:1, contact:1 and the first of every [[event]] (empty: there
-/// was none), then the columns of path.csv, with the values of the last row.
+/// The swept keys, status, of a path the load factors of branch:1, limit:1, contact:1 and the first of every [[event]] (empty: there
+/// was none), then the run_columns, with the values of the last row.
 std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, const Problem& problem);
 Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events,
               const Problem& problem);

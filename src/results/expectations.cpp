@@ -1,5 +1,6 @@
 #include "results/expectations.hpp"
 
+#include "problem/check.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
@@ -39,6 +40,12 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
   if (path.rows.empty()) return *why = "the run has no equilibrium", Found{};
   if (at == "initial") return {&path, &path.rows.front()};
   if (at == "final") return {&path, &path.rows.back()};
+  if (const auto step = step_of(at)) {
+    const int column = column_index(path.columns, "step");
+    for (const Row& row : path.rows)
+      if (row[column] == Cell(*step)) return {&path, &row};
+    return *why = "the motion has no such step; the last one is " + csv_text(path.rows.back()[column]), Found{};
+  }
   const std::string prefix = "lambda=";
   if (at.rfind(prefix, 0) == 0) {
     double lambda = 0;

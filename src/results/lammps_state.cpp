@@ -90,9 +90,10 @@ void write_state(const std::string& file, const Model& model, const State& state
         model.diameter[i], model.density[i] > 0 ? model.density[i] : 1.0, model.molecule[i]);
   if (model.velocity.cols() > 0) {
     put("\nVelocities # hybrid sphere angle\n\n");
+    const Field spin = model.spin.cols() > 0 ? model.spin : Field(Field::Zero(3, n));
     for (int i = 0; i < n; ++i)
-      put("{} {:.17g} {:.17g} {:.17g} 0 0 0\n", model.id[i], model.velocity(0, i), model.velocity(1, i),
-          model.velocity(2, i));
+      put("{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", model.id[i], model.velocity(0, i), model.velocity(1, i),
+          model.velocity(2, i), spin(0, i), spin(1, i), spin(2, i));
   }
   if (!model.bonds.empty()) put("\nBonds\n\n");
   for (std::size_t k = 0; k < model.bonds.size(); ++k) {

@@ -103,21 +103,22 @@ bool Observables::sufficient(const std::vector<Touch>& touches) const {
   return true;
 }
 
-std::vector<double> Observables::evaluate(const State& state, const Field& forces,
-                                          const std::vector<Touch>& touches) const {
+std::vector<double> Observables::evaluate(const State& state, const Field& forces, const std::vector<Touch>& touches,
+                                          const Field* velocity) const {
   std::vector<double> values;
   for (std::size_t k = 0; k < subjects_.size(); ++k) {
     const ObserveTable& o = problem_.observe[k];
     const Subject& subject = subjects_[k];
     const std::vector<Vec3> of_particles =
-        subject.wall >= 0 ? of_wall(o, subject, touches) : of_group(o, subject, state, forces, touches);
+        subject.wall >= 0 ? of_wall(o, subject, touches) : of_group(o, subject, state, forces, touches, velocity ? *velocity : model_.velocity);
     values.push_back(reduced(of_particles, scalar(o.quantity) ? Component::x : o.component, o.reduce));
   }
   return values;
 }
 
 std::vector<Vec3> Observables::of_group(const ObserveTable& o, const Subject& subject, const State& state,
-                                        const Field& forces, const std::vector<Touch>& touches) const {
+                                        const Field& forces, const std::vector<Touch>& touches,
+                                        const Field& velocity) const {
   std::vector<double> scalars;                        // of all particles
   if (o.quantity == Quantity::gap) scalars = gaps(-1, touches);
   if (o.quantity == Quantity::contacts) {
@@ -138,7 +139,7 @@ std::vector<Vec3> Observables::of_group(const ObserveTable& o, const Subject& su
       }
       case Quantity::reaction: values.push_back(held_.col(i).select(-forces.col(i), Vec3::Zero())); break;
       case Quantity::velocity:
-        values.push_back(model_.velocity.cols() > 0 ? Vec3(model_.velocity.col(i)) : Vec3(Vec3::Zero()));
+        values.push_back(velocity.cols() > 0 ? Vec3(velocity.col(i)) : Vec3(Vec3::Zero()));
         break;
       case Quantity::gap:
       case Quantity::contacts: values.push_back(as_vector(scalars[i])); break;

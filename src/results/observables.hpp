@@ -14,7 +14,7 @@ namespace elamin {
 ///   displacement  x − x_start, from positions and tails: it keeps its digits however small it is
 ///   reaction      −f at the coordinates that a support holds, 0 elsewhere: the force of the support on the structure,
 ///                 f = −∂U/∂x with all loads; what a plane holds is not counted
-///   velocity      of the model (a state has none)
+///   velocity      of a motion; where nothing moves, of the model (a state has none)
 ///   gap           the smallest distance of its surface from any particle (in the group or not) or wall that it has a
 ///                 contact law with; negative: overlap. Pairs left out as glued, and E_eff = 0, do not count; nothing where
 ///                 there is none
@@ -44,7 +44,9 @@ class Observables {
 
   /// One number for every [[observe]], in their order, not finite where there is nothing; forces: −∂U/∂x of all particles
   /// with the loads, 3 × particles; touches: all closed contacts, and open ones where a gap is observed.
-  std::vector<double> evaluate(const State& state, const Field& forces, const std::vector<Touch>& touches) const;
+  /// velocity: of all particles, 3 × particles; null: the model's.
+  std::vector<double> evaluate(const State& state, const Field& forces, const std::vector<Touch>& touches,
+                               const Field* velocity = nullptr) const;
 
  private:
   struct Subject {
@@ -52,7 +54,7 @@ class Observables {
     int wall = -1;                                    // of Model::walls; −1: it is a group
   };
   std::vector<Vec3> of_group(const ObserveTable& o, const Subject& subject, const State& state, const Field& forces,
-                             const std::vector<Touch>& touches) const;
+                             const std::vector<Touch>& touches, const Field& velocity) const;
   std::vector<Vec3> of_wall(const ObserveTable& o, const Subject& subject, const std::vector<Touch>& touches) const;
   std::vector<double> gaps(int wall, const std::vector<Touch>& touches) const;
 

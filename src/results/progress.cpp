@@ -42,22 +42,25 @@ Progress::Progress(std::FILE* out, Style style, double from, double to)
     : out_(out), style_(style), span_(std::abs(to - from)) {}
 
 void Progress::show(const PathPoint& p) {
+  if (style_ != Style::silent) show(progress_line(p), p.state.load_factor, !p.label.empty());
+}
+
+void Progress::show(const std::string& text, double at, bool event) {
   if (style_ == Style::silent) return;
-  const bool event = !p.label.empty();
-  const double now = clock_.seconds(), lambda = p.state.load_factor;
+  const double now = clock_.seconds();
   if (style_ == Style::terminal) {
     if (!event && !first_ && now - last_time_ < redraw) return;
-    std::string line = progress_line(p);
+    std::string line = text;
     if (!event && line.size() > width(out_)) line.resize(width(out_));
     fmt::print(out_, "\r{}\x1b[K{}", line, event ? "\n" : "");
     pending_ = !event;
   } else {
-    const bool tenth = std::abs(lambda - last_) >= 0.1 * span_ * (1 - 1e-9) && span_ > 0;
+    const bool tenth = std::abs(at - last_) >= 0.1 * span_ * (1 - 1e-9) && span_ > 0;
     if (!event && !first_ && !tenth && now - last_time_ < 1) return;
-    fmt::print(out_, "{}\n", progress_line(p));
+    fmt::print(out_, "{}\n", text);
   }
   std::fflush(out_);
-  first_ = false, last_ = lambda, last_time_ = now;
+  first_ = false, last_ = at, last_time_ = now;
 }
 
 void Progress::finish() {

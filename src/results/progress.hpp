@@ -19,13 +19,15 @@ class Progress {
   enum class Style { silent, plain, terminal };
   static Style style_for(std::FILE* out, bool quiet);
 
-  /// from, to: load factors of the path, for its tenths.
+  /// from, to: load factors of the path (or the first and the last step of a motion), for its tenths.
   Progress(std::FILE* out, Style style, double from, double to);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void show(const PathPoint& point);
+  /// Any other line, at a value between from and to; `lasting`: it stays.
+  void show(const std::string& line, double at, bool lasting);
   /// Takes the overwritten line away; nothing else is shown after that.
   void finish();
 

@@ -9,7 +9,7 @@ namespace elamin {
 Record::Record(const Problem& problem, const Model& model)
     : problem_(problem),
       names_(observable_columns(problem)),
-      path_{path_columns(names_, !problem.stages.empty()), {}},
+      path_{run_columns(problem), {}},
       events_{event_columns(names_, !problem.stages.empty()), {}} {
   enter({}, model);
 }
@@ -26,6 +26,11 @@ void Record::add(const PathPoint& point, const Field& forces, const std::vector<
   values.resize(names_.size(), std::numeric_limits<double>::quiet_NaN());     // fewer dofs than modes asked for
   path_.rows.push_back(path_row(point, values, stage_));
   if (is_event(point.label)) events_.rows.push_back(event_row(point, values, stage_));
+}
+
+void Record::add(const Moment& moment, const std::vector<Touch>& touches) {
+  const Motion& m = moment.motion;
+  path_.rows.push_back(trajectory_row(moment, observables_->evaluate(m.state, m.force, touches, &m.velocity)));
 }
 
 }  // namespace elamin

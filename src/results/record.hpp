@@ -4,6 +4,7 @@
 #include "problem/stages.hpp"
 #include "results/observables.hpp"
 #include "results/table.hpp"
+#include "results/trajectory.hpp"
 
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ class Record {
   /// Observables::evaluate; eigenvalues: the lowest, where the study has them. An event (a label such as "branch:1") stands in both tables.
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
+
+  /// A moment of a motion; touches as above.
+  void add(const Moment& moment, const std::vector<Touch>& touches);
 
   const Problem& problem() const { return problem_; }
   const Table& path() const { return path_; }

@@ -46,10 +46,12 @@ std::string prepared(const std::string& directory, const std::string& resolved_t
   create(directory), create(states);
   if (fs::exists(place(directory, "resolved.toml"))) {
     std::error_code error;
-    for (const char* file : {"summary.json", "modes.csv"}) fs::remove(place(directory, file), error);
+    for (const char* file : {"summary.json", "modes.csv", "path.csv", "events.csv", "trajectory.csv"}) fs::remove(place(directory, file), error);
     for (const char* extension : {".data", ".json", ".csv"}) remove_all_with(extension, states);
-    remove_all_with(".csv", place(directory, "modes"));
-    fs::remove(place(directory, "modes"), error);                  // where nothing else is in it
+    for (const char* folder : {"modes", "frames"}) {
+      remove_all_with(".csv", place(directory, folder));
+      fs::remove(place(directory, folder), error);                 // where nothing else is in it
+    }
   }
   write_text(place(directory, "resolved.toml"), resolved_toml);
   return directory;
@@ -64,10 +66,11 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
       directory_(prepared(directory, resolved_toml)),
       title_(problem.title),
       log_(place(directory_, "log.txt"), std::ios::binary),
-      path_(place(directory_, "path.csv"), record_.path().columns),
-      events_(place(directory_, "events.csv"), record_.events().columns),
+      path_(place(directory_, problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns),
       contacts_(place(directory_, "contacts.csv"),
-                {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {}
+                {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {
+  if (!problem.in_time()) events_.emplace(place(directory_, "events.csv"), record_.events().columns);
+}
 
 void RunDirectory::enter(const Stage& stage, const Model& model) {
   record_.enter(stage, model);
@@ -80,7 +83,7 @@ void RunDirectory::add(const PathPoint& point, const Field& forces, const std::v
                        const std::vector<double>& eigenvalues) {
   record_.add(point, forces, touches, eigenvalues);
   path_.add(record_.path().rows.back());
-  if (is_event(point.label)) events_.add(record_.events().rows.back());
+  if (is_event(point.label)) events_->add(record_.events().rows.back());
   if (!point.label.empty()) add_state(point.label, point, touches);
 }
 
@@ -91,6 +94,29 @@ void RunDirectory::add_state(const std::string& label, const PathPoint& point, c
   StateTail stored{state.load_factor, state.tail, stage_, {}};
   if (point.resume) stored.path = StoredPath{varied_, rising_, *point.resume};
   write_text(state_file(label, ".json"), tail_text(stored));
+  add_contacts(label, state, touches);
+}
+
+void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) {
+  record_.add(moment, touches);
+  path_.add(record_.path().rows.back());
+  if (moment.label.empty()) return;
+  const State& state = moment.motion.state;
+  Model moving = model_;
+  moving.velocity = moment.motion.velocity, moving.spin = moment.motion.spin;
+  write_state(state_file(moment.label), moving, state,
+              fmt::format("{}; {}; time {:.17g}", title_.empty() ? "elamin" : title_, moment.label, moment.motion.time));
+  write_text(state_file(moment.label, ".json"), tail_text({state.load_factor, state.tail, {}, {}}));
+  add_contacts(moment.label, state, touches);
+}
+
+void RunDirectory::add_frame(const Motion& motion) {
+  const std::string frames = place(directory_, "frames");
+  create(frames);
+  write_frame(place(frames, fmt::format("{}.csv", motion.step)), model_, motion);
+}
+
+void RunDirectory::add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches) {
   for (const Touch& t : touches) {
     if (!(t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
     const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);

@@ -10,7 +10,7 @@
 namespace elamin {
 
 /// path.csv, events.csv, contacts.csv, states/, log.txt, resolved.toml and summary.json of one run, modes.csv and modes/ of
-/// a study of modes. Every row, state and line is on the disk as soon as it is added, so that an interrupted run keeps
+/// a study of modes; of dynamics trajectory.csv instead of the first two, and frames/. Every row, state and line is on the disk as soon as it is added, so that an interrupted run keeps
 /// what it has.
 class RunDirectory {
  public:
@@ -25,6 +25,12 @@ class RunDirectory {
   /// Record::add.
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
+
+  /// A row of trajectory.csv, and a state with velocities if it has a label.
+  void add(const Moment& moment, const std::vector<Touch>& touches);
+
+  /// frames/STEP.csv.
+  void add_frame(const Motion& motion);
 
   /// states/LABEL.data with LABEL.json (see problem/state_tail.hpp), and every closed contact (gap < 0; at an event also what
   /// just touches) as a row of contacts.csv: label, lambda, first (id of the particle), second (id of the other one, or the
@@ -52,6 +58,8 @@ class RunDirectory {
   std::string state_file(const std::string& label, const std::string& extension = ".data") const;
 
  private:
+  void add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches);
+
   Record record_;
   const Model& model_;
   std::optional<StoredStage> stage_;                  // of a path in stages
@@ -59,7 +67,8 @@ class RunDirectory {
   bool rising_ = true;                                // … upwards
   std::string directory_, title_;
   std::ofstream log_;
-  CsvFile path_, events_, contacts_;
+  CsvFile path_, contacts_;
+  std::optional<CsvFile> events_;                     // of equilibria
   std::optional<CsvFile> modes_;                      // made with the first mode
   int mode_ = 0;
 };

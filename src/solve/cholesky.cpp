@@ -80,7 +80,8 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
   return cholmod_->common.status == CHOLMOD_OK && cholmod_->factor->minor == cholmod_->factor->n;
 }
 
-Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
+// One of CHOLMOD's systems with the factor: A x = b, or a part of it.
+Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) {
   if (b.rows() == 0) return b;
   const Timed timed(seconds_);
   const OneThread one;
@@ -88,11 +89,14 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
   rhs.nrow = b.rows(), rhs.ncol = b.cols(), rhs.nzmax = b.size(), rhs.d = b.rows();
   rhs.x = const_cast<double*>(b.data()), rhs.xtype = CHOLMOD_REAL, rhs.dtype = CHOLMOD_DOUBLE;
   Cholmod& c = *cholmod_;
-  if (!cholmod_solve2(CHOLMOD_A, c.factor, &rhs, nullptr, &c.x, nullptr, &c.y, &c.e, &c.common))
+  if (!cholmod_solve2(system, c.factor, &rhs, nullptr, &c.x, nullptr, &c.y, &c.e, &c.common))
     throw std::runtime_error("CHOLMOD: the solve failed");
   return Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(c.x->x), b.rows(), b.cols());
 }
 
-Vector Cholesky::solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
+Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) { return solve(CHOLMOD_A, b); }
+Vector Cholesky::solve(const Vector& b) { return solve(CHOLMOD_A, b).col(0); }
+Vector Cholesky::root(const Vector& b) { return solve(CHOLMOD_Pt, solve(CHOLMOD_Lt, b)).col(0); }
+Vector Cholesky::root_transposed(const Vector& b) { return solve(CHOLMOD_L, solve(CHOLMOD_P, b)).col(0); }
 
 }  // namespace elamin

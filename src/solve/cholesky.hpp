@@ -21,11 +21,15 @@ class Cholesky {
   /// (H + shift·I)⁻¹ b.
   Vector solve(const Vector& b);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b);
+  /// W b and Wᵀ b of a square root of the inverse, W Wᵀ = (H + shift·I)⁻¹: W = Qᵀ L⁻ᵀ, Q the ordering.
+  Vector root(const Vector& b);
+  Vector root_transposed(const Vector& b);
   /// Time spent in all calls so far.
   double seconds() const { return seconds_; }
 
  private:
   struct Cholmod;
+  Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b);
   std::unique_ptr<Cholmod> cholmod_;
   double seconds_ = 0;
 };

@@ -16,10 +16,14 @@ namespace elamin {
 
 namespace {
 
-std::mutex one_at_a_time;                                  // the library keeps global state
 constexpr int fortran_communicator = -987654;              // MPI_COMM_WORLD of the sequential build
 
 }  // namespace
+
+std::recursive_mutex& one_at_a_time() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
 
 struct PivotedFactor::Mumps {
   DMUMPS_STRUC_C id{};
@@ -41,13 +45,13 @@ struct PivotedFactor::Mumps {
 PivotedFactor::PivotedFactor() : mumps_(std::make_unique<Mumps>()) {}
 
 PivotedFactor::~PivotedFactor() {
-  const std::lock_guard lock(one_at_a_time);
+  const std::lock_guard lock(one_at_a_time());
   mumps_->stop();
 }
 
 void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
   const Timed timed(seconds_);
-  const std::lock_guard lock(one_at_a_time);
+  const std::lock_guard lock(one_at_a_time());
   Mumps& m = *mumps_;
   m.stop();
   m.rows.clear(), m.columns.clear();
@@ -76,7 +80,7 @@ void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
 
 bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
   const Timed timed(seconds_);
-  const std::lock_guard lock(one_at_a_time);
+  const std::lock_guard lock(one_at_a_time());
   Mumps& m = *mumps_;
   const std::size_t entries = static_cast<std::size_t>(hessian.nonZeros());
   double largest = std::numeric_limits<double>::min();
@@ -102,7 +106,7 @@ int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
 
 Vector PivotedFactor::solve(const Vector& b) {
   const Timed timed(seconds_);
-  const std::lock_guard lock(one_at_a_time);
+  const std::lock_guard lock(one_at_a_time());
   Vector x = Vector::Zero(mumps_->id.n);
   x.head(b.size()) = b;
   mumps_->id.rhs = x.data(), mumps_->id.nrhs = 1, mumps_->id.lrhs = static_cast<int>(x.size());

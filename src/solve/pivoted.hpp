@@ -2,8 +2,12 @@
 #include "core/types.hpp"
 
 #include <memory>
+#include <mutex>
 
 namespace elamin {
+
+/// Held by the thread that uses MUMPS, or what uses it inside: the library keeps global state.
+std::recursive_mutex& one_at_a_time();
 
 /// LDLᵀ with 1×1 and 2×2 pivots (MUMPS) of an indefinite H + τI, or of H with borders Z (n × m),
 ///   [ H   sZ ]

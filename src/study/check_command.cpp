@@ -41,6 +41,7 @@ void print_model(const Problem& problem, const Model& model) {
   fmt::print("{}", describe_contacts(model, energy, built ? model.start : starting_state(problem, energy)));
   for (const Group& g : model.groups) fmt::print("group '{}': {} particles\n", g.name, g.particles.size());
   fmt::print("{}", describe_motions(model));
+  if (problem.in_time()) fmt::print("{}", describe_timestep(energy, starting_state(problem, energy), *problem.dynamics.timestep));
   describe_stages(problem);
 }
 

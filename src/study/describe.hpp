@@ -20,6 +20,9 @@ std::string describe_contacts(const Model& model, Energy& energy, const State& s
 /// One line for each radial load, pressure and change, and what the load factor scales if that was chosen.
 std::string describe_conditions(const Problem& problem, const Model& model);
 
+/// The fastest vibration at the state, the longest stable timestep, and the one taken beside it.
+std::string describe_timestep(Energy& energy, const State& state, double timestep);
+
 /// The rigid motions that the supports leave free; many of them are counted, not named.
 std::string describe_motions(const Model& model);
 

@@ -1,5 +1,6 @@
 #include "study/describe.hpp"
 
+#include "dynamics/timestep.hpp"
 #include "energy/changes.hpp"
 #include "problem/conditions.hpp"
 #include "problem/suggest.hpp"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace elamin {
 
@@ -68,6 +70,14 @@ std::string describe_conditions(const Problem& problem, const Model& model) {
   for (std::size_t k = 0; k < conditions.size(); ++k)
     if (scalings[k].rate != 0) scaled.push_back(conditions[k].label());
   return text + "the load factor scales " + listed(scaled) + " alone\n";
+}
+
+std::string describe_timestep(Energy& energy, const State& state, double timestep) {
+  const TimestepLimit limit = timestep_limit(energy, state);
+  if (!(limit.stable < std::numeric_limits<double>::infinity()))
+    return fmt::format("timestep {:.10g}; nothing is stiff at the start: collisions bound it\n", timestep);
+  return fmt::format("timestep {:.10g}; stable up to {:.6g} at the start (largest frequency {:.6g}), advised {:.6g}\n", timestep,
+                     limit.stable, limit.frequency, limit.advised());
 }
 
 }  // namespace elamin

@@ -34,6 +34,19 @@ std::array<double, 2> radii(const Model& model, const std::vector<int>& particle
   return r;
 }
 
+// What is in force in dynamics only.
+std::string describe_damping(const ContactDamping& d) {
+  using Model = ContactDamping::Model;
+  if (d.model == Model::none) return "";
+  const std::pair<Model, const char*> names[]{{Model::velocity, "velocity"}, {Model::mass_velocity, "mass_velocity"},
+                                              {Model::viscoelastic, "viscoelastic"}, {Model::tsuji, "tsuji"}};
+  std::string text = "\n  in dynamics ";
+  for (const auto& [model, name] : names)
+    if (d.model == model) text += fmt::format("{} damping, coefficient {:.10g}", name, d.coefficient);
+  if (d.friction > 0) text += fmt::format(", friction {:.10g}, tangential damping {:.10g} of the normal one", d.friction, d.tangential);
+  return text;
+}
+
 std::string describe_pair(const Model& model, const PairContact& c, int excluded, const Overlaps& overlaps) {
   std::string text = fmt::format("contact of '{}' and '{}': ", c.between[0], c.between[1]);
   const std::string left_out = excluded > 0 ? fmt::format("pairs up to {} bond{} apart are left out", excluded, excluded == 1 ? "" : "s")
@@ -43,9 +56,10 @@ std::string describe_pair(const Model& model, const PairContact& c, int excluded
   const auto a = radii(model, c.particles[0]), b = radii(model, c.particles[1]);
   const auto effective = [](double r, double s) { return r + s > 0 ? r * s / (r + s) : 0.0; };
   const double least = effective(a[0], b[0]), most = effective(a[1], b[1]);
+  if (c.hard) return text + fmt::format("hard, gap >= 0; {}\n  {}\n", left_out, overlaps.text("overlap"));
   text += fmt::format("hertz, E_eff = {:.10g}, r_eff = {:.10g}", c.effective_modulus, least);
   if (most > least) text += fmt::format(" to {:.10g}", most);
-  return text + fmt::format("; {}\n  {}\n", left_out, overlaps.text("overlap"));
+  return text + fmt::format("; {}{}\n  {}\n", left_out, describe_damping(c.damping), overlaps.text("overlap"));
 }
 
 std::string listed(const Vec3& v) { return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", v[0], v[1], v[2]); }
@@ -71,11 +85,13 @@ std::string describe_wall(const Wall& wall, const State& state, const Overlaps& 
   int wrong = 0;
   for (const int p : wall.particles) wrong += region.contains(state.position.col(p)) != wall.inside;
   const int open = static_cast<int>(std::count(region.open.begin(), region.open.end(), true));
-  std::string text = fmt::format("wall '{}' of '{}': {} of {}, E_eff = {:.10g}, effective radius {}", wall.name, wall.group,
-                                 wall.inside ? "inside" : "outside", shape_of(region), wall.effective_modulus,
-                                 wall.curved ? "with the wall's curvature" : "the particle's");
+  std::string text = fmt::format("wall '{}' of '{}': {} of {}, ", wall.name, wall.group,
+                                 wall.inside ? "inside" : "outside", shape_of(region));
+  text += wall.hard ? std::string("hard, gap >= 0")
+                    : fmt::format("E_eff = {:.10g}, effective radius {}", wall.effective_modulus,
+                                  wall.curved ? "with the wall's curvature" : "the particle's");
   if (open > 0) text += fmt::format(", {} open face{}: both sides act", open, open == 1 ? "" : "s");
-  text += fmt::format("\n  {}", overlaps.text("overlap"));
+  text += describe_damping(wall.damping) + fmt::format("\n  {}", overlaps.text("overlap"));
   if (wrong > 0 && open == 0)
     text += fmt::format("; {} on the wrong side, feeling nothing", wrong == 1 ? "1 particle is" : std::to_string(wrong) + " particles are");
   return text + "\n";

@@ -25,7 +25,7 @@ int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurre
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   const SingleResult result = run_single(run.problem, run.model, options.directory, Progress::style_for(stdout, options.quiet));
   if (!options.quiet) {
-    fmt::print("{}", closing_table(result.events));
+    if (!run.problem.in_time()) fmt::print("{}", closing_table(result.events));
     for (const std::string& name : result.zero_modes) fmt::print("free at the end: {}\n", name);
     fmt::print("{}: {}\nwritten: {}\n", status_name(result.status), result.why, options.directory);
   } else if (result.status != Status::converged) {

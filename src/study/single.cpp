@@ -40,7 +40,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
   double setup = 0;
 
-  Progress progress(stdout, style, starting_load_factor(problem), problem.path.to);
+  const bool in_time = problem.in_time();
+  Progress progress(stdout, style, in_time ? 0 : starting_load_factor(problem), in_time ? problem.dynamics.steps : problem.path.to);
   Summary summary;
   const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
     if (last && point.label.empty()) point.label = "final";
@@ -75,7 +76,13 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         add(point, true, eigenvalues);
         for (const Mode& m : modes) results.add_mode(m, point.state);
       },
-      .note = [&](const std::string& note) { results.log(note); }};
+      .note = [&](const std::string& note) { results.log(note); },
+      .moment = [&](const Moment& moment, bool frame) {
+        const Motion& m = moment.motion;
+        results.add(moment, observed_touches(*energy, m.state, results.record().observables()));
+        if (frame) results.add_frame(m);
+      },
+      .progress = [&](const std::string& line, double step) { progress.show(line, step, false); }};
   const Outcome outcome = trace(problem, model, stored, sink);
   progress.finish();
   results.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));

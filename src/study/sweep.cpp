@@ -66,18 +66,18 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
         results[k] = run_single(runs[k].problem, runs[k].model, options.directory + "/" + name, Progress::Style::silent);
         table.add(static_cast<int>(k), sweep_row(swept_values(runs[k]), status_name(results[k].status), results[k].path,
                                                  results[k].events, first));
+        const std::lock_guard lock(printing);
+        ++finished;
+        if (!options.quiet) fmt::print("run {} of {}: {}: {}\n", finished.load(), runs.size(), name, results[k].why);
       } catch (...) {
         failures[k] = std::current_exception();
       }
-      const std::lock_guard lock(printing);
-      ++finished;
-      if (!options.quiet) fmt::print("run {} of {}: {}: {}\n", finished.load(), runs.size(), name, results[k].why);
     }
   };
-  std::vector<std::thread> workers;
+  std::vector<std::jthread> workers;
   for (int t = 1; t < std::min<int>(options.threads, static_cast<int>(runs.size())); ++t) workers.emplace_back(work);
   work();
-  for (std::thread& w : workers) w.join();
+  workers.clear();
   set_threads(options.threads);
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);

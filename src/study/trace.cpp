@@ -1,6 +1,7 @@
 #include "study/trace.hpp"
 
 #include "path/equilibrium.hpp"
+#include "study/dynamics.hpp"
 #include "study/modes.hpp"
 #include "study/trace_path.hpp"
 
@@ -38,7 +39,7 @@ bool reachable(const Energy& energy, const State& from, const State& to) {
 
 // The minimum at the load factor, from a state where nothing is imposed yet: supports and walls are brought there in steps
 // as large as `reachable` allows, a minimum after each.
-Report bring(Newton& newton, State& state, double load_factor) {
+Report bring(Newton& newton, State& state, double load_factor, const Corrector& minimum) {
   constexpr double smallest = 1.0 / (1 << 20);
   const Kinematics& kinematics = newton.energy().kinematics();
   const double from = state.load_factor;
@@ -56,7 +57,7 @@ Report bring(Newton& newton, State& state, double load_factor) {
                                "something else or be torn", state.load_factor);
       return report;
     }
-    report = newton.minimise(next);
+    report = minimum(next);
     state = next, done = to, step *= 2;
     if (done == 1 || !report.converged()) return report;
   }
@@ -67,7 +68,8 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
   const Model& model = newton.energy().model();
   State state = model.restart ? starting_state(problem, newton.energy()) : model.start;
   if (!model.restart) newton.energy().kinematics().prescribe(state, state.load_factor);     // what is constant, in full
-  const Report report = model.restart ? newton.minimise(state) : bring(newton, state, starting_load_factor(problem));
+  const Corrector minimum = minimiser_of(problem, newton);
+  const Report report = model.restart ? minimum(state) : bring(newton, state, starting_load_factor(problem), minimum);
   Equilibrium e = assess(newton, state, report);
   sink.point(e.point, true);
   return {report.status, report.why};
@@ -85,12 +87,9 @@ State starting_state(const Problem& problem, const Energy& energy) {
   return state;
 }
 
-NewtonOptions solver_options(const Problem& problem) {
-  return {.tolerance = problem.solver.tolerance, .max_iterations = problem.solver.max_iterations};
-}
-
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
   if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink);
+  if (problem.in_time()) return trace_dynamics(problem, model, sink);
   Energy energy(model);
   Stage whole;
   sink.stage(whole, energy);

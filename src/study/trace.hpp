@@ -4,7 +4,8 @@
 #include "problem/problem.hpp"
 #include "problem/stages.hpp"
 #include "results/mode.hpp"
-#include "solve/newton.hpp"
+#include "results/trajectory.hpp"
+#include "study/solving.hpp"
 
 #include <functional>
 
@@ -16,14 +17,16 @@ struct Outcome {
   std::string why;
 };
 
-/// Where the points of a study go, one by one, the last with `last` set; the one point of a study of modes, with them; and
-/// sentences for the log. Before the first point, and where a path has stages before the first of each: the stage and the
+/// Where the points of a study go, one by one, the last with `last` set; the one point of a study of modes, with them; the
+/// moments of a motion, those to be recorded with `frame` set, and how far it has come; and sentences for the log. Before the first point, and where a path has stages before the first of each: the stage and the
 /// energy in force until the next one.
 struct Sink {
   std::function<void(const Stage& stage, Energy& energy)> stage;
   std::function<void(const PathPoint& point, bool last)> point;
   std::function<void(const PathPoint& point, const std::vector<Mode>& modes)> modes;
   std::function<void(const std::string& note)> note;
+  std::function<void(const Moment& moment, bool frame)> moment;
+  std::function<void(const std::string& line, double step)> progress;
 };
 
 /// The load factor that a problem starts at: path.start_lambda if that is given, else path.from of a path, and 1 (loads
@@ -33,8 +36,6 @@ double starting_load_factor(const Problem& problem);
 /// The state that a problem starts from: the model's (or the one it restarts from), with the prescribed coordinates where
 /// the load factor puts them.
 State starting_state(const Problem& problem, const Energy& energy);
-
-NewtonOptions solver_options(const Problem& problem);
 
 /// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from.
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink);

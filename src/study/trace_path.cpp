@@ -38,6 +38,7 @@ struct Run {
   Run(const Problem& problem, Stage in_force, Model in_stage, const State& start, const std::optional<StateTail>& stored)
       : stage(std::move(in_force)), model(std::move(in_stage)), energy(model), newton(energy, solver_options(problem)) {
     PathOptions options = options_of(problem, stage.path, model);
+    options.correct = corrector_of(problem, newton);
     if (stored && goes_on(*stored, problem)) options.resume = stored->path->resume;
     path = make_path(newton, start, options);
   }

@@ -84,6 +84,16 @@ class Writer {
     if (c_.contains("equilibrium")) text += fmt::format("[[support]]\ngroup = \"{}\"\n", group(ids(c_["equilibrium"]["clamped"])));
   }
 
+  void dynamics() {
+    if (!c_.contains("dynamics")) return;
+    const Json& d = c_["dynamics"];
+    for (const Json& m : d.value("moved", Json::array()))
+      text += fmt::format("[[support]]\ngroup = \"{}\"\nvelocity = {}\n", group(ids(m["atoms"])), list(m["velocity"]));
+    const std::vector<int> steps = d["record_steps"];
+    text += fmt::format("[dynamics]\ntimestep = {}\nsteps = {}\nevery = {}\nrecord = {}\n", number(d["dt"]), steps.back(),
+                        steps.back(), d["record_steps"].dump());
+  }
+
   std::string text;
 
  private:
@@ -122,6 +132,6 @@ std::string LammpsCase::problem(const std::string& study, const std::string& dat
   const elamin::LammpsData particles = elamin::read_lammps_data(directory + "/case.data", "");
   Writer w(parameters, particles);
   w.text = fmt::format("[study]\ntype = \"{}\"\n[lammps]\ndata = \"{}\"\n", study, data.empty() ? directory + "/case.data" : data);
-  w.contacts(), w.cohesion(), w.walls(), w.loads(), w.clamps();
+  w.contacts(), w.cohesion(), w.walls(), w.loads(), w.clamps(), w.dynamics();
   return w.text;
 }

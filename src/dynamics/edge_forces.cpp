@@ -1,0 +1,151 @@
+#include "dynamics/edge_forces.hpp"
+
+#include "laws/cosine_angle.hpp"
+#include "laws/harmonic_bond.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace elamin {
+
+namespace {
+constexpr int stretch = 64;                    // blocks of edges
+}
+
+EdgeForces::EdgeForces(const EdgeOrder& order, int particles) : edges_(static_cast<int>(order.edges.size())) {
+  build_blocks(order);
+  build_pulls(order, particles);
+  a_ = Columns(edges_), e_ = Columns(edges_);
+  inverse_.resize(padded(edges_)), pull_.resize(padded(edges_));
+}
+
+void EdgeForces::build_blocks(const EdgeOrder& order) {
+  std::map<std::array<double, 16>, int> known;
+  for (const Edge& e : order.edges) {
+    from_.push_back(e.from), to_.push_back(e.to);
+    next_.push_back(std::max(e.next, 0)), before_.push_back(std::max(e.before, 0));
+  }
+  for (int o = 0; o < edges_; o += 4) {
+    const Edge* e = &order.edges[o];
+    // The first of four that follow each other, where those that `counts` leaves out may be anything.
+    const auto base = [&](const std::vector<int>& list, const auto& counts) {
+      int first = -1;
+      for (int k = 0; k < 4; ++k) {
+        if (!counts(e[k])) continue;
+        if (first < 0) first = list[o + k] - k;
+        if (first < 0 || list[o + k] != first + k) return -1;
+      }
+      return std::max(first, 0);
+    };
+    Block b;
+    b.from = base(from_, [](const Edge&) { return true; }), b.to = base(to_, [](const Edge&) { return true; });
+    if (b.from < 0 || b.to < 0) b.from = b.to = -1;
+    b.next = base(next_, [](const Edge& s) { return s.next >= 0; });
+    b.before = base(before_, [](const Edge& s) { return s.before >= 0; });
+    b.turns_next = std::any_of(e, e + 4, [](const Edge& s) { return s.turn_next != 0; });
+    b.turns_before = std::any_of(e, e + 4, [](const Edge& s) { return s.turn_before != 0; });
+    std::array<double, 16> all;
+    for (int k = 0; k < 4; ++k)
+      all[k] = e[k].stiffness, all[4 + k] = e[k].rest_length, all[8 + k] = e[k].turn_next, all[12 + k] = e[k].turn_before;
+    const auto [at, fresh] = known.try_emplace(all, static_cast<int>(numbers_.size()));
+    if (fresh) numbers_.push_back({Lanes::load(&all[0]), Lanes::load(&all[4]), Lanes::load(&all[8]), Lanes::load(&all[12])});
+    b.numbers = at->second;
+    b.found = o / 4 + 1;
+    for (int k = 0; k < 4; ++k) b.found = std::max({b.found, next_[o + k] / 4 + 1, before_[o + k] / 4 + 1});
+    if (!blocks_.empty()) b.found = std::max(b.found, blocks_.back().found);
+    blocks_.push_back(b);
+  }
+}
+
+void EdgeForces::build_pulls(const EdgeOrder& order, int particles) {
+  struct Term { int edge, in; auto operator<=>(const Term&) const = default; };
+  std::vector<std::vector<Term>> of(padded(particles));
+  for (int e = 0; e < edges_; ++e) {
+    if (order.edges[e].filler) continue;
+    of[order.edges[e].from].push_back({e, 0}), of[order.edges[e].to].push_back({e, 1});
+  }
+  const auto holds = [](const std::vector<Term>& list, const Term& t) { return std::find(list.begin(), list.end(), t) != list.end(); };
+  int pulled = 0;
+  for (int p = 0; p < particles; p += 4) {
+    std::array<std::vector<int>, 3> terms;
+    for (int lane = 0; lane < 4; ++lane)
+      for (const Term& t : of[p + lane]) pulled = std::max(pulled, t.edge / 4 + 1);
+    for (int lane = 0; lane < 4; ++lane)
+      while (!of[p + lane].empty()) {
+        const Term t = of[p + lane].front();
+        const int first = t.edge - lane;
+        int members = 0;
+        bool whole = first >= 0 && first + 4 <= edges_;
+        for (int k = 0; k < 4 && whole; ++k) {
+          const bool member = holds(of[p + k], {first + k, t.in});
+          members += member;
+          whole = member || order.edges[first + k].filler;
+        }
+        if (whole && members > 1) {
+          terms[t.in].push_back(first);
+          for (int k = 0; k < 4; ++k) std::erase(of[p + k], Term{first + k, t.in});
+        } else {
+          terms[2].push_back(8 * t.edge + 2 * lane + t.in);
+          std::erase(of[p + lane], t);
+        }
+      }
+    pulls_.push_back({static_cast<int>(terms_.size()), pulled, static_cast<short>(terms[0].size()), static_cast<short>(terms[1].size()),
+                      static_cast<short>(terms[2].size())});
+    for (const auto& kind : terms) terms_.insert(terms_.end(), kind.begin(), kind.end());
+  }
+  terms_.push_back(0);
+}
+
+Triple<Lanes> EdgeForces::direction(int base, const std::vector<int>& list, int edge) const {
+  if (base >= 0) return a_.load(base);
+  const int* i = &list[edge];
+  return {Lanes::gather(a_.x.data(), i), Lanes::gather(a_.y.data(), i), Lanes::gather(a_.z.data(), i)};
+}
+
+// In stretches: what is written must have left the processor's store buffer before it is read with a shift.
+[[gnu::flatten]] void EdgeForces::go_on(const Columns& x, int pulled) {
+  const int blocks = static_cast<int>(blocks_.size()), to = std::min(blocks, std::max(pulled, pulled_ + stretch));
+  if (const int found = blocks_[to - 1].found; found_ < found)
+    for (const int end = std::min(blocks, found + stretch); found_ < end; ++found_) find(x, found_);
+  for (; pulled_ < to; ++pulled_) pull(pulled_);
+}
+
+// Directions, lengths and tensions of four edges.
+void EdgeForces::find(const Columns& x, int block) {
+  const Block& b = blocks_[block];
+  const int o = 4 * block;
+  Triple<Lanes> u;
+  if (b.from >= 0) {
+    u = x.load(b.to) - x.load(b.from);
+  } else {
+    const int *i = &from_[o], *j = &to_[o];
+    u = {Lanes::gather(x.x.data(), j) - Lanes::gather(x.x.data(), i), Lanes::gather(x.y.data(), j) - Lanes::gather(x.y.data(), i),
+         Lanes::gather(x.z.data(), j) - Lanes::gather(x.z.data(), i)};
+  }
+  const Lanes r = sqrt(dot(u, u)), inv = inverse(r);
+  a_.store(o, inv * u);
+  inv.store(&inverse_[o]);
+  HarmonicBond::pull(r, numbers_[b.numbers].K, numbers_[b.numbers].r0).store(&pull_[o]);
+}
+
+// Their e.
+void EdgeForces::pull(int block) {
+  const Block& b = blocks_[block];
+  const int o = 4 * block;
+  const Triple<Lanes> a = a_.load(o);
+  const Lanes inv = Lanes::load(&inverse_[o]);
+  Triple<Lanes> e = Lanes::load(&pull_[o]) * a;
+  if (b.turns_next) e = multiply_add(-(numbers_[b.numbers].next * inv), CosineAngle::across(a, direction(b.next, next_, o)), e);
+  if (b.turns_before) e = multiply_add(-(numbers_[b.numbers].before * inv), CosineAngle::across(a, direction(b.before, before_, o)), e);
+  e_.store(o, e);
+}
+
+Triple<Lanes> EdgeForces::single(int term) const {
+  const int edge = term / 8, lane = term / 2 % 4;
+  const double sign = term % 2 ? -1 : 1;
+  Triple<Lanes> f{0.0, 0.0, 0.0};
+  f.x.v[lane] = sign * e_.x[edge], f.y.v[lane] = sign * e_.y[edge], f.z.v[lane] = sign * e_.z[edge];
+  return f;
+}
+
+}  // namespace elamin

@@ -1,0 +1,85 @@
+#include "dynamics/forces.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+
+constexpr double skin_of_diameter = 0.35;
+constexpr double used_up = 0.8;                 // part of half the skin, moved by, at which the lists are made anew
+
+double skin_for(const Model& model, const ContactRules* rules) {
+  double smallest = std::numeric_limits<double>::infinity();
+  if (rules)
+    for (int i = 0; i < model.particles(); ++i)
+      if (rules->reach(i) > 0) smallest = std::min(smallest, 2 * rules->reach(i));
+  for (const Wall& w : model.walls)
+    for (const int p : w.particles) smallest = std::min(smallest, model.diameter[p]);
+  return skin_of_diameter * smallest;
+}
+
+}  // namespace
+
+Forces::Forces(const Model& model, double load_factor)
+    : Forces(model, load_factor, order_edges(model, load_factor)) {}
+
+Forces::Forces(const Model& model, double load_factor, const EdgeOrder& order)
+    : particles_(model.particles()), edges_(order, model.particles()), loads_(model.particles()) {
+  for (const Load& l : model.loads)
+    for (std::size_t k = 0; k < l.particles.size(); ++k)
+      for (int c = 0; c < 3; ++c) loads_.at(c, l.particles[k]) += l.scaling.at(load_factor) * l.on(k)[c];
+  for (const Gravity& g : model.gravity)
+    for (const int p : g.particles)
+      for (int c = 0; c < 3; ++c) loads_.at(c, p) += model.mass(p) * (g.scaling.at(load_factor) * g.acceleration[c]);
+  loaded_ = !model.loads.empty() || !model.gravity.empty();
+  if (OtherForces::needed(model, order)) others_.emplace(model, order, load_factor);
+  if (!model.contacts.empty()) rules_.emplace(model);
+  skin_ = skin_for(model, rules_ ? &*rules_ : nullptr);
+  if (rules_) pairs_.emplace(model, *rules_, skin_);
+  if (!model.walls.empty()) walls_.emplace(model, load_factor, skin_);
+  by_row_ = pairs_ || walls_;
+  const int n = model.particles();
+  if (by_row_) movement_.position = Rows(n), listed_ = Columns(n);
+  if (by_row_ || others_) pushes_.force = Rows(n);
+  const bool rub = (pairs_ && pairs_->rubs()) || (walls_ && walls_->rubs());
+  if (rub || (pairs_ && pairs_->damped()) || (walls_ && walls_->damped())) pushes_.damping = movement_.velocity = Rows(n);
+  if (rub) pushes_.torque = movement_.spin = Rows(n);
+  travelled_ = std::numeric_limits<double>::infinity();
+}
+
+double Forces::farthest(const Columns& x) const {
+  Lanes most(0.0);
+  for (int i = 0; i < particles_; i += 4) {
+    const Triple<Lanes> d = x.load(i) - listed_.load(i);
+    most = max(dot(d, d), most);
+  }
+  return std::sqrt(most.largest());
+}
+
+void Forces::find_near(const Columns& x) {
+  if (!(travelled_ > skin_ / 2)) return;
+  if (std::isfinite(travelled_)) {
+    travelled_ = farthest(x);
+    if (travelled_ <= used_up * skin_ / 2) return;
+  }
+  listed_ = x;
+  travelled_ = 0;
+  if (pairs_) pairs_->find(x);
+  if (walls_) walls_->find(x);
+}
+
+void Forces::prepare(const Columns& x) {
+  edges_.begin();
+  if (!pushes()) return;
+  pushes_.force.clear(), pushes_.damping.clear(), pushes_.torque.clear();
+  if (by_row_) {
+    find_near(x);
+    if (pairs_) pairs_->add(movement_, pushes_);
+    if (walls_) walls_->add(movement_, pushes_);
+  }
+  if (others_) others_->add(x, pushes_.force);
+}
+
+}  // namespace elamin

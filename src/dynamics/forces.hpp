@@ -1,0 +1,62 @@
+#pragma once
+// All forces of a model on plain doubles, as fast as they come: without energies, exact tails, or anything allocated.
+#include "dynamics/edge_forces.hpp"
+#include "dynamics/other_forces.hpp"
+#include "dynamics/wall_forces.hpp"
+
+#include <optional>
+
+namespace elamin {
+
+/// The forces at a load factor that stays. prepare() finds what particles push on each other; what is left is done for four
+/// particles at a time by whoever moves them, so that everything is still near when it is wanted again: see on().
+class Forces {
+ public:
+  Forces(const Model& model, double load_factor);
+  Forces(const Forces&) = delete;
+  Forces& operator=(const Forces&) = delete;
+
+  bool damped() const { return pushes_.damped(); }
+  bool rubs() const { return pushes_.rubs(); }
+  /// Whether positions are wanted by row, in movement().
+  bool by_row() const { return by_row_; }
+  Movement& movement() { return movement_; }
+
+  /// Says that no particle has moved farther than this since the last call of prepare() [length].
+  void moved(double distance) { travelled_ += distance; }
+  /// Elastic forces and loads at x; damping and friction with the velocities and spins of movement(), whose positions are x.
+  void prepare(const Columns& x);
+  /// Elastic force and loads on particles 4·block …, after prepare(), block after block; x as there, but for particles of
+  /// blocks before this one, which may have moved on.
+  [[gnu::always_inline]] Triple<Lanes> on(int block, const Columns& x) {
+    Triple<Lanes> f = edges_.on(block, x);
+    if (loaded_) f = f + loads_.load(4 * block);
+    if (pushes()) f = f + pushes_.force.load(4 * block);
+    return f;
+  }
+  /// Damping and friction on them; only if damped().
+  Triple<Lanes> damping_on(int block) const { return pushes_.damping.load(4 * block); }
+  /// The torque on a particle; only if rubs().
+  Lanes torque_on(int particle) const { return pushes_.torque.row[particle]; }
+
+ private:
+  Forces(const Model& model, double load_factor, const EdgeOrder& order);
+  bool pushes() const { return by_row_ || others_.has_value(); }
+  void find_near(const Columns& x);
+  double farthest(const Columns& x) const;
+
+  int particles_ = 0;
+  EdgeForces edges_;
+  Columns loads_;
+  std::optional<ContactRules> rules_;
+  std::optional<PairForces> pairs_;
+  std::optional<WallForces> walls_;
+  std::optional<OtherForces> others_;
+  bool by_row_ = false, loaded_ = false;
+  double skin_ = 0, travelled_ = 0;
+  Columns listed_;                              // where everything was when the lists were made
+  Movement movement_;
+  Pushes pushes_;
+};
+
+}  // namespace elamin

@@ -1,0 +1,18 @@
+#pragma once
+// What moves: where everything is, how fast, and what has been put in and taken out.
+#include "model/model.hpp"
+
+namespace elamin {
+
+struct Motion {
+  State state;
+  Field velocity;                      // 3 × particles [length/time]
+  Field spin;                          // angular velocities, 3 × particles; empty where nothing turns particles
+  Field force;                         // on every particle, held or not, drag and damping included: 3 × particles [force]
+  std::int64_t step = 0;
+  double time = 0;
+  double work = 0;                     // done by driven supports so far [energy]
+  double dissipation = 0;              // by drag, damping and friction so far [energy]
+};
+
+}  // namespace elamin

@@ -1,0 +1,152 @@
+#include "dynamics/pair_forces.hpp"
+
+#include "laws/cohesion.hpp"
+#include "laws/hertz_contact.hpp"
+
+#include <algorithm>
+
+namespace elamin {
+
+namespace {
+
+bool damps(const ContactDamping& d) { return d.model != ContactDamping::Model::none && d.coefficient > 0; }
+bool rubs(const ContactDamping& d) { return damps(d) && d.tangential > 0 && d.friction > 0; }
+
+// b − a of the rows of four pairs.
+[[gnu::always_inline]] inline Triple<Lanes> differences(const Rows& rows, const int* first, const int* second) {
+  return columns_of(rows.row[second[0]] - rows.row[first[0]], rows.row[second[1]] - rows.row[first[1]],
+                    rows.row[second[2]] - rows.row[first[2]], rows.row[second[3]] - rows.row[first[3]]);
+}
+
+// The first `count` of four pairs: + on the second particle, − on the first.
+[[gnu::always_inline]] inline void push(Rows& force, const Triple<Lanes>& f, const int* first, const int* second, int count) {
+  Lanes row[4] = {f.x, f.y, f.z, Lanes(0.0)};
+  transpose(row[0], row[1], row[2], row[3]);
+  for (int k = 0; k < count; ++k) force.row[second[k]] += row[k], force.row[first[k]] -= row[k];
+}
+
+[[gnu::always_inline]] inline void turn(Rows& torque, const Triple<Lanes>& t, const int* particle, int count) {
+  Lanes row[4] = {t.x, t.y, t.z, Lanes(0.0)};
+  transpose(row[0], row[1], row[2], row[3]);
+  for (int k = 0; k < count; ++k) torque.row[particle[k]] += row[k];
+}
+
+}  // namespace
+
+PairForces::PairForces(const Model& model, const ContactRules& rules, double skin) : model_(model), list_(model, rules, skin), hertz_(model.contacts.size()) {
+  for (const double d : model.diameter) radius_.push_back(d / 2);
+  for (const PairContact& c : model.contacts) {
+    if (c.law != PairContact::Law::hertz) continue;
+    damped_ = damped_ || damps(c.damping);
+    rubs_ = rubs_ || elamin::rubs(c.damping);
+  }
+}
+
+void PairForces::put(const PairList::Pair& pair) {
+  const auto [i, j, t] = pair;
+  Hertz& to = hertz_[t];
+  const double ri = radius_[i], rj = radius_[j];
+  const double stiffness = hertz_stiffness(model_.contacts[t].effective_modulus, ri, rj);
+  to.first.push_back(i), to.second.push_back(j);
+  to.reach.push_back(ri + rj), to.stiffness.push_back(stiffness);
+  if (!damps(model_.contacts[t].damping)) return;
+  const double mi = model_.mass(i), mj = model_.mass(j);
+  to.coefficient.push_back(DampedContact(model_.contacts[t].damping, mi * mj / (mi + mj), stiffness, ri * (rj / (ri + rj))).coefficient);
+}
+
+void PairForces::find(const Columns& x) {
+  list_.find(x);
+  for (Hertz& h : hertz_) h.first.clear(), h.second.clear(), h.reach.clear(), h.stiffness.clear(), h.coefficient.clear();
+  for (const PairList::Pair& p : list_.hertz()) put(p);
+  cohesive_.first.clear(), cohesive_.second.clear();
+  cohesive_.cutoff.clear(), cohesive_.epsilon.clear(), cohesive_.sigma.clear();
+  for (const PairList::Pair& p : list_.lj()) {
+    const PairContact& c = model_.contacts[p.table];
+    cohesive_.first.push_back(p.first), cohesive_.second.push_back(p.second);
+    cohesive_.cutoff.push_back(c.cutoff), cohesive_.epsilon.push_back(c.epsilon), cohesive_.sigma.push_back(c.sigma);
+  }
+  closed_.resize(std::max(list_.hertz().size(), list_.lj().size()) + 8);
+}
+
+void PairForces::add(const Movement& movement, Pushes& pushes) {
+  for (std::size_t t = 0; t < hertz_.size(); ++t) {
+    if (hertz_[t].first.empty()) continue;
+    const ContactDamping& d = model_.contacts[t].damping;
+    if (elamin::rubs(d)) add<true, true>(hertz_[t], d, movement, pushes);
+    else if (damps(d)) add<true, false>(hertz_[t], d, movement, pushes);
+    else add<false, false>(hertz_[t], d, movement, pushes);
+  }
+  if (!cohesive_.first.empty()) add(cohesive_, movement, pushes);
+}
+
+int PairForces::find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& reach,
+                            const Rows& x) {
+  const int pairs = static_cast<int>(first.size());
+  int count = 0, p = 0;
+  for (; p + 4 <= pairs; p += 4) {
+    const Triple<Lanes> d = differences(x, &first[p], &second[p]);
+    const Lanes limit = Lanes::load(&reach[p]);
+    const unsigned closed = below(dot(d, d), limit * limit);
+    for (int k = 0; k < 4; ++k) closed_[count] = p + k, count += closed >> k & 1;
+  }
+  for (; p < pairs; ++p) {
+    const Lanes d = x.row[second[p]] - x.row[first[p]];
+    closed_[count] = p, count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach[p] * reach[p];
+  }
+  for (int k = 0; k < 3; ++k) closed_[count + k] = count > 0 ? closed_[count - 1] : 0;
+  return count;
+}
+
+template <bool damped, bool rubs>
+void PairForces::add(const Hertz& pairs, const ContactDamping& damping, const Movement& movement, Pushes& pushes) {
+  const int roots = DampedContact(damping, 1, 1, 1).roots;
+  const int count = find_closed(pairs.first, pairs.second, pairs.reach, movement.position);
+  for (int at = 0; at < count; at += 4) {
+    const int* c = &closed_[at];
+    const int first[4] = {pairs.first[c[0]], pairs.first[c[1]], pairs.first[c[2]], pairs.first[c[3]]};
+    const int second[4] = {pairs.second[c[0]], pairs.second[c[1]], pairs.second[c[2]], pairs.second[c[3]]};
+    const int used = std::min(count - at, 4);
+    const Triple<Lanes> d = differences(movement.position, first, second);
+    const Lanes r = sqrt(dot(d, d)), inv = inverse(r), overlap = max(Lanes::gather(pairs.reach.data(), c) - r, Lanes(0.0));
+    const Lanes elastic = HertzContact::push(overlap, Lanes::gather(pairs.stiffness.data(), c));
+    push(pushes.force, (elastic * inv) * d, first, second, used);
+    if constexpr (damped) {
+      const Triple<Lanes> n = inv * d, v = differences(movement.velocity, first, second);
+      const Lanes along = dot(v, n);
+      const Lanes eta = damping_coefficient(overlap, Lanes::gather(pairs.coefficient.data(), c), roots);
+      const Lanes slow = -(eta * along);
+      Triple<Lanes> f = slow * n;
+      if constexpr (rubs) {
+        Lanes radii[2];
+        Triple<Lanes> turning{0.0, 0.0, 0.0};
+        for (const int side : {0, 1}) {
+          const int* p = side ? second : first;
+          radii[side] = Lanes::gather(radius_.data(), p);
+          turning = turning + radii[side] * columns_of(movement.spin.row[p[0]], movement.spin.row[p[1]],
+                                                       movement.spin.row[p[2]], movement.spin.row[p[3]]);
+        }
+        const Triple<Lanes> rub = friction(n, v, along, turning, elastic + slow, Lanes(damping.tangential) * eta,
+                                           Lanes(damping.friction));
+        f = f + rub;
+        const Triple<Lanes> t = cross(n, rub);
+        for (const int side : {0, 1})
+          turn(pushes.torque, (Lanes(0.5) * overlap - radii[side]) * t, side ? second : first, used);
+      }
+      push(pushes.damping, f, first, second, used);
+    }
+  }
+}
+
+void PairForces::add(const Cohesive& pairs, const Movement& movement, Pushes& pushes) {
+  const int count = find_closed(pairs.first, pairs.second, pairs.cutoff, movement.position);
+  for (int at = 0; at < count; at += 4) {
+    const int* c = &closed_[at];
+    const int first[4] = {pairs.first[c[0]], pairs.first[c[1]], pairs.first[c[2]], pairs.first[c[3]]};
+    const int second[4] = {pairs.second[c[0]], pairs.second[c[1]], pairs.second[c[2]], pairs.second[c[3]]};
+    const Triple<Lanes> d = differences(movement.position, first, second);
+    const Lanes f = Cohesion::push(dot(d, d), Lanes::gather(pairs.epsilon.data(), c), Lanes::gather(pairs.sigma.data(), c));
+    push(pushes.force, f * d, first, second, std::min(count - at, 4));
+  }
+}
+
+}  // namespace elamin

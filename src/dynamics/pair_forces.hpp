@@ -1,0 +1,59 @@
+#pragma once
+// Contact and cohesion of particles on plain doubles, four pairs at a time.
+#include "dynamics/contact_damping.hpp"
+#include "dynamics/pair_list.hpp"
+
+namespace elamin {
+
+/// What single pushes between particles, and between particles and walls, add up to, particle by particle.
+struct Pushes {
+  Rows force;                                   // elastic
+  Rows damping;                                 // of contact damping and friction; empty: there is none
+  Rows torque;                                  // of friction; empty: there is none
+  bool damped() const { return !damping.row.empty(); }
+  bool rubs() const { return !torque.row.empty(); }
+};
+
+/// Where the particles are and how they move, as pushes want it.
+struct Movement {
+  Rows position, velocity, spin;                // the latter two empty where nothing damps, nothing rubs
+};
+
+class PairForces {
+ public:
+  PairForces(const Model& model, const ContactRules& rules, double skin);
+
+  bool damped() const { return damped_; }
+  bool rubs() const { return rubs_; }
+  /// Looks for the pairs that are near.
+  void find(const Columns& x);
+  void add(const Movement& movement, Pushes& pushes);
+
+ private:
+  /// The pairs of one table, a column for each number.
+  struct Hertz {
+    std::vector<int> first, second;
+    std::vector<double> reach, stiffness;
+    std::vector<double> coefficient;            // see DampedContact; only where there is damping
+  };
+  struct Cohesive {
+    std::vector<int> first, second;
+    std::vector<double> cutoff, epsilon, sigma;
+  };
+  void put(const PairList::Pair& pair);
+  template <bool damped, bool rubs>
+  void add(const Hertz& pairs, const ContactDamping& damping, const Movement& movement, Pushes& pushes);
+  void add(const Cohesive& pairs, const Movement& movement, Pushes& pushes);
+  /// The indices of those pairs that are nearer than `reach`, in closed_, and how many; some more behind them may be read.
+  int find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& reach, const Rows& x);
+
+  const Model& model_;
+  PairList list_;
+  bool damped_ = false, rubs_ = false;
+  std::vector<Hertz> hertz_;                    // of every table
+  Cohesive cohesive_;
+  std::vector<double> radius_;                  // of every particle
+  std::vector<int> closed_;
+};
+
+}  // namespace elamin

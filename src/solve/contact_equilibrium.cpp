@@ -1,0 +1,231 @@
+#include "solve/contact_equilibrium.hpp"
+
+#include "core/interrupt.hpp"
+#include "core/timing.hpp"
+#include "energy/step_limits.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+constexpr double give = 1e-10;                 // δ: of the stiffness scale
+constexpr double gap_rounding = 1e-13;         // of a diameter
+constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
+
+const char* const too_far = "there is no equilibrium near enough";
+
+double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+
+bool same_contacts(const std::vector<HardForce>& a, const std::vector<HardForce>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HardForce& x, const HardForce& y) { return key(x) == key(y); });
+}
+
+}  // namespace
+
+// Evaluates the energy at the state, and the closed gaps; the matrix takes the values, after its pattern where that is new.
+void ContactEquilibrium::linearise(const State& state, const State* from) {
+  energy_.evaluate(state, true, from);
+  gaps_.resize(state.hard.size());
+  for (std::size_t k = 0; k < gaps_.size(); ++k)
+    if (!hard_gap(energy_.model(), state.hard[k], state, gaps_[k])) gaps_[k].sites = 0;
+  const SparseMatrix& h = energy_.hessian();
+  const Kinematics& kinematics = energy_.kinematics();
+  const int n = energy_.dofs(), m = static_cast<int>(gaps_.size());
+  scale_ = 0;
+  for (Eigen::Index k = 0; k < h.nonZeros(); ++k) scale_ = std::max(scale_, std::abs(h.valuePtr()[k]));
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const double d : energy_.model().diameter) thinnest = std::min(thinnest, d);
+  scale_ = std::max(scale_, energy_.force_scale() / thinnest);
+  if (!(scale_ > 0 && std::isfinite(scale_))) scale_ = 1;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < n; ++j)
+    for (SparseMatrix::InnerIterator it(h, j); it; ++it) entries.emplace_back(it.row(), j, it.value());
+  for (int k = 0; k < m; ++k) {
+    for (int i = 0; i < gaps_[k].sites; ++i)
+      for (int c = 0; c < 3; ++c)
+        if (const int d = kinematics.dof(gaps_[k].site[i], c); d >= 0) entries.emplace_back(n + k, d, scale_ * gaps_[k].gradient[3 * i + c]);
+    entries.emplace_back(n + k, n + k, -give * scale_);
+  }
+  matrix_.resize(n + m, n + m);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  if (version_ != energy_.pattern_version() || !same_contacts(closed_, state.hard)) {
+    pivoted_.analyze(matrix_);
+    version_ = energy_.pattern_version();
+  }
+  closed_ = state.hard;
+}
+
+bool ContactEquilibrium::factorize(double shift) {
+  if (shift != 0)
+    for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] += shift;
+  const bool done = pivoted_.factorize(matrix_);
+  if (shift != 0)
+    for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] -= shift;
+  return done;
+}
+
+// p, Δf of H p − Jᵀ Δf = b, J p = c.
+ContactEquilibrium::Step ContactEquilibrium::solve(const Vector& b, const Vector& c) {
+  Vector right(b.size() + c.size());
+  right << b, scale_ * c;
+  const Vector x = pivoted_.solve(right);
+  return {x.head(b.size()), -scale_ * x.tail(c.size())};
+}
+
+// The closed gap that is farthest from closed, in diameters.
+double ContactEquilibrium::worst_gap(const State& state) const {
+  double worst = 0;
+  for (std::size_t k = 0; k < gaps_.size(); ++k)
+    worst = std::max(worst, gaps_[k].sites ? std::abs(gaps_[k].value) / energy_.model().diameter[state.hard[k].particle] : 1.0);
+  return worst;
+}
+
+Report ContactEquilibrium::settle(State& state, double tolerance, const State* from, double reach) {
+  const Stopwatch watch;
+  Report report;
+  const State start = state;
+  State previous, best;
+  double least = std::numeric_limits<double>::infinity(), moved = 0;
+  int polishing = 0, worse = 0;
+  const auto end = [&](Status status, std::string why) {
+    report.status = status, report.why = std::move(why), report.seconds = watch.seconds();
+    return report;
+  };
+  for (;; ++report.iterations) {
+    linearise(state, from);
+    ++report.evaluations;
+    const double residual = energy_.relative(energy_.gradient()), error = std::max(residual, worst_gap(state));
+    if (!std::isfinite(error) || !std::isfinite(energy_.last_terms().total())) return end(Status::not_converged, "the energy is not finite");
+    report.history.push_back({energy_.last_terms().total(), residual, moved, 0});
+    const bool better = error <= least / 2;
+    if (error < least) best = state, least = error, report.energy = energy_.last_terms().total(), report.residual = residual;
+    worse = better ? 0 : worse + 1;
+    if (least <= tolerance) {
+      const bool rounding = least <= 4 * epsilon || (!better && polishing > 0);
+      if (rounding || polishing++ == most_polishing) {
+        state = best;
+        return end(Status::converged, fmt::format("the residual is below {:g}", tolerance));
+      }
+    } else if (interrupted()) {
+      return end(Status::interrupted, "interrupted");
+    } else if (report.iterations == most_steps || worse > 6) {
+      return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", residual));
+    }
+    Vector gaps(static_cast<Eigen::Index>(gaps_.size()));
+    for (std::size_t k = 0; k < gaps_.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value;
+    double shift = 0;
+    while (!factorize(shift)) shift = shift > 0 ? 4 * shift : 16 * factors_.zero_level();
+    ++report.factorizations;
+    Step step = solve(-energy_.gradient(), -gaps);
+    if (!step.p.allFinite()) return end(Status::not_converged, "the equations have no solution");
+    const double turn = distortion(energy_, state, step.p);
+    const double part = std::min({1.0, 0.3 / std::max(turn, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
+    previous = state, from = &previous;
+    energy_.kinematics().retract(state, step.p, part);
+    moved = part * infinity_norm(step.p);
+    if (displacement(start, state).cwiseAbs().maxCoeff() > reach) return end(Status::not_converged, too_far);
+    for (std::size_t k = 0; k < gaps_.size(); ++k) state.hard[k].force += part * step.force[static_cast<Eigen::Index>(k)];
+  }
+}
+
+Report ContactEquilibrium::correct(State& state, double tolerance, const State* from, double reach) {
+  const State start = state;
+  Report total;
+  const Stopwatch watch;
+  for (int change = 0;; ++change) {
+    Report report = settle(state, tolerance, change == 0 ? from : nullptr, reach);
+    total.iterations += report.iterations, total.evaluations += report.evaluations, total.factorizations += report.factorizations;
+    total.history.insert(total.history.end(), report.history.begin(), report.history.end());
+    total.status = report.status, total.why = report.why, total.energy = report.energy, total.residual = report.residual;
+    total.seconds = watch.seconds();
+    if (report.converged() && displacement(start, state).cwiseAbs().maxCoeff() > reach)
+      total.status = Status::not_converged, total.why = too_far;
+    if (!total.converged()) return total;
+    const double slightest = std::max(tolerance, 64 * epsilon) * energy_.force_scale();
+    const std::vector<HardForce> before = state.hard;
+    std::vector<HardForce> now;
+    for (const HardForce& h : before)
+      if (h.force >= -slightest) now.push_back(h);
+    for (const HardForce& h : energy_.hard_contacts(state, 0)) {
+      HardGap gap;
+      const bool closed = std::any_of(before.begin(), before.end(), [&](const HardForce& b) { return key(b) == key(h); });
+      if (!closed && hard_gap(energy_.model(), h, state, gap) && gap.value < -gap_rounding * energy_.model().diameter[h.particle])
+        now.push_back(h);
+    }
+    std::sort(now.begin(), now.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
+    if (same_contacts(now, before)) {
+      std::erase_if(state.hard, [&](const HardForce& h) { return !(h.force > 0); });
+      return total;
+    }
+    state.hard = std::move(now);
+    if (change == most_changes || interrupted()) {
+      total.status = interrupted() ? Status::interrupted : Status::not_converged;
+      total.why = "which hard contacts are closed could not be told: they change without end";
+      return total;
+    }
+  }
+}
+
+Inertia ContactEquilibrium::inertia(const State& state) {
+  linearise(state, nullptr);
+  const double sigma = factors_.zero_level();
+  const int contacts = static_cast<int>(gaps_.size());
+  const auto negative = [&](double shift) {
+    while (!factorize(shift)) shift *= 1.5;
+    return pivoted_.negative() - contacts;
+  };
+  Inertia inertia;
+  inertia.negative = negative(sigma);
+  inertia.zero = std::max(0, negative(-sigma) - inertia.negative);
+  return inertia;
+}
+
+ContactEquilibrium::Tangent ContactEquilibrium::tangent(const State& state) {
+  linearise(state, nullptr);
+  Vector rates(static_cast<Eigen::Index>(gaps_.size()));
+  for (std::size_t k = 0; k < gaps_.size(); ++k) {
+    double rate = gaps_[k].rate;
+    for (int i = 0; i < gaps_[k].sites; ++i)
+      rate += gaps_[k].gradient.segment<3>(3 * i).dot(energy_.kinematics().drive(gaps_[k].site[i]));
+    rates[static_cast<Eigen::Index>(k)] = rate;
+  }
+  double shift = 0;
+  while (!factorize(shift)) shift = shift > 0 ? 4 * shift : 16 * factors_.zero_level();
+  const Step step = solve(-energy_.load_derivative(), -rates);
+  return {step.p, step.force};
+}
+
+EigenPairs ContactEquilibrium::lowest(const State& state, int count) {
+  linearise(state, nullptr);
+  const int n = energy_.dofs(), contacts = static_cast<int>(gaps_.size());
+  const Eigen::Index block = std::min(std::max(1, n - contacts), count + 3);
+  count = std::min(count, static_cast<int>(block));
+  double shift = factors_.zero_level();                    // one that leaves nothing negative
+  while (!factorize(shift) || pivoted_.negative() > contacts) shift *= 8;
+  Eigen::MatrixXd x(n, block), hx(n, block);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::sin(1 + 12.9898 * static_cast<double>(i));
+  const Vector none = Vector::Zero(contacts);
+  Vector values = Vector::Zero(block), before;
+  for (int k = 0; k < 100; ++k) {
+    for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve(x.col(j).normalized(), none).p;
+    x = Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(n, block);
+    for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));
+    const Eigen::MatrixXd projected = x.transpose() * hx;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small((projected + projected.transpose()) / 2);
+    before = values, values = small.eigenvalues();
+    x = x * small.eigenvectors();
+    const double change = (values - before).head(count).cwiseAbs().maxCoeff(), size = values.head(count).cwiseAbs().maxCoeff();
+    if (k > 3 && change <= 1e-6 * size + factors_.zero_level() / 64) break;
+  }
+  return {values.head(count), x.leftCols(count)};
+}
+
+}  // namespace elamin

@@ -1,0 +1,121 @@
+#include "solve/method.hpp"
+
+#include "core/interrupt.hpp"
+#include "core/timing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace elamin {
+
+namespace {
+
+constexpr int most_saddles = 20, most_finishing = 4;
+
+template <class... F> struct Cases : F... { using F::operator()...; };
+template <class... F> Cases(F...) -> Cases<F...>;
+
+void add(Report& total, const Report& part) {
+  total.status = part.status, total.why = part.why;
+  total.history.insert(total.history.end(), part.history.begin(), part.history.end());
+  total.iterations += part.iterations, total.factorizations += part.factorizations, total.evaluations += part.evaluations;
+  total.energy = part.energy, total.residual = part.residual, total.negative = part.negative;
+}
+
+// Simplified Newton steps with the factor of the inertia, kept while they halve the residual; how many.
+int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
+  Energy& energy = newton.energy();
+  Factors& factors = newton.factors();
+  factors.try_cholesky(zero_modes ? 100 * factors.zero_level() : 0.0);
+  for (int k = 0; k < most_finishing; ++k) {
+    if (energy.relative(energy.gradient()) <= 4 * epsilon) return k;
+    State next = state;
+    energy.kinematics().retract(next, factors.cholesky().solve(energy.gradient()), -1);
+    if (energy.passage(state, next) < 1) return k;
+    energy.evaluate(next, false);
+    ++report.evaluations;
+    if (!(energy.relative(energy.gradient()) <= report.residual / 2)) return k;
+    state = next, report.residual = energy.relative(energy.gradient());
+  }
+  return most_finishing;
+}
+
+}  // namespace
+
+std::string name_of(const Method& method) {
+  return std::visit(Cases{[](const NewtonOptions&) { return std::string("newton"); },
+                          [](const IpoptOptions&) { return std::string("ipopt"); },
+                          [](const NloptOptions& o) { return "nlopt:" + o.algorithm; }}, method);
+}
+
+std::string refusal(const Method& method, const Energy& energy) {
+  const bool hard = any_hard(energy.model());
+  return std::visit(Cases{[&](const NewtonOptions&) {
+                            return std::string(hard ? "Newton's method knows no hard contacts; use \"ipopt\", or an elastic contact" : "");
+                          },
+                          [](const IpoptOptions&) { return std::string(); },
+                          [&](const NloptOptions& o) { return nlopt_refuses(o.algorithm, energy.dofs(), hard); }}, method);
+}
+
+Report stable_end(Newton& newton, State& state, const std::function<Report(State&)>& search) {
+  const Stopwatch watch;
+  Energy& energy = newton.energy();
+  Factors& factors = newton.factors();
+  Report total;
+  double searching = 0, factoring = 0;                          // seconds of factors, in the searches and here
+  const auto done = [&] {
+    total.seconds = watch.seconds(), total.factor_seconds = searching + factoring;
+    return total;
+  };
+  for (int saddles = 0;; ++saddles) {
+    const Report found = search(state);
+    add(total, found);
+    searching += found.factor_seconds;
+    if (!found.converged() || energy.dofs() == 0 || !state.hard.empty()) return done();
+    const double seconds_before = factors.seconds();
+    const int factorizations_before = factors.factorizations();
+    energy.evaluate(state);
+    ++total.evaluations;
+    const Inertia inertia = factors.inertia();
+    total.negative = inertia.negative;
+    bool left = true;
+    if (inertia.negative == 0) {
+      const double before = total.residual;
+      const int steps = finish(newton, state, total, inertia.zero > 0);
+      energy.evaluate(state);
+      total.energy = energy.last_terms().total(), total.residual = energy.relative(energy.gradient());
+      total.why += " and the Hessian has no negative eigenvalue";
+      if (steps > 0)
+        total.why += fmt::format("; {} simplified Newton step{} took the residual from {:.1e} to {:.1e}", steps, steps > 1 ? "s" : "", before, total.residual);
+      if (saddles > 0) total.why += fmt::format("; {} saddle{} left", saddles, saddles > 1 ? "s were" : " was");
+    } else {
+      left = !interrupted() && saddles < most_saddles && newton.leave_saddle(state, factors.lowest(1).vectors.col(0));
+    }
+    factoring += factors.seconds() - seconds_before, total.factorizations += factors.factorizations() - factorizations_before;
+    if (inertia.negative == 0) return done();
+    if (left) continue;
+    energy.evaluate(state);
+    total.status = interrupted() ? Status::interrupted : Status::not_converged;
+    total.why = interrupted() ? "interrupted" : "a saddle could not be left along its negative curvature";
+    return done();
+  }
+}
+
+Report minimise(Newton& newton, State& state, const Method& method) {
+  if (std::string why = refusal(method, newton.energy()); !why.empty()) {
+    Report refused;
+    newton.energy().evaluate(state);
+    refused.energy = newton.energy().last_terms().total();
+    refused.residual = newton.energy().relative(newton.energy().gradient());
+    refused.why = std::move(why);
+    return refused;
+  }
+  if (std::holds_alternative<NewtonOptions>(method)) return newton.minimise(state);
+  return stable_end(newton, state, [&](State& s) {
+    if (const auto* ipopt = std::get_if<IpoptOptions>(&method)) return minimise_by_ipopt(newton.energy(), s, *ipopt);
+    return minimise_by_nlopt(newton, s, std::get<NloptOptions>(method));
+  });
+}
+
+}  // namespace elamin

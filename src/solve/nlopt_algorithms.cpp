@@ -1,0 +1,104 @@
+#include "solve/nlopt_algorithms.hpp"
+
+#include "solve/nlopt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+namespace elamin {
+
+namespace {
+
+using Kind = NloptAlgorithm::Kind;
+
+// Dofs up to which a column beyond buckling was found within a minute: dense matrices, simplices, models of the energy, boxes.
+constexpr int dense = 500, simplex = 10, model = 60, global = 12;
+
+constexpr NloptAlgorithm algorithms[]{
+    {"LD_LBFGS", NLOPT_LD_LBFGS, Kind::gradient},
+    {"LD_TNEWTON", NLOPT_LD_TNEWTON, Kind::gradient},
+    {"LD_TNEWTON_RESTART", NLOPT_LD_TNEWTON_RESTART, Kind::gradient},
+    {"LD_TNEWTON_PRECOND", NLOPT_LD_TNEWTON_PRECOND, Kind::gradient},
+    {"LD_TNEWTON_PRECOND_RESTART", NLOPT_LD_TNEWTON_PRECOND_RESTART, Kind::gradient},
+    {"LD_VAR1", NLOPT_LD_VAR1, Kind::gradient},
+    {"LD_VAR2", NLOPT_LD_VAR2, Kind::gradient},
+    {"LD_MMA", NLOPT_LD_MMA, Kind::gradient},
+    {"LD_CCSAQ", NLOPT_LD_CCSAQ, Kind::gradient},
+    {"LD_SLSQP", NLOPT_LD_SLSQP, Kind::gradient, 1, dense},
+    {"LN_COBYLA", NLOPT_LN_COBYLA, Kind::derivative_free, 1, model},
+    {"LN_BOBYQA", NLOPT_LN_BOBYQA, Kind::derivative_free, 2, model},
+    {"LN_NEWUOA", NLOPT_LN_NEWUOA, Kind::derivative_free, 2, model},
+    {"LN_PRAXIS", NLOPT_LN_PRAXIS, Kind::derivative_free, 2, model},
+    {"LN_NELDERMEAD", NLOPT_LN_NELDERMEAD, Kind::derivative_free, 1, simplex},
+    {"LN_SBPLX", NLOPT_LN_SBPLX, Kind::derivative_free, 1, simplex},
+    {"G_MLSL", NLOPT_G_MLSL, Kind::global, 1, global},
+    {"G_MLSL_LDS", NLOPT_G_MLSL_LDS, Kind::global, 1, global},
+    {"GD_STOGO", NLOPT_GD_STOGO, Kind::global, 1, global},
+    {"GN_DIRECT", NLOPT_GN_DIRECT, Kind::global, 1, global},
+    {"GN_DIRECT_L", NLOPT_GN_DIRECT_L, Kind::global, 1, global},
+    {"GN_CRS2_LM", NLOPT_GN_CRS2_LM, Kind::global, 1, global},
+    {"GN_ISRES", NLOPT_GN_ISRES, Kind::global, 1, global},
+    {"GN_ESCH", NLOPT_GN_ESCH, Kind::global, 1, global},
+};
+
+// Levenshtein's.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
+  }
+  return row[b.size()];
+}
+
+std::string nearest(const std::string& name) {
+  const auto by_distance = [&](const auto& a, const auto& b) { return distance(name, a.name) < distance(name, b.name); };
+  return std::min_element(std::begin(algorithms), std::end(algorithms), by_distance)->name;
+}
+
+std::string names_of(Kind kind) {
+  std::string names;
+  for (const NloptAlgorithm& a : algorithms)
+    if (a.kind == kind) names += (names.empty() ? "" : ", ") + std::string(a.name);
+  return names;
+}
+
+bool missing(const NloptAlgorithm& a) { return std::string_view(nlopt_algorithm_name(a.code)).find("NOT COMPILED") != std::string_view::npos; }
+
+}  // namespace
+
+std::span<const NloptAlgorithm> nlopt_algorithms() { return algorithms; }
+
+const NloptAlgorithm* nlopt_algorithm_of(const std::string& name) {
+  for (const NloptAlgorithm& a : algorithms)
+    if (a.name == name) return &a;
+  return nullptr;
+}
+
+std::string nlopt_refuses(const std::string& algorithm, int dofs, bool hard) {
+  const NloptAlgorithm* a = nlopt_algorithm_of(algorithm);
+  if (!a)
+    return fmt::format("NLopt has no algorithm \"{}\" that is of use here; did you mean \"{}\"? There are {}; without derivatives, for "
+                       "small problems, {}; global, for small problems, {}",
+                       algorithm, nearest(algorithm), names_of(Kind::gradient), names_of(Kind::derivative_free), names_of(Kind::global));
+  if (missing(*a)) return fmt::format("NLopt was built without {} on this machine; G_MLSL_LDS is global too", a->name);
+  if (hard) return fmt::format("NLopt's {} knows no hard contacts; use \"ipopt\", or an elastic contact", a->name);
+  if (dofs > 0 && dofs < a->least)
+    return fmt::format("NLopt's {} needs at least {} free dofs, there {} {}; LD_LBFGS or \"newton\" can", a->name, a->least,
+                       dofs == 1 ? "is" : "are", dofs);
+  if (dofs > a->most)
+    return fmt::format("NLopt's {} {}; {} free dofs are too many for it, {} are not; {} can", a->name,
+                       a->kind == Kind::global ? "looks for minima all over a box"
+                       : a->kind == Kind::gradient ? "keeps a dense matrix"
+                                                   : "does without derivatives",
+                       dofs, a->most, "LD_LBFGS, LD_TNEWTON_PRECOND_RESTART, \"newton\" or \"ipopt\"");
+  return "";
+}
+
+}  // namespace elamin
