@@ -105,7 +105,7 @@ class CheckInteractions {
       if (place.keys.count(key)) mistakes_.add(place, key, "is of no use with hard = true; what is impenetrable has no modulus");
     if (problem_.in_time())
       mistakes_.add(place, "hard", "cannot be had in dynamics; give it a modulus");
-    else if (problem_.study == StudyType::dynamics || problem_.solver.method == "newton" || problem_.solver.method == "fire")
+    else if (problem_.study == StudyType::dynamics || problem_.solver.method != "ipopt")
       mistakes_.add(place, "hard", "needs a method for inequality constraints: solver.method = \"ipopt\"");
   }
 

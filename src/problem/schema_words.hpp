@@ -75,7 +75,6 @@ inline constexpr Word<const char*> solver_words[]{
     {"nlopt:LN_SBPLX", "nlopt:LN_SBPLX"},
     {"nlopt:G_MLSL", "nlopt:G_MLSL"},
     {"nlopt:G_MLSL_LDS", "nlopt:G_MLSL_LDS"},
-    {"nlopt:GD_STOGO", "nlopt:GD_STOGO"},
     {"nlopt:GN_DIRECT", "nlopt:GN_DIRECT"},
     {"nlopt:GN_DIRECT_L", "nlopt:GN_DIRECT_L"},
     {"nlopt:GN_CRS2_LM", "nlopt:GN_CRS2_LM"},

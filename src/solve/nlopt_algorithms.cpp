@@ -37,7 +37,6 @@ constexpr NloptAlgorithm algorithms[]{
     {"LN_SBPLX", NLOPT_LN_SBPLX, Kind::derivative_free, 1, simplex},
     {"G_MLSL", NLOPT_G_MLSL, Kind::global, 1, global},
     {"G_MLSL_LDS", NLOPT_G_MLSL_LDS, Kind::global, 1, global},
-    {"GD_STOGO", NLOPT_GD_STOGO, Kind::global, 1, global},
     {"GN_DIRECT", NLOPT_GN_DIRECT, Kind::global, 1, global},
     {"GN_DIRECT_L", NLOPT_GN_DIRECT_L, Kind::global, 1, global},
     {"GN_CRS2_LM", NLOPT_GN_CRS2_LM, Kind::global, 1, global},

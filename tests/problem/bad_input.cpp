@@ -132,7 +132,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(
       said("", "1") ==
       "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, group, connect, support, "
-      "load, gravity, pressure, change, contact, wall, viscosity, study, path, modes, solver, stage, observe, event, "
+      "load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, observe, event, "
       "expect, sweep");
   CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");
   CHECK(said("path.parameter", "support.9") ==
