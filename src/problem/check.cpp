@@ -109,6 +109,12 @@ void check_solving(Problem& problem, Mistakes& mistakes) {
   if (!d.relax && !d.timestep)
     mistakes.add(d.place, "timestep", "is missing; it must be a positive number (`elamin check` tells the largest stable one for any)");
   if (d.relax && d.timestep) mistakes.add(d.place, "timestep", "is of no use with relax = true, which chooses its own");
+  if (!d.relax && d.record)
+    for (const int step : *d.record)
+      if (step > d.steps) {
+        mistakes.add(d.place, "record", fmt::format("step {} lies behind the last one, {}", step, d.steps));
+        break;
+      }
   if (d.relax && d.record) mistakes.add(d.place, "record", "is of no use with relax = true, whose way to equilibrium is no motion");
 }
 

@@ -124,7 +124,10 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
 std::string wrong_at(const Problem& p, const std::string& at) {
   if (at == at_sweep || at == "final" || (at == "initial" && p.study == StudyType::path)) return "";
   if (p.in_time()) {
-    if (at == "initial" || step_of(at)) return "";
+    if (const auto step = step_of(at); step && *step > p.dynamics.steps)
+      return fmt::format("lies behind the last step, {}", p.dynamics.steps);
+    else if (at == "initial" || step)
+      return "";
     return "must be \"initial\", \"final\" or a step such as \"step=100\" in dynamics, is " + quoted(at);
   }
   if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + quoted(at);
