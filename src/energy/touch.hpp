@@ -12,6 +12,7 @@ struct Touch {
   double gap = 0;            // distance of the surfaces; negative: overlap [length]
   Vec3 force = Vec3::Zero(); // on `particle`
   Vec3 point = Vec3::Zero(); // of contact: on the line of centres in the middle of the overlap, or on the wall
+  bool bears = false;        // a hard contact that bears a force: its gap is zero to rounding
 };
 
 }  // namespace elamin

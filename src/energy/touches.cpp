@@ -49,7 +49,7 @@ class HardTouches {
     HardGap gap;
     for (const HardForce& h : forces_)
       if (h.force > 0 && hard_gap(model_, h, state_, gap))
-        touches.push_back({h.particle, h.other, h.wall, gap.value, h.force * gap.gradient.head<3>(), gap.point});
+        touches.push_back({h.particle, h.other, h.wall, gap.value, h.force * gap.gradient.head<3>(), gap.point, true});
   }
 
   /// … and another one, if it is near enough.

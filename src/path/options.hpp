@@ -44,17 +44,17 @@ struct PathOptions {
   int steps = 100;                       // load steps: of equal length, halved where Newton fails, doubled again after;
                                          // arc length: no step changes the load factor by more than such a length
   WhenUnstable when_unstable = WhenUnstable::jump;
-  std::optional<double> start;           // where on the way from `from` to `to` it starts; default `from`
-  std::vector<double> stops;             // load factors that must be hit besides
+  std::optional<double> start = {};           // where on the way from `from` to `to` it starts; default `from`
+  std::vector<double> stops = {};             // load factors that must be hit besides
   bool limits = true, branch_points = true, contacts = true;   // events that are located
   int branches = 0;                      // branch points to switch at, both ways
-  std::optional<double> lowest, highest; // arc length ends where the load factor leaves these; see ArcLength
+  std::optional<double> lowest = {}, highest = {}; // arc length ends where the load factor leaves these; see ArcLength
   int most_points = 0;                   // on one branch; 0: twenty times `steps`
-  std::vector<Watch> watches;
-  Corrector correct;                     // of load steps; none: Newton's method. What is between two steps is Newton's.
-  std::optional<Resume> resume;          // of the point that the path is taken up at
+  std::vector<Watch> watches = {};
+  Corrector correct = {};                     // of load steps; none: Newton's method. What is between two steps is Newton's.
+  std::optional<Resume> resume = {};          // of the point that the path is taken up at
   int deflate = 0;                       // further equilibria to look for …
-  std::vector<double> deflate_at;        // … at these load factors; none: at `to`
+  std::vector<double> deflate_at = {};        // … at these load factors; none: at `to`
 };
 
 }  // namespace elamin

@@ -21,10 +21,10 @@ double component(const Vec3& v, Component c) {
   return 0;
 }
 
-/// Overlaps by more than rounding: what an event has located as touching is not closed, whichever sign its gap has.
+/// Bears a force as a hard contact does, or overlaps by more than rounding: what an event has located as touching is not closed, whichever sign its gap has.
 bool closed(const Model& model, const Touch& t) {
   constexpr double rounding = 1e-12;                  // of the diameter
-  return t.gap < -rounding * model.diameter[t.particle];
+  return t.bears || t.gap < -rounding * model.diameter[t.particle];
 }
 
 bool scalar(Quantity q) { return q == Quantity::gap || q == Quantity::contacts; }

@@ -118,7 +118,7 @@ void RunDirectory::add_frame(const Motion& motion) {
 
 void RunDirectory::add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches) {
   for (const Touch& t : touches) {
-    if (!(t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
+    if (!(t.bears || t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
     const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);
     const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
     contacts_.add({label, state.load_factor, model_.id[t.particle], second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});

@@ -25,8 +25,8 @@ struct Sink {
   std::function<void(const PathPoint& point, bool last)> point;
   std::function<void(const PathPoint& point, const std::vector<Mode>& modes)> modes;
   std::function<void(const std::string& note)> note;
-  std::function<void(const Moment& moment, bool frame)> moment;
-  std::function<void(const std::string& line, double step)> progress;
+  std::function<void(const Moment& moment, bool frame)> moment = {};
+  std::function<void(const std::string& line, double step)> progress = {};
 };
 
 /// The load factor that a problem starts at: path.start_lambda if that is given, else path.from of a path, and 1 (loads
