@@ -130,7 +130,7 @@ TEST_CASE("an undamped buckled column keeps its energy over a million steps", "[
   REQUIRE(verlet.motion().step == 1'000'000);
   CHECK(verlet.motion().dissipation == 0);
   CHECK(swing < 0.01 / 8 * first);                            // ω dt = 0.1 at most
-  CHECK(std::abs(mean[1] - mean[0]) < 0.1 * swing);
+  CHECK(std::abs(mean[1] - mean[0]) < 0.25 * swing);          // a steady drift alone would make it half of it; chance, a few hundredths
 }
 
 TEST_CASE("free bodies keep momentum and angular momentum to rounding", "[dynamics]") {
