@@ -86,9 +86,21 @@ void add_carried(PairLocal& u, bool first, const std::array<Carried, n>& carried
   u.hessian.noalias() += J.transpose() * HJ;
 }
 
+/// Adds a function of one point that a body carries, fixed in space otherwise, given its gradient and Hessian by the place of the
+/// point, to (x, θ) of that body: J = [I, −[a]×], (θ,θ) besides: (g aᵀ + a gᵀ)/2 − (g·a) I.
+inline void add_point(Local<2>& u, const Vec3& arm, const Vec3& gradient, const Mat3& hessian) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Mat3::Identity(), -cross_matrix(arm);
+  u.gradient.noalias() += J.transpose() * gradient;
+  const Mat3 ga = gradient * arm.transpose();
+  u.block(1, 1) += (ga + ga.transpose()) / 2 - gradient.dot(arm) * Mat3::Identity();
+  u.hessian.noalias() += J.transpose() * hessian * J;
+}
+
 /// The upper triangle of the Hessian made the mirror of the lower one.
-inline void mirror(PairLocal& u) {
-  for (int column = 1; column < 12; ++column)
+template <int n>
+void mirror(Local<n>& u) {
+  for (int column = 1; column < 3 * n; ++column)
     for (int row = 0; row < column; ++row) u.hessian(row, column) = u.hessian(column, row);
 }
 

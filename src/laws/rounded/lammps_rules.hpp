@@ -1,0 +1,86 @@
+#pragma once
+// The contact rules that LAMMPS follows in pair_style body/rounded/polyhedron and fix wall/body/polyhedron: forces for
+// comparison and for dynamics, not a potential.
+#include "laws/rounded/core_distance.hpp"
+#include "laws/rounded/kernel.hpp"
+#include "laws/rounded/pose.hpp"
+
+#include <limits>
+
+namespace elamin {
+
+/// How a body moves: velocity of its position and angular velocity.
+struct Motion {
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  /// Of the point at `arm` from the position.
+  Vec3 at(const Vec3& arm) const { return velocity + spin.cross(arm); }
+};
+
+/// Force on a body and torque about its position.
+struct Wrench {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  void add(const Vec3& f, const Vec3& arm) { force += f, torque += arm.cross(f); }
+};
+
+enum class LammpsHow {
+  direct,                                      // the kernel's force once
+  scaled,                                      // touching: the kernel's force times the area factor
+  dropped,                                     // touching, too near to another contact: energy, no elastic force
+  through                                      // an edge through a face: if touching, energy and no elastic force
+};
+
+/// One hit, in the words of the rules: the point of `first_of` the pair's bodies (0 or 1) on its feature, the foot on the other's.
+struct LammpsContact {
+  int first_of = 0;
+  Feature first, second;
+  double gap = 0;
+  LammpsHow how = LammpsHow::direct;
+  Vec3 point = Vec3::Zero(), foot = Vec3::Zero(), normal = Vec3::Zero();   // world; normal from foot to point
+};
+
+struct LammpsPair {
+  double energy = 0;                           // as LAMMPS reports it: RoundedKernel::reported
+  std::array<Wrench, 2> on;                    // bodies i and j
+  double area_factor = 1;                      // j_a ≥ 1
+  bool through = false;                        // an edge passes through a face: the cores overlap
+  bool overflow = false;                       // more than 32 touching contacts: LAMMPS writes beyond its list
+  bool parallel = false;                       // parallel edges met at mid points: force and torque are no gradient
+  bool dropped = false;
+  /// Whether, at rest and without friction, the forces are minus the gradient of the energy while the set of contacts stays.
+  bool conservative() const { return area_factor == 1 && !through && !parallel && !dropped; }
+};
+
+/// The rules of a pair. Source: LAMMPS 29 Sep 2021, its manual and its answers (data/polyhedra/README.md, section 3).
+///   f = −U′(δ) of the coded kernel along n, from foot to point; hits at δ > 0: f n. At δ ≤ 0: (j_a + μ) f n − c_n v_n − c_t v_t,
+///   v the relative velocity of the two points, v_n = (v·n) n, v_t = v − v_n; spheres: f n − c_n v_n − c_t v_t.
+///   j_a = max(1, area/(kept · unit_area)) for three and more touching contacts, area = π · mean squared distance of their
+///   points from their mean; else 1.
+/// One constant 1e-3 serves for lengths, angles and parameters: the rules are not free of scale, and the order of the two bodies
+/// matters where edges are parallel or j_a > 1.
+struct LammpsRules {
+  RoundedKernel kernel;                        // Form::coded
+  double normal_damping = 0;                   // c_n
+  double tangential_damping = 0;               // c_t
+  double friction = 0;                         // μ
+  double unit_area = 1;                        // δ_ua; LAMMPS takes a negative one for 1; not 0
+
+  /// Body i before j, as in the file. Contacts, if wanted, are appended.
+  LammpsPair pair(const RoundedBody& i, const RoundedBody& j, const Motion& vi = {}, const Motion& vj = {},
+                  std::vector<LammpsContact>* contacts = nullptr) const;
+
+  /// Why no energy can be minimised by these rules, whatever the contacts; empty if it can while each pair is `conservative`.
+  std::vector<std::string> no_potential() const;
+};
+
+/// fix wall/body/polyhedron between two planes across an axis. Of the side nearer to the centre every vertex with unsigned
+/// distance s ≤ ρ has the force k_n (ρ − s) away from the plane on its own side, −c_n v_n − c_t v_t; no energy; nothing if the
+/// centre is farther than the core's extent + ρ (sphere: ρ). LAMMPS's default c_t is c_n/2.
+struct LammpsWall {
+  double stiffness = 0, normal_damping = 0, tangential_damping = 0;
+  int axis = 2;
+  double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();   // infinite: no wall
+
+  Wrench on(const RoundedBody& body, const Motion& motion = {}) const;
+};
+
+}  // namespace elamin
