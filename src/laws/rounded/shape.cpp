@@ -77,7 +77,7 @@ CoreMesh rod_core(double length) { return {{-length / 2 * Vec3::UnitX(), length 
 
 CoreMesh tetrahedron_core(double edge) {
   const double a = edge / 2, h = edge / std::sqrt(8.0);
-  return {{{-a, 0, -h}, {a, 0, -h}, {0, -a, h}, {0, a, h}}, {}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  return {{{-a, 0, -h}, {a, 0, -h}, {0, -a, h}, {0, a, h}}, {}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 }
 
 CoreMesh box_core(const Vec3& sides) {
