@@ -120,14 +120,17 @@ struct Meeting {
   Vec3 on_a, on_b;
 };
 
-/// The ends of a on the line b: two within b: their middle; one: that one.
-Meeting ends_on(const Line& a, const Line& b) {
+/// Parallel edges. Both ends of a within b: their middle; one: that one; none, but b within a: the middle of b and the point
+/// of a whose foot it is.
+Meeting beside(const Line& a, const Line& b) {
   const Vec3 p = b.foot(a.from), q = b.foot(a.to);
-  const bool first = between_ends(b.parameter(p)), second = between_ends(b.parameter(q));
+  const double s = b.parameter(p), t = b.parameter(q);
+  const bool first = between_ends(s), second = between_ends(t);
   if (first && second) return {true, (a.from + a.to) / 2, (p + q) / 2};
   if (first) return {true, a.from, p};
   if (second) return {true, a.to, q};
-  return {};
+  if ((s < 0) == (t < 0)) return {};
+  return {true, a.from + (0.5 - s) / (t - s) * (a.to - a.from), (b.from + b.to) / 2};
 }
 
 void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, const OnHit& hit) {
@@ -140,11 +143,7 @@ void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, 
       double r = 0;
       if (parallel) {
         r = (a.from - b.foot(a.from)).norm();
-        m = ends_on(a, b);
-        if (!m.found) {
-          const Meeting other = ends_on(b, a);
-          m = {other.found, other.on_b, other.on_a};
-        }
+        m = beside(a, b);
       } else {
         const LinePair lines(a.from, u, b.from, v);
         r = lines.distance;

@@ -29,7 +29,9 @@ class Sum {
 
   void add(const LammpsHit& hit) {
     const double gap = hit.distance - radii_;
-    const Vec3 n = (hit.point - hit.foot).normalized(), f = -rules_.kernel.slope(gap) * n;
+    const double force = -rules_.kernel.slope(gap);
+    const Vec3 apart = hit.point - hit.foot, n = apart.normalized();   // 0 where the points coincide: LAMMPS divides by zero
+    const Vec3 along = hit.distance > 0 ? Vec3(apart / hit.distance) : Vec3::Zero(), f = force * along;   // parallel edges: not unit
     pair_.energy += rules_.kernel.reported(gap);
     pair_.through |= hit.through;
     pair_.parallel |= hit.parallel && gap <= rules_.kernel.cutoff;
@@ -38,7 +40,7 @@ class Sum {
       damp(hit, n);
       if (!sphere_) {
         apply(hit, rules_.friction * f);
-        if (!hit.through) stored_.push_back({hit, f});
+        if (!hit.through) stored_.push_back({hit, force * n});
       }
     }
     if (gap > rules_.kernel.cutoff) return;
