@@ -23,6 +23,20 @@ TEST_CASE("the rules of LAMMPS give its energies, forces and torques", "[laws][r
   }
 }
 
+TEST_CASE("pairs of boxes and prisms in motion, with friction, area factor and parallel edges", "[laws][rounded][lammps]") {
+  const ReferenceCase c = read_case("pairs", "polyhedra_pairs");
+  const LammpsBodies all = at_start(c);
+  CHECK(lammps_forces(c, all).off(c.expected["lammps"]) <= 1e-11);
+  int scaled = 0, dropped = 0, parallel = 0;
+  for (std::size_t k = 0; k < c.bodies.size(); k += 2) {
+    const LammpsPair pair = lammps_rules(c, k, k + 1).pair(c.body(k), c.body(k + 1));
+    scaled += pair.area_factor > 1, dropped += pair.dropped, parallel += pair.parallel;
+  }
+  CHECK(scaled >= 30);
+  CHECK(dropped >= 5);
+  CHECK(parallel >= 5);
+}
+
 TEST_CASE("the rules of LAMMPS list its contacts and know when they have no potential", "[laws][rounded][lammps]") {
   std::set<std::string> met;
   for (const ReferenceCase& c : static_cases()) {

@@ -84,13 +84,15 @@ inline std::vector<ReferenceBody> read_bodies(const std::string& file) {
   return out;
 }
 
-inline ReferenceCase reference_case(const std::string& name) {
+inline ReferenceCase read_case(const std::string& name, const std::string& folder) {
   ReferenceCase c;
-  c.name = name, c.expected = reference("polyhedra/" + name + "/expected.json");
-  c.bodies = read_bodies(std::string(ELAMIN_ROOT) + "/data/polyhedra/" + name + "/data.bodies");
+  c.name = name, c.expected = reference(folder + "/expected.json");
+  c.bodies = read_bodies(std::string(ELAMIN_ROOT) + "/data/" + folder + "/data.bodies");
   for (const ReferenceBody& b : c.bodies) c.shapes.push_back(rounded_shape(b.core, b.radius));
   return c;
 }
+
+inline ReferenceCase reference_case(const std::string& name) { return read_case(name, "polyhedra/" + name); }
 
 /// All of them, without those that move (names that begin with dyn).
 inline std::vector<ReferenceCase> static_cases() {
