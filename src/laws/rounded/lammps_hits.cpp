@@ -83,33 +83,36 @@ void sphere_hits(int sphere, const LammpsPlaced& s, const LammpsPlaced& body, do
 
 /// The edges of body a (0: i, 1: j) against the faces of the other.
 void edges_on_faces(int first_of, const LammpsPlaced& a, const LammpsPlaced& b, double reach, const OnHit& hit) {
+  const std::size_t faces = b.normals.size();
   std::vector<bool> met(a.vertices.size());
+  std::vector<double> heights(a.vertices.size() * faces), sides(faces);   // of a's vertices and of b's center above b's faces
+  for (std::size_t f = 0; f < faces; ++f) {
+    const Vec3& corner = b.vertices[b.shape->faces[f].corners[0]];
+    sides[f] = b.normals[f].dot(b.center - corner);
+    for (std::size_t k = 0; k < a.vertices.size(); ++k) heights[k * faces + f] = b.normals[f].dot(a.vertices[k] - corner);
+  }
   for (int e = 0; e < static_cast<int>(a.shape->edges.size()); ++e) {
     const std::array<int, 2> ends{a.shape->edges[e].from, a.shape->edges[e].to};
-    for (int f = 0; f < static_cast<int>(b.normals.size()); ++f) {
+    for (int f = 0; f < static_cast<int>(faces); ++f) {
       const RoundedShape::Face& face = b.shape->faces[f];
-      const Vec3& n = b.normals[f];
-      const Vec3& corner = b.vertices[face.corners[0]];
       const Feature on{FeatureKind::face, f};
-      const double side = n.dot(b.center - corner);
-      std::array<double, 2> height;
-      std::array<Vec3, 2> foot;
-      for (int k = 0; k < 2; ++k) height[k] = n.dot(a.vertices[ends[k]] - corner), foot[k] = a.vertices[ends[k]] - height[k] * n;
-      if (height[0] * side > 0 && height[1] * side > 0) continue;
+      const std::array<double, 2> height{heights[ends[0] * faces + f], heights[ends[1] * faces + f]};
+      if (height[0] * sides[f] > 0 && height[1] * sides[f] > 0) continue;
+      const auto foot = [&](int k) -> Vec3 { return a.vertices[ends[k]] - height[k] * b.normals[f]; };
       if (std::abs(height[1] - height[0]) >= eps) {
         const double t = height[0] / (height[0] - height[1]);
         if (between_ends(t)) {
           const Vec3 crossing = a.vertices[ends[0]] + t * (a.vertices[ends[1]] - a.vertices[ends[0]]);
           if (!inside_triangle(b, face, crossing)) continue;
           const int k = std::abs(height[0]) < std::abs(height[1]) ? 0 : 1;
-          hit({first_of, {FeatureKind::edge, e}, on, a.vertices[ends[k]], foot[k], std::abs(height[k]), true});
+          hit({first_of, {FeatureKind::edge, e}, on, a.vertices[ends[k]], foot(k), std::abs(height[k]), true});
           continue;
         }
       }
       for (int k = 0; k < 2; ++k) {
-        if (met[ends[k]] || std::abs(height[k]) > reach || !inside_face(b, face, foot[k])) continue;
+        if (met[ends[k]] || std::abs(height[k]) > reach || !inside_face(b, face, foot(k))) continue;
         met[ends[k]] = true;
-        hit({first_of, {FeatureKind::vertex, ends[k]}, on, a.vertices[ends[k]], foot[k], std::abs(height[k])});
+        hit({first_of, {FeatureKind::vertex, ends[k]}, on, a.vertices[ends[k]], foot(k), std::abs(height[k])});
       }
     }
   }
@@ -138,6 +141,9 @@ void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, 
     for (int ej = 0; ej < static_cast<int>(j.shape->edges.size()); ++ej) {
       const Line a = line(j, ej), b = line(i, ei);
       const Vec3 u = a.to - a.from, v = b.to - b.from;
+      // Points between the ends are farther apart than reach, also where r is that of another point of nearly parallel edges.
+      const double far = 0.55 * (u.norm() + v.norm()) + reach;
+      if ((a.from + a.to - b.from - b.to).squaredNorm() > 4 * far * far) continue;
       const bool parallel = std::abs(std::abs(u.normalized().dot(v.normalized())) - 1) < eps;
       Meeting m;
       double r = 0;
