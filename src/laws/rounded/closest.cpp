@@ -8,7 +8,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The face of `by` that has all vertices of `seen` farthest outside of it: the separation along its normal, and its lowest vertex.
+/// The face of `by` that has all vertices of `seen` farthest outside of it: the separation along its normal, and its
+/// lowest vertex.
 struct FaceAxis {
   double separation = -infinity;
   int face = 0, vertex = 0;
@@ -113,7 +114,8 @@ std::optional<ClosestFeatures> closest_features(const PairView& view, double ran
     const ClosestFeatures crossed = edge_axis(view);
     if (crossed.distance <= 0) {
       if (crossed.distance > separation) return crossed;
-      return onto_b.separation >= onto_a.separation ? at_face(view.seen(true), true, onto_b) : at_face(view.seen(false), false, onto_a);
+      return onto_b.separation >= onto_a.separation ? at_face(view.seen(true), true, onto_b)
+          : at_face(view.seen(false), false, onto_a);
     }
   }
   const ClosestFeatures best = nearest(view, range);
@@ -136,7 +138,8 @@ PairLocal RoundedClosest::derivatives(const RoundedBody& a, const RoundedBody& b
   u.value = kernel.value(gap);
   if (f->edges) {
     const LineFunction d = LineDerivatives(f->lines, view.edge_a(f->edge_a), view.edge_b(f->edge_b)).distance;
-    view.add_lines(u, f->edge_a, f->lines, slope * d.gradient, slope * d.hessian + curvature * d.gradient * d.gradient.transpose());
+    view.add_lines(u, f->edge_a, f->lines, slope * d.gradient,
+        slope * d.hessian + curvature * d.gradient * d.gradient.transpose());
   } else {
     const Vec3& n = f->at.normal;
     view.add_vertex(u, f->first, f->vertex, slope * n, curvature * n * n.transpose() + slope * f->at.curvature());
@@ -149,7 +152,8 @@ void RoundedClosest::contacts(const RoundedBody& a, const RoundedBody& b, std::v
   PairView& view = scratch();
   const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff);
   if (!f) return;
-  out.push_back(f->edges ? view.edge_contact(f->edge_a, f->edge_b, f->lines, 1) : view.vertex_contact(f->first, f->vertex, f->at, 1));
+  out.push_back(f->edges ? view.edge_contact(f->edge_a, f->edge_b, f->lines, 1)
+      : view.vertex_contact(f->first, f->vertex, f->at, 1));
 }
 
 double core_separation(const RoundedBody& a, const RoundedBody& b) {

@@ -6,8 +6,8 @@
 
 namespace elamin {
 
-/// Where two cores are nearest: a vertex of one at any feature of the other, or two edges. Signed: cores that overlap have
-/// minus the smallest translation that separates them.
+/// Where two cores are nearest: a vertex of one at any feature of the other, or two edges. Signed: cores that overlap
+/// have minus the smallest translation that separates them.
 struct ClosestFeatures {
   double distance = 0;                         // of the cores
   bool edges = false;
@@ -18,14 +18,15 @@ struct ClosestFeatures {
   LinePair lines;                              // in the frame of B
 };
 
-/// Of the cores seen in `view`; nothing if they are farther apart than `range`. Disjoint cores: the least over vertex against
-/// core and over edge against edge. Otherwise the axis of largest separation among the normals of all faces and the cross
-/// products of edges, which are the normals of the faces of the Minkowski difference.
+/// Of the cores seen in `view`; nothing if they are farther apart than `range`. Disjoint cores: the least over vertex
+/// against core and over edge against edge. Otherwise the axis of largest separation among the normals of all faces and
+/// the cross products of edges, which are the normals of the faces of the Minkowski difference.
 std::optional<ClosestFeatures> closest_features(const PairView& view, double range);
 
-/// Two rounded bodies, one contact at the closest points of the cores: E = U(dist − ρ_A − ρ_B), the exact separation of the
-/// rounded surfaces. C¹ in translations while cores do not overlap; in rotations the gradient jumps where closest points are
-/// not unique (parallel edges or faces): for bodies that rest on faces take RoundedMulti. Symmetric in the bodies.
+/// Two rounded bodies, one contact at the closest points of the cores: E = U(dist − ρ_A − ρ_B), the exact separation of
+/// the rounded surfaces. C¹ in translations while cores do not overlap; in rotations the gradient jumps where closest
+/// points are not unique (parallel edges or faces): for bodies that rest on faces take RoundedMulti. Symmetric in the
+/// bodies.
 struct RoundedClosest {
   RoundedKernel kernel;
 

@@ -95,7 +95,7 @@ LineDerivatives::LineDerivatives(const LinePair& lines, const Vec3& u, const Vec
   distance.hessian.bottomLeftCorner<3, 3>() = M.transpose();
   distance.hessian.bottomRightCorner<3, 3>() = -lines.distance * M.transpose() * M;
 
-  Vec6 da, db, dc;                                                     // of α, β, γ; only β has second derivatives: δp·δu
+  Vec6 da, db, dc;                                                     // of α, β, γ; only β is not linear: δp·δu
   da << Vec3::Zero(), v;
   db << u, p;
   dc << v, Vec3::Zero();

@@ -16,8 +16,9 @@ struct Feature {
 /// The signed distance s of a point y from a core and the nearest feature of it, in the frame of the core.
 ///   n = ∇s = (y − b)/s, b the nearest point; ∇²s = (P − n nᵀ)/s with P = I − (projector on the feature),
 /// so P n = n: a face has P = n nᵀ, an edge with unit direction e has P = I − e eᵀ, a vertex P = I, and ∂b/∂y = I − P.
-/// Inside a polyhedron s = −(depth below the nearest face). s is C¹ outside; its gradient jumps inside where the nearest face does.
-/// On a rod or a sphere's centre itself there is no direction: n = 0 and the curvature is taken as zero.
+/// Inside a polyhedron s = −(depth below the nearest face). s is C¹ outside; its gradient jumps inside where the
+/// nearest face does. On a rod or a sphere's centre itself there is no direction: n = 0 and the curvature is taken as
+/// zero.
 struct CoreDistance {
   double value = 0;
   Vec3 normal = Vec3::Zero();
@@ -47,8 +48,9 @@ double face_heights(const RoundedShape& shape, const Vec3& y, double* out);
 
 /// The lines a + t_a u and b + t_b v at their common perpendicular: u an edge of one core, v of the other, b fixed.
 ///   N = u × v,   t_a = −((a − b) × v)·N/|N|²,   t_b = −((a − b) × u)·N/|N|²,   p = (a + t_a u) − (b + t_b v) = d n
-/// Derivatives by δp, the motion of the foot carried by the first body, and δu, the turning of its edge (6 variables; v does not
-/// move and |u|² does not change), with α = u·v, U = u·u, V = v·v, D = U V − α², β = u·p, γ = v·p, β = γ = 0 here:
+/// Derivatives by δp, the motion of the foot carried by the first body, and δu, the turning of its edge (6 variables; v
+/// does not move and |u|² does not change), with α = u·v, U = u·u, V = v·v, D = U V − α², β = u·p, γ = v·p, β = γ = 0
+/// here:
 ///   d = p·n:              ∇d = (n, 0),   δ²d = 2 δp·δn − d |δn|²,   δn = M δu,  M = ∓(I − n nᵀ)[v]×/|N|
 ///   t_a: (α γ − V β)/D,   t_b: (U γ − α β)/D,   sin² = 1 − α²/(U V)
 /// Lines that are parallel to rounding have no common perpendicular: `crossing` is false and nothing else is set.

@@ -11,11 +11,13 @@ namespace {
 constexpr double eps = lammps_epsilon;
 using OnHit = std::function<void(const LammpsHit&)>;
 
-/// The angles that the sides subtend at h, in the plane of the face, sum to a full turn. Too near to a corner: not inside.
+/// The angles that the sides subtend at h, in the plane of the face, sum to a full turn. Too near to a corner: not
+/// inside.
 bool inside_face(const LammpsPlaced& body, const RoundedShape::Face& face, const Vec3& h) {
   double sum = 0;
   for (std::size_t k = 0; k < face.corners.size(); ++k) {
-    const Vec3 a = body.vertices[face.corners[k]] - h, b = body.vertices[face.corners[(k + 1) % face.corners.size()]] - h;
+    const Vec3 a = body.vertices[face.corners[k]] - h,
+        b = body.vertices[face.corners[(k + 1) % face.corners.size()]] - h;
     const double product = a.norm() * b.norm();
     if (product < eps) return false;
     sum += std::acos(std::clamp(a.dot(b) / product, -1.0, 1.0));
@@ -85,11 +87,13 @@ void sphere_hits(int sphere, const LammpsPlaced& s, const LammpsPlaced& body, do
 void edges_on_faces(int first_of, const LammpsPlaced& a, const LammpsPlaced& b, double reach, const OnHit& hit) {
   const std::size_t faces = b.normals.size();
   std::vector<bool> met(a.vertices.size());
-  std::vector<double> heights(a.vertices.size() * faces), sides(faces);   // of a's vertices and of b's center above b's faces
+  // of a's vertices and of b's center above b's faces
+  std::vector<double> heights(a.vertices.size() * faces), sides(faces);
   for (std::size_t f = 0; f < faces; ++f) {
     const Vec3& corner = b.vertices[b.shape->faces[f].corners[0]];
     sides[f] = b.normals[f].dot(b.center - corner);
-    for (std::size_t k = 0; k < a.vertices.size(); ++k) heights[k * faces + f] = b.normals[f].dot(a.vertices[k] - corner);
+    for (std::size_t k = 0; k < a.vertices.size(); ++k)
+      heights[k * faces + f] = b.normals[f].dot(a.vertices[k] - corner);
   }
   for (int e = 0; e < static_cast<int>(a.shape->edges.size()); ++e) {
     const std::array<int, 2> ends{a.shape->edges[e].from, a.shape->edges[e].to};
@@ -123,8 +127,8 @@ struct Meeting {
   Vec3 on_a, on_b;
 };
 
-/// Parallel edges. Both ends of a within b: their middle; one: that one; none, but b within a: the middle of b and the point
-/// of a whose foot it is.
+/// Parallel edges. Both ends of a within b: their middle; one: that one; none, but b within a: the middle of b and the
+/// point of a whose foot it is.
 Meeting beside(const Line& a, const Line& b) {
   const Vec3 p = b.foot(a.from), q = b.foot(a.to);
   const double s = b.parameter(p), t = b.parameter(q);
@@ -141,7 +145,8 @@ void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, 
     for (int ej = 0; ej < static_cast<int>(j.shape->edges.size()); ++ej) {
       const Line a = line(j, ej), b = line(i, ei);
       const Vec3 u = a.to - a.from, v = b.to - b.from;
-      // Points between the ends are farther apart than reach, also where r is that of another point of nearly parallel edges.
+      // Points between the ends are farther apart than reach, also where r is that of another point of nearly parallel
+      // edges.
       const double far = 0.55 * (u.norm() + v.norm()) + reach;
       if ((a.from + a.to - b.from - b.to).squaredNorm() > 4 * far * far) continue;
       const bool parallel = std::abs(std::abs(u.normalized().dot(v.normalized())) - 1) < eps;
@@ -153,7 +158,8 @@ void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, 
       } else {
         const LinePair lines(a.from, u, b.from, v);
         r = lines.distance;
-        m = {between_ends(a.parameter(lines.foot_a)) && between_ends(b.parameter(lines.foot_b)), lines.foot_a, lines.foot_b};
+        m = {between_ends(a.parameter(lines.foot_a)) && between_ends(b.parameter(lines.foot_b)), lines.foot_a,
+            lines.foot_b};
       }
       if (!m.found || r < eps || !(r < reach)) continue;
       hit({1, {FeatureKind::edge, ej}, {FeatureKind::edge, ei}, m.on_a, m.on_b, r, false, parallel});

@@ -19,8 +19,8 @@ struct LammpsPlaced {
   bool sphere() const { return vertices.size() == 1; }
 };
 
-/// A point of one body (`first_of`: 0 for i, 1 for j) on `first`, the foot on `second` of the other. `distance` is that of the
-/// rules, which for parallel edges is not |point − foot|.
+/// A point of one body (`first_of`: 0 for i, 1 for j) on `first`, the foot on `second` of the other. `distance` is that
+/// of the rules, which for parallel edges is not |point − foot|.
 struct LammpsHit {
   int first_of;
   Feature first, second;
@@ -29,8 +29,9 @@ struct LammpsHit {
   bool through = false, parallel = false;
 };
 
-/// Calls `hit` with each, in LAMMPS's order: edges of i on faces of j, edges of j on faces of i, edges on edges; a sphere: faces,
-/// then edges. Distances beyond the cutoff may be among them: the kernel is 0 there.
-void lammps_hits(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff, const std::function<void(const LammpsHit&)>& hit);
+/// Calls `hit` with each, in LAMMPS's order: edges of i on faces of j, edges of j on faces of i, edges on edges; a
+/// sphere: faces, then edges. Distances beyond the cutoff may be among them: the kernel is 0 there.
+void lammps_hits(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff,
+    const std::function<void(const LammpsHit&)>& hit);
 
 }  // namespace elamin

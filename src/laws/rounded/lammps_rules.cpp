@@ -22,7 +22,8 @@ struct Stored {
 /// Adds up what the hits of one pair do.
 class Sum {
  public:
-  Sum(const LammpsRules& rules, const LammpsPlaced& i, const LammpsPlaced& j, const Motion& vi, const Motion& vj, const Vec3& origin,
+  Sum(const LammpsRules& rules, const LammpsPlaced& i, const LammpsPlaced& j, const Motion& vi, const Motion& vj,
+      const Vec3& origin,
       std::vector<LammpsContact>* contacts)
       : rules_(rules), body_{&i, &j}, motion_{&vi, &vj}, origin_(origin), contacts_(contacts),
         radii_(i.shape->radius + j.shape->radius), sphere_(i.sphere() || j.sphere()) {}
@@ -30,8 +31,9 @@ class Sum {
   void add(const LammpsHit& hit) {
     const double gap = hit.distance - radii_;
     const double force = -rules_.kernel.slope(gap);
-    const Vec3 apart = hit.point - hit.foot, n = apart.normalized();   // 0 where the points coincide: LAMMPS divides by zero
-    const Vec3 along = hit.distance > 0 ? Vec3(apart / hit.distance) : Vec3::Zero(), f = force * along;   // parallel edges: not unit
+    const Vec3 apart = hit.point - hit.foot, n = apart.normalized();   // 0 where they meet: LAMMPS divides by zero
+    // Of parallel edges the distance is that of another point, and this is no unit vector.
+    const Vec3 along = hit.distance > 0 ? Vec3(apart / hit.distance) : Vec3::Zero(), f = force * along;
     pair_.energy += rules_.kernel.reported(gap);
     pair_.through |= hit.through;
     pair_.parallel |= hit.parallel && gap <= rules_.kernel.cutoff;
@@ -45,8 +47,9 @@ class Sum {
     }
     if (gap > rules_.kernel.cutoff) return;
     const LammpsHow how = hit.through ? LammpsHow::through : gap > 0 || sphere_ ? LammpsHow::direct : LammpsHow::scaled;
-    if (how == LammpsHow::scaled && contacts_) listed_.push_back(contacts_->size());
-    if (contacts_) contacts_->push_back({hit.first_of, hit.first, hit.second, gap, how, origin_ + hit.point, origin_ + hit.foot, n});
+    if (contacts_ && how == LammpsHow::scaled) listed_.push_back(contacts_->size());
+    if (!contacts_) return;
+    contacts_->push_back({hit.first_of, hit.first, hit.second, gap, how, origin_ + hit.point, origin_ + hit.foot, n});
   }
 
   LammpsPair finish() {
@@ -74,14 +77,17 @@ class Sum {
   }
 
   /// A sphere is pushed and moved at its centre.
-  Vec3 arm(int k, const Vec3& point) const { return body_[k]->sphere() ? Vec3::Zero() : Vec3(point - body_[k]->center); }
+  Vec3 arm(int k, const Vec3& point) const {
+    return body_[k]->sphere() ? Vec3::Zero() : Vec3(point - body_[k]->center);
+  }
 
   void scale(std::vector<bool>& kept) {
     const auto middle = [this](std::size_t k) -> Vec3 { return (stored_[k].hit.point + stored_[k].hit.foot) / 2; };
     Vec3 mean = Vec3::Zero();
     double count = 0, spread = 0;
     for (std::size_t k = 0; k < stored_.size(); ++k) {
-      for (std::size_t m = 0; m < k; ++m) kept[k] = kept[k] && !(kept[m] && (middle(k) - middle(m)).squaredNorm() < lammps_epsilon);
+      for (std::size_t m = 0; m < k; ++m)
+        kept[k] = kept[k] && !(kept[m] && (middle(k) - middle(m)).squaredNorm() < lammps_epsilon);
       pair_.dropped |= !kept[k];
       if (kept[k]) mean += place(k), count += 1;
     }

@@ -29,7 +29,8 @@ enum class LammpsHow {
   through                                      // an edge through a face: if touching, energy and no elastic force
 };
 
-/// One hit, in the words of the rules: the point of `first_of` the pair's bodies (0 or 1) on its feature, the foot on the other's.
+/// One hit, in the words of the rules: the point of `first_of` the pair's bodies (0 or 1) on its feature, the foot on
+/// the other's.
 struct LammpsContact {
   int first_of = 0;
   Feature first, second;
@@ -46,17 +47,19 @@ struct LammpsPair {
   bool overflow = false;                       // more than 32 touching contacts: LAMMPS writes beyond its list
   bool parallel = false;                       // parallel edges met at mid points: force and torque are no gradient
   bool dropped = false;
-  /// Whether, at rest and without friction, the forces are minus the gradient of the energy while the set of contacts stays.
+  /// Whether, at rest and without friction, the forces are minus the gradient of the energy while the set of contacts
+  /// stays.
   bool conservative() const { return area_factor == 1 && !through && !parallel && !dropped; }
 };
 
 /// The rules of a pair. Source: LAMMPS 29 Sep 2021, its manual and its answers (data/polyhedra/README.md, section 3).
-///   f = −U′(δ) of the coded kernel along n, from foot to point; hits at δ > 0: f n. At δ ≤ 0: (j_a + μ) f n − c_n v_n − c_t v_t,
-///   v the relative velocity of the two points, v_n = (v·n) n, v_t = v − v_n; spheres: f n − c_n v_n − c_t v_t.
-///   j_a = max(1, area/(kept · unit_area)) for three and more touching contacts, area = π · mean squared distance of their
-///   points from their mean; else 1.
-/// One constant 1e-3 serves for lengths, angles and parameters: the rules are not free of scale, and the order of the two bodies
-/// matters where edges are parallel or j_a > 1.
+///   f = −U′(δ) of the coded kernel along n, from foot to point; hits at δ > 0: f n. At δ ≤ 0:
+///   (j_a + μ) f n − c_n v_n − c_t v_t, v the relative velocity of the two points, v_n = (v·n) n, v_t = v − v_n;
+///   with a sphere: f n − c_n v_n − c_t v_t.
+///   j_a = max(1, area/(kept · unit_area)) for three and more touching contacts, else 1;
+///   area = π · mean squared distance of their points from their mean.
+/// One constant 1e-3 serves for lengths, angles and parameters: the rules are not free of scale, and the order of the
+/// two bodies matters where edges are parallel or j_a > 1.
 struct LammpsRules {
   RoundedKernel kernel;                        // Form::coded
   double normal_damping = 0;                   // c_n
@@ -68,17 +71,19 @@ struct LammpsRules {
   LammpsPair pair(const RoundedBody& i, const RoundedBody& j, const Motion& vi = {}, const Motion& vj = {},
                   std::vector<LammpsContact>* contacts = nullptr) const;
 
-  /// Why no energy can be minimised by these rules, whatever the contacts; empty if it can while each pair is `conservative`.
+  /// Why no energy can be minimised by these rules, whatever the contacts; empty if it can while each pair is
+  /// `conservative`.
   std::vector<std::string> no_potential() const;
 };
 
-/// fix wall/body/polyhedron between two planes across an axis. Of the side nearer to the centre every vertex with unsigned
-/// distance s ≤ ρ has the force k_n (ρ − s) away from the plane on its own side, −c_n v_n − c_t v_t; no energy; nothing if the
-/// centre is farther than the core's extent + ρ (sphere: ρ). LAMMPS's default c_t is c_n/2.
+/// fix wall/body/polyhedron between two planes across an axis. Of the side nearer to the centre every vertex with
+/// unsigned distance s ≤ ρ has the force k_n (ρ − s) away from the plane on its own side, −c_n v_n − c_t v_t; no
+/// energy; nothing if the centre is farther than the core's extent + ρ (sphere: ρ). LAMMPS's default c_t is c_n/2.
 struct LammpsWall {
   double stiffness = 0, normal_damping = 0, tangential_damping = 0;
   int axis = 2;
-  double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();   // infinite: no wall
+  double lo = -std::numeric_limits<double>::infinity();                // infinite: no wall
+  double hi = std::numeric_limits<double>::infinity();
 
   Wrench on(const RoundedBody& body, const Motion& motion = {}) const;
 };

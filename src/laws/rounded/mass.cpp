@@ -52,7 +52,8 @@ Arc arc(const Vec3& a, const Vec3& b) {
   if (!(sine > 0)) return {0, Vec3::Zero(), Mat3::Zero()};
   const Vec3 c = (b - cosine * a) / sine;                              // across a, towards b
   return {angle, sine * a + (1 - cosine) * c,
-          (angle + sine * cosine) / 2 * outer(a, a) + (angle - sine * cosine) / 2 * outer(c, c) + sine * sine / 2 * both(a, c)};
+          (angle + sine * cosine) / 2 * outer(a, a) + (angle - sine * cosine) / 2 * outer(c, c) +
+              sine * sine / 2 * both(a, c)};
 }
 
 /// x = p + t (q − p) + r w, 0 ≤ r ≤ ρ, w on an arc across q − p.
@@ -61,8 +62,8 @@ void add_edge(Moments& m, const Vec3& p, const Vec3& q, const Arc& w, double rho
   const Vec3 s = p + q;
   m.volume += r2 * w.angle * length;
   m.first += r2 * w.angle * length / 2 * s + r3 * length * w.first;
-  m.second += r2 * w.angle * length / 6 * (outer(p, p) + outer(q, q) + outer(s, s)) + r3 * length / 2 * both(s, w.first) +
-              r4 * length * w.second;
+  m.second += r2 * w.angle * length / 6 * (outer(p, p) + outer(q, q) + outer(s, s)) +
+              r3 * length / 2 * both(s, w.first) + r4 * length * w.second;
 }
 
 /// Directions n on a part Ω of the unit sphere: Ω, ∫ n dΩ, ∫ n nᵀ dΩ.
@@ -80,14 +81,16 @@ void add_vertex(Moments& m, const Vec3& v, const Cone& n, double rho) {
   m.second += r3 * n.angle * outer(v, v) + r4 * both(v, n.first) + r5 * n.second;
 }
 
-/// The cones of outward normals of the vertices, polygons on the sphere whose corners are the normals of the faces. Their area
-/// is the angle defect 2π − Σ face angles; from Gauss's theorem on the sector of the unit ball, with the sides a → b,
+/// The cones of outward normals of the vertices, polygons on the sphere whose corners are the normals of the faces.
+/// Their area is the angle defect 2π − Σ face angles; from Gauss's theorem on the sector of the unit ball, with the
+/// sides a → b,
 ///   ∫ n = ½ Σ ∠(a, b) (a × b)/|a × b|,   ∫ n nᵀ = Ω/3 I + ⅓ Σ (a + b)(a × b)ᵀ/(1 + a·b).
 std::vector<Cone> cones(const RoundedShape& shape) {
   std::vector<Cone> all(shape.vertices.size());
   if (shape.faces.empty()) {
     for (std::size_t k = 0; k < all.size(); ++k) {
-      all[k].angle = 4 * pi / static_cast<double>(all.size());         // the whole sphere, or half of it about the axis of the rod
+      // the whole sphere, or half of it about the axis of the rod
+      all[k].angle = 4 * pi / static_cast<double>(all.size());
       if (all.size() == 2) all[k].first = pi * (shape.vertices[k] - shape.vertices[1 - k]).normalized();
       all[k].second = all[k].angle / 3 * Mat3::Identity();
     }
@@ -97,7 +100,8 @@ std::vector<Cone> cones(const RoundedShape& shape) {
   for (const RoundedShape::Face& face : shape.faces)
     for (std::size_t k = 0, n = face.corners.size(); k < n; ++k) {
       const Vec3 x = shape.vertices[face.corners[k]];
-      const Vec3 a = shape.vertices[face.corners[(k + 1) % n]] - x, b = shape.vertices[face.corners[(k + n - 1) % n]] - x;
+      const Vec3 a = shape.vertices[face.corners[(k + 1) % n]] - x,
+          b = shape.vertices[face.corners[(k + n - 1) % n]] - x;
       all[face.corners[k]].angle -= std::atan2(a.cross(b).norm(), a.dot(b));
     }
   for (Cone& c : all) c.second = c.angle / 3 * Mat3::Identity();
@@ -119,7 +123,8 @@ MassProperties mass_properties(const RoundedShape& shape) {
   Moments m;
   for (const RoundedShape::Face& face : shape.faces)
     for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
-      const Vec3 a = shape.vertices[face.corners[0]] - p, b = shape.vertices[face.corners[k]] - p, c = shape.vertices[face.corners[k + 1]] - p;
+      const Vec3 a = shape.vertices[face.corners[0]] - p, b = shape.vertices[face.corners[k]] - p,
+          c = shape.vertices[face.corners[k + 1]] - p;
       add_core(m, a, b, c);
       add_slab(m, a, b, c, face.normal, shape.radius);
     }

@@ -62,7 +62,8 @@ struct VertexTerm {
 
   double value() const { return share.value * energy.value; }
 
-  /// φ = κ(b) U(s):  ∇φ = κ U′ n + U T ∇κ,  ∇²φ = κ (U″ n nᵀ + U′ ∇²s) + U′ (n (T∇κ)ᵀ + (T∇κ) nᵀ) + U T ∇²κ T,  T = ∂b/∂y.
+  /// φ = κ(b) U(s):  ∇φ = κ U′ n + U T ∇κ,  ∇²φ = κ (U″ n nᵀ + U′ ∇²s) + U′ (n (T∇κ)ᵀ + (T∇κ) nᵀ) + U T ∇²κ T;
+  /// T = ∂b/∂y.
   void add(PairLocal& u, const PairView& view) const {
     const Vec3& n = distance.normal;
     const Mat3 T = distance.tangent();
@@ -121,7 +122,8 @@ void visit(const RoundedMulti& law, const PairView& view, const OnVertex& vertex
       if (side.bounds[k] > range) continue;
       const CoreDistance d = side.distance(k);
       if (d.value > range) continue;
-      vertex(VertexTerm{first, k, d, lone[first] ? Share{} : share(*side.by, d.nearest, law.corner), kernel_jet(law.kernel, d.value - rho)});
+      const Share kappa = lone[first] ? Share{} : share(*side.by, d.nearest, law.corner);
+      vertex(VertexTerm{first, k, d, kappa, kernel_jet(law.kernel, d.value - rho)});
     }
   }
   for (int ea = 0; ea < static_cast<int>(view.shape(true).edges.size()); ++ea) {
@@ -134,7 +136,8 @@ void visit(const RoundedMulti& law, const PairView& view, const OnVertex& vertex
       if (!lines.within() || lines.distance > range) continue;
       Jet parallel = step(lines.sine2 / law.sine2);
       parallel.slope /= law.sine2, parallel.curvature /= law.sine2 * law.sine2;
-      edge(EdgeTerm{ea, eb, lines, {kernel_jet(law.kernel, lines.distance - rho), within(lines.ta, law.ends), within(lines.tb, law.ends), parallel}});
+      const Jet U = kernel_jet(law.kernel, lines.distance - rho);
+      edge(EdgeTerm{ea, eb, lines, {U, within(lines.ta, law.ends), within(lines.tb, law.ends), parallel}});
     }
   }
 }
@@ -168,9 +171,14 @@ PairLocal RoundedMulti::derivatives(const RoundedBody& a, const RoundedBody& b) 
 void RoundedMulti::contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const {
   PairView& view = scratch();
   if (!view.set(a, b, kernel.cutoff)) return;
-  visit(*this, view,
-        [&](const VertexTerm& t) { if (t.share.value > 0) out.push_back(view.vertex_contact(t.first, t.vertex, t.distance, t.share.value)); },
-        [&](const EdgeTerm& t) { if (t.weight() > 0) out.push_back(view.edge_contact(t.ea, t.eb, t.lines, t.weight())); });
+  const auto on_vertex = [&](const VertexTerm& t) {
+    const double weight = t.share.value;
+    if (weight > 0) out.push_back(view.vertex_contact(t.first, t.vertex, t.distance, weight));
+  };
+  const auto on_edge = [&](const EdgeTerm& t) {
+    if (t.weight() > 0) out.push_back(view.edge_contact(t.ea, t.eb, t.lines, t.weight()));
+  };
+  visit(*this, view, on_vertex, on_edge);
 }
 
 }  // namespace elamin

@@ -48,7 +48,8 @@ void PairView::add_lines(PairLocal& u, int ea, const LinePair& lines, const Vec6
   add_carried<2>(u, true, {point, direction}, Vec6(turn * gradient), Mat6(turn * hessian * turn.transpose()));
 }
 
-RoundedContact PairView::contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance, double weight) const {
+RoundedContact PairView::contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance,
+    double weight) const {
   const double gap = distance - radii();
   return {fa, fb, gap, weight, position_b_ + foot_b + (shape(false).radius + gap / 2) * normal, normal};
 }
@@ -61,7 +62,8 @@ RoundedContact PairView::vertex_contact(bool first, int vertex, const CoreDistan
 }
 
 RoundedContact PairView::edge_contact(int ea, int eb, const LinePair& lines, double weight) const {
-  return contact({FeatureKind::edge, ea}, {FeatureKind::edge, eb}, rotation_b_ * lines.foot_b, rotation_b_ * lines.normal, lines.distance, weight);
+  return contact({FeatureKind::edge, ea}, {FeatureKind::edge, eb}, rotation_b_ * lines.foot_b,
+      rotation_b_ * lines.normal, lines.distance, weight);
 }
 
 }  // namespace elamin

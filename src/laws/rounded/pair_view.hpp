@@ -24,12 +24,15 @@ struct CoreView {
 
   /// Vertices at shift + turn · r.
   void set(const RoundedShape& s, const RoundedShape& b, const Vec3& shift, const Mat3& turn);
-  const double* heights_of(int vertex) const { return heights.data() + static_cast<std::size_t>(vertex) * by->faces.size(); }
+  const double* heights_of(int vertex) const {
+    return heights.data() + static_cast<std::size_t>(vertex) * by->faces.size();
+  }
   double edge_bound(const RoundedShape::Edge& edge) const;
   CoreDistance distance(int vertex) const { return core_distance(*by, vertices[vertex], heights_of(vertex)); }
 };
 
-/// Two bodies A and B, A seen in the frame of B and the other way round. The difference of the positions is formed first.
+/// Two bodies A and B, A seen in the frame of B and the other way round. The difference of the positions is formed
+/// first.
 class PairView {
  public:
   /// Whether the cores may be nearer than `reach` plus the radii; if not, nothing else may be asked. Keeps its memory.
@@ -40,10 +43,15 @@ class PairView {
   /// ρ_A + ρ_B.
   double radii() const { return shape(true).radius + shape(false).radius; }
   /// Two edges, of A and B, in the frame of B.
-  Vec3 edge_a(int e) const { return a_by_b_.vertices[shape(true).edges[e].to] - a_by_b_.vertices[shape(true).edges[e].from]; }
-  Vec3 edge_b(int e) const { return shape(false).vertices[shape(false).edges[e].to] - shape(false).vertices[shape(false).edges[e].from]; }
+  Vec3 edge_a(int e) const {
+    return a_by_b_.vertices[shape(true).edges[e].to] - a_by_b_.vertices[shape(true).edges[e].from];
+  }
+  Vec3 edge_b(int e) const {
+    return shape(false).vertices[shape(false).edges[e].to] - shape(false).vertices[shape(false).edges[e].from];
+  }
   LinePair lines(int ea, int eb) const {
-    return {a_by_b_.vertices[shape(true).edges[ea].from], edge_a(ea), shape(false).vertices[shape(false).edges[eb].from], edge_b(eb)};
+    return {a_by_b_.vertices[shape(true).edges[ea].from], edge_a(ea),
+        shape(false).vertices[shape(false).edges[eb].from], edge_b(eb)};
   }
 
   /// Adds a function of the place of a vertex, of A if `first`, in the frame of the other body.
@@ -55,7 +63,8 @@ class PairView {
   RoundedContact edge_contact(int ea, int eb, const LinePair& lines, double weight) const;
 
  private:
-  RoundedContact contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance, double weight) const;
+  RoundedContact contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance,
+      double weight) const;
 
   Mat3 rotation_a_, rotation_b_;
   Vec3 a_from_b_, position_b_;

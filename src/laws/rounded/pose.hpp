@@ -7,7 +7,8 @@
 
 namespace elamin {
 
-/// Position of the origin of the body's frame and its rotation: a point r of the body is at p = x + R r. Unit quaternion.
+/// Position of the origin of the body's frame and its rotation: a point r of the body is at p = x + R r. Unit
+/// quaternion.
 struct Pose {
   ExactVector position;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
@@ -31,7 +32,8 @@ struct RoundedBody {
   Pose pose;
 };
 
-/// Value, gradient and Hessian of an energy of two bodies by the pose variables at θ = 0, in the order (x_A, θ_A, x_B, θ_B).
+/// Value, gradient and Hessian of an energy of two bodies by the pose variables at θ = 0, in the order (x_A, θ_A, x_B,
+/// θ_B).
 using PairLocal = Local<4>;
 
 /// [a]×, the matrix of b ↦ a × b.
@@ -49,13 +51,15 @@ struct Carried {
 };
 
 /// Adds a function φ of n vectors that A carries and B sees, Y = exp(−[θ_B]×)(exp([θ_A]×) arm + x_A − x_B), given its
-/// gradient g (3n) and Hessian H (3n × 3n) by the Y. With a = arm, y = offset, and m = 1 for a point, 0 for a direction,
+/// gradient g (3n) and Hessian H (3n × 3n) by the Y. With a = arm, y = offset, and m = 1 for a point, 0 for a
+/// direction,
 ///   J = [m I, −[a]×, −m I, [y]×],   gradient Jᵀ g,   Hessian Jᵀ H J and for each vector
 ///   (θ_A,θ_A): (g aᵀ + a gᵀ)/2 − (g·a) I      (θ_B,θ_B): (g yᵀ + y gᵀ)/2 − (g·y) I      (θ_A,θ_B): (g·a) I − g aᵀ
 ///   (x_A,θ_B): −m [g]×      (x_B,θ_B): +m [g]×      and transposes.
 /// `first`: A holds the first six rows, else the last six. Only the lower triangle of the Hessian is right after this.
 template <int n>
-void add_carried(PairLocal& u, bool first, const std::array<Carried, n>& carried, const Eigen::Matrix<double, 3 * n, 1>& gradient,
+void add_carried(PairLocal& u, bool first, const std::array<Carried, n>& carried,
+                 const Eigen::Matrix<double, 3 * n, 1>& gradient,
                  const Eigen::Matrix<double, 3 * n, 3 * n>& hessian) {
   const int xa = first ? 0 : 2, ta = xa + 1, xb = 2 - xa, tb = xb + 1;
   Eigen::Matrix<double, 3 * n, 12> J = Eigen::Matrix<double, 3 * n, 12>::Zero();
@@ -86,8 +90,8 @@ void add_carried(PairLocal& u, bool first, const std::array<Carried, n>& carried
   u.hessian.noalias() += J.transpose() * HJ;
 }
 
-/// Adds a function of one point that a body carries, fixed in space otherwise, given its gradient and Hessian by the place of the
-/// point, to (x, θ) of that body: J = [I, −[a]×], (θ,θ) besides: (g aᵀ + a gᵀ)/2 − (g·a) I.
+/// Adds a function of one point that a body carries, fixed in space otherwise, given its gradient and Hessian by the
+/// place of the point, to (x, θ) of that body: J = [I, −[a]×], (θ,θ) besides: (g aᵀ + a gᵀ)/2 − (g·a) I.
 inline void add_point(Local<2>& u, const Vec3& arm, const Vec3& gradient, const Mat3& hessian) {
   Eigen::Matrix<double, 3, 6> J;
   J << Mat3::Identity(), -cross_matrix(arm);

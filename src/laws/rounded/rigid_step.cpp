@@ -6,7 +6,9 @@ namespace elamin {
 
 namespace {
 
-Vec3 spin(const Eigen::Quaterniond& q, const RigidMass& m, const Vec3& L) { return q * (m.inverse_inertia * (q.conjugate() * L)); }
+Vec3 spin(const Eigen::Quaterniond& q, const RigidMass& m, const Vec3& L) {
+  return q * (m.inverse_inertia * (q.conjugate() * L));
+}
 
 /// norm(q + h ω q), ω as the quaternion (0, ω).
 Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Vec3& omega, double h) {

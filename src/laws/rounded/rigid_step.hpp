@@ -4,8 +4,8 @@
 
 namespace elamin {
 
-/// Mass and inverse inertia of a body, in its frame. A principal moment below 1e-7 of the largest counts as zero: about that axis
-/// the body never spins (a rod, a point).
+/// Mass and inverse inertia of a body, in its frame. A principal moment below 1e-7 of the largest counts as zero: about
+/// that axis the body never spins (a rod, a point).
 struct RigidMass {
   double mass = 1;
   Mat3 inverse_inertia = Mat3::Zero();
@@ -26,7 +26,8 @@ struct RigidState {
 void kick(RigidState& s, const RigidMass& m, const Wrench& w, double dt);
 
 /// x += dt v and the turn of the rotation q by L, two half steps beside a full one, extrapolated (Richardson):
-///   q_full = norm(q + dt/2 ω q),   q_half = norm(q + dt/4 ω q),   ω′ = I(q_half)⁻¹ L,   q_half ← norm(q_half + dt/4 ω′ q_half)
+///   q_full = norm(q + dt/2 ω q),   q_half = norm(q + dt/4 ω q)
+///   ω′ = I(q_half)⁻¹ L,            q_half ← norm(q_half + dt/4 ω′ q_half)
 ///   q ← norm(2 q_half − q_full)
 /// kick, drift, new forces (with the velocities of the half step), kick: one step of velocity Verlet.
 /// Source: LAMMPS 29 Sep 2021, fix nve/body.

@@ -7,7 +7,8 @@ namespace elamin {
 
 namespace {
 
-constexpr double flatness = 1e-8;              // of the size of the core: what counts as planar, and as an edge that is flat
+// of the size of the core: what counts as planar, and as an edge that is flat
+constexpr double flatness = 1e-8;
 
 /// Vector area of a polygon: twice the sum over a fan of triangles, halved.
 Vec3 vector_area(const std::vector<Vec3>& x, const std::vector<int>& corners) {

@@ -40,10 +40,10 @@ struct RoundedShape {
   double reach() const { return extent + radius; }
 };
 
-/// Everything that is wrong with a core and its radius, one sentence each; empty: nothing. Asked for: finite numbers; radius
-/// > 0; 1, 2, 4 or more vertices, all different; faces of three or more different vertices, planar, convex, closed (every
-/// side met once in each direction), outward; every vertex a corner of the hull; edges, if given, those of the faces.
-/// Tolerances are 1e-8 of the size of the core.
+/// Everything that is wrong with a core and its radius, one sentence each; empty: nothing. Asked for: finite numbers;
+/// radius > 0; 1, 2, 4 or more vertices, all different; faces of three or more different vertices, planar, convex,
+/// closed (every side met once in each direction), outward; every vertex a corner of the hull; edges, if given, those
+/// of the faces. Tolerances are 1e-8 of the size of the core.
 std::vector<std::string> mistakes(const CoreMesh& core, double radius);
 
 /// The body of a core without mistakes. Edges that are not given come face after face, side after side.
@@ -66,8 +66,8 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();                 // about the centre: ∫ (|y|² I − y yᵀ) dV, y = x − center
 };
 
-/// Of the rounded solid, exactly: core, a slab on every face, a sector of a cylinder on every edge, of a ball on every vertex.
-/// (LAMMPS reads these numbers from its data file.)
+/// Of the rounded solid, exactly: core, a slab on every face, a sector of a cylinder on every edge, of a ball on every
+/// vertex. (LAMMPS reads these numbers from its data file.)
 MassProperties mass_properties(const RoundedShape& shape);
 
 /// The same core with the origin moved to `center`.

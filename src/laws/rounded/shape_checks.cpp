@@ -18,11 +18,14 @@ constexpr double tolerance = 1e-8;             // of the size of the core
 
 Sentences wrong_numbers(const CoreMesh& core, double radius) {
   Sentences wrong;
-  if (!(std::isfinite(radius) && radius > 0)) wrong.push_back(fmt::format("the rounding radius is {}; allowed: > 0", radius));
+  if (!(std::isfinite(radius) && radius > 0))
+    wrong.push_back(fmt::format("the rounding radius is {}; allowed: > 0", radius));
   for (std::size_t k = 0; k < core.vertices.size(); ++k)
     if (!core.vertices[k].allFinite()) wrong.push_back(fmt::format("vertex {} is not finite", k));
-  if (core.vertices.empty()) wrong.push_back("there is no vertex; allowed: 1 (sphere), 2 (rod), 4 or more (polyhedron)");
-  if (core.vertices.size() == 3) wrong.push_back("three vertices span no volume; allowed: 1 (sphere), 2 (rod), 4 or more (polyhedron)");
+  if (core.vertices.empty())
+    wrong.push_back("there is no vertex; allowed: 1 (sphere), 2 (rod), 4 or more (polyhedron)");
+  if (core.vertices.size() == 3)
+    wrong.push_back("three vertices span no volume; allowed: 1 (sphere), 2 (rod), 4 or more (polyhedron)");
   return wrong;
 }
 
@@ -40,7 +43,8 @@ Sentences wrong_indices(const CoreMesh& core) {
     const std::vector<int>& face = core.faces[f];
     if (face.size() < 3) wrong.push_back(fmt::format("face {} has {} vertices; allowed: 3 or more", f, face.size()));
     for (std::size_t k = 0; k < face.size(); ++k) {
-      if (outside(face[k])) wrong.push_back(fmt::format("face {} names vertex {}; allowed: 0 to {}", f, face[k], n - 1));
+      if (outside(face[k]))
+        wrong.push_back(fmt::format("face {} names vertex {}; allowed: 0 to {}", f, face[k], n - 1));
       for (std::size_t m = 0; m < k; ++m)
         if (face[m] == face[k]) wrong.push_back(fmt::format("face {} names vertex {} twice", f, face[k]));
     }
@@ -78,7 +82,8 @@ Sentences wrong_sides(const CoreMesh& core) {
       used[face[k]] = true;
     }
   for (const auto& [side, times] : met) {
-    if (times > 1) wrong.push_back(fmt::format("{} faces run along {} to {} in the same direction; allowed: 1", times, side[0], side[1]));
+    if (times > 1) wrong.push_back(fmt::format("{} faces run along {} to {} in the same direction; allowed: 1", times,
+        side[0], side[1]));
     if (!met.contains({side[1], side[0]}))
       wrong.push_back(fmt::format("the mesh is open: one face only at the side {} to {}", side[0], side[1]));
   }
@@ -107,7 +112,8 @@ Sentences wrong_faces(const CoreMesh& core) {
     const std::vector<int>& face = core.faces[f];
     const Vec3 p = core.vertices[face[0]];
     Vec3 area = Vec3::Zero();
-    for (std::size_t k = 1; k + 1 < face.size(); ++k) area += (core.vertices[face[k]] - p).cross(core.vertices[face[k + 1]] - p);
+    for (std::size_t k = 1; k + 1 < face.size(); ++k)
+      area += (core.vertices[face[k]] - p).cross(core.vertices[face[k + 1]] - p);
     if (!(area.norm() > tolerance * size * size)) {
       wrong.push_back(fmt::format("face {} has no area", f));
       continue;
@@ -120,7 +126,8 @@ Sentences wrong_faces(const CoreMesh& core) {
       continue;
     }
     for (std::size_t k = 0; k < face.size(); ++k) {
-      const Vec3 a = core.vertices[face[k]], b = core.vertices[face[(k + 1) % face.size()]], c = core.vertices[face[(k + 2) % face.size()]];
+      const Vec3 a = core.vertices[face[k]], b = core.vertices[face[(k + 1) % face.size()]],
+          c = core.vertices[face[(k + 2) % face.size()]];
       turned = turned && n.dot((b - a).cross(c - b)) > -tolerance * size * size;
     }
     if (!turned) wrong.push_back(fmt::format("face {} is not convex", f));
@@ -142,7 +149,8 @@ Sentences wrong_corners(const CoreMesh& core) {
   for (const std::vector<int>& face : core.faces)
     for (std::size_t k = 0; k < face.size(); ++k) {
       const Vec3 x = core.vertices[face[k]];
-      const Vec3 a = core.vertices[face[(k + 1) % face.size()]] - x, b = core.vertices[face[(k + face.size() - 1) % face.size()]] - x;
+      const Vec3 a = core.vertices[face[(k + 1) % face.size()]] - x,
+          b = core.vertices[face[(k + face.size() - 1) % face.size()]] - x;
       defect[face[k]] -= std::atan2(a.cross(b).norm(), a.dot(b));
     }
   Sentences wrong;

@@ -29,7 +29,8 @@ void visit(const RoundedWall& wall, const RoundedBody& body, const OnNear& near)
       continue;
     }
     for (const WallGap& g : wall_gaps(wall.region, wall.inside, false, x, rho, cutoff))
-      near(Near{k, arm, g.distance.value, -g.overlap, g.distance.gradient.head<3>(), g.distance.hessian.topLeftCorner<3, 3>()});
+      near(Near{k, arm, g.distance.value, -g.overlap, g.distance.gradient.head<3>(),
+          g.distance.hessian.topLeftCorner<3, 3>()});
   }
 }
 
@@ -46,7 +47,8 @@ Local<2> RoundedWall::derivatives(const RoundedBody& body) const {
   visit(*this, body, [&](const Near& v) {
     u.value += kernel.value(v.gap);
     const double slope = kernel.slope(v.gap);
-    add_point(u, v.arm, slope * v.normal, kernel.curvature(v.gap) * v.normal * v.normal.transpose() + slope * v.curvature);
+    add_point(u, v.arm, slope * v.normal,
+        kernel.curvature(v.gap) * v.normal * v.normal.transpose() + slope * v.curvature);
   });
   mirror(u);
   return u;

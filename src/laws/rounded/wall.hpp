@@ -15,10 +15,10 @@ struct RoundedWallTouch {
   double force = 0;                            // along the normal; negative: attraction
 };
 
-/// A rounded body and a wall: E = Σ U(s − ρ) over the vertices, s the signed distance of a vertex from the wall, U the kernel
-/// (k_na = 0: k_n (s − ρ)²/2 for s < ρ). Exact for a plane, of either side, and inside of a block, cylinder, sphere or cone: there
-/// the vertices are the points of the core nearest to the wall. From outside a region edges and faces would count: not here.
-/// At a plane s goes on below it; a vertex that has left another region feels nothing.
+/// A rounded body and a wall: E = Σ U(s − ρ) over the vertices, s the signed distance of a vertex from the wall, U the
+/// kernel (k_na = 0: k_n (s − ρ)²/2 for s < ρ). Exact for a plane, of either side, and inside of a block, cylinder,
+/// sphere or cone: there the vertices are the points of the core nearest to the wall. From outside a region edges and
+/// faces would count: not here. At a plane s goes on below it; a vertex that has left another region feels nothing.
 /// C¹ as the kernel is. Source: LAMMPS, fix wall/body/polyhedron, as a true potential; the distances: wall_gap.hpp.
 struct RoundedWall {
   Region region;

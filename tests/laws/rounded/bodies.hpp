@@ -59,8 +59,8 @@ struct Couple {
   double gap() const { return core_separation(a, b) - a.shape->radius - b.shape->radius; }
 };
 
-/// Turned at random, B at some distance in a random direction such that the gap of the surfaces is as given (bisection; the
-/// gap grows along a direction once the centres are apart).
+/// Turned at random, B at some distance in a random direction such that the gap of the surfaces is as given (bisection;
+/// the gap grows along a direction once the centres are apart).
 inline Couple couple(const RoundedShape& a, const RoundedShape& b, double gap, std::mt19937& random) {
   const Vec3 from = random_vector(random), direction = random_vector(random).normalized();
   Couple c{placed(a, from, random_rotation(random)), placed(b, from, random_rotation(random))};

@@ -45,8 +45,8 @@ Vec12 random_motion(std::mt19937& random) {
   return m.normalized();
 }
 
-/// The largest excess of |Δg| over 2 |Δ| max|∇²E|, and of the energy over what the gradients at the ends of a step leave open, on
-/// a straight motion; both negative if E is C¹ with second derivatives as given.
+/// The largest excess of |Δg| over 2 |Δ| max|∇²E|, and of the energy over what the gradients at the ends of a step
+/// leave open, on a straight motion; both negative if E is C¹ with second derivatives as given.
 template <class L>
 double jump(const L& law, const Couple& from, const Vec12& motion, int steps) {
   const double size = from.a.shape->reach() + from.b.shape->reach();
@@ -65,7 +65,8 @@ double jump(const L& law, const Couple& from, const Vec12& motion, int steps) {
   for (int k = 0; k < steps; ++k) {
     const double allowed = 2 * step.norm() * bend;
     worst = std::max(worst, (u[k + 1].gradient - u[k].gradient).norm() / allowed - 1);
-    worst = std::max(worst, std::abs(u[k + 1].value - u[k].value - (u[k].gradient + u[k + 1].gradient).dot(step) / 2) / (allowed * step.norm()) - 1);
+    const double open = u[k + 1].value - u[k].value - (u[k].gradient + u[k + 1].gradient).dot(step) / 2;
+    worst = std::max(worst, std::abs(open) / (allowed * step.norm()) - 1);
   }
   return worst;
 }
@@ -74,12 +75,14 @@ double jump(const L& law, const Couple& from, const Vec12& motion, int steps) {
 Couple resting_boxes(double angle) {
   static const RoundedShape box = rounded_shape(box_core({1.0, 0.8, 1.3}), 0.1);
   const Vec3 axis = Vec3(0.6, 0.8, 0);
-  return {placed(box, {0.013, -0.021, 1.3 + 0.2 - 0.03}, turn(angle * axis) * turn({0, 0, 0.3})), placed(box, Vec3::Zero(), turn({0, 0, 0}))};
+  return {placed(box, {0.013, -0.021, 1.3 + 0.2 - 0.03}, turn(angle * axis) * turn({0, 0, 0.3})),
+      placed(box, Vec3::Zero(), turn({0, 0, 0}))};
 }
 
 }  // namespace
 
-TEST_CASE("near the borders of features the derivatives hold, and across them the potentials are continuous", "[laws][rounded]") {
+TEST_CASE("near the borders of features the derivatives hold, and across them the potentials are continuous",
+    "[laws][rounded]") {
   std::mt19937 random(11);
   std::map<std::string, int> met;
   for (const NamedShape& a : test_shapes())
@@ -101,7 +104,8 @@ TEST_CASE("near the borders of features the derivatives hold, and across them th
           CHECK(check_pair(RoundedMulti{kernel}, near, 3e-4) == std::vector<std::string>{});
         }
         const double d = 1e-7;
-        // An edge that turns past parallel to a face or edge: the closest point leaps from one end of it, and the gradient with it.
+        // An edge that turns past parallel to a face or edge: the closest point leaps from one end of it, and the
+        // gradient with it.
         if (!leaps(moved(c, lo * motion), moved(c, hi * motion)))
           CHECK(jump(RoundedClosest{kernel}, moved(c, (lo - d) * motion), 2 * d * motion, 1) <= 0);
         CHECK(jump(RoundedMulti{kernel}, moved(c, (lo - d) * motion), 2 * d * motion, 1) <= 0);
@@ -152,8 +156,10 @@ TEST_CASE("a motion of the whole, the order of two bodies and the unit of length
     CHECK((v.hessian - R * u.hessian * R.transpose()).norm() <= 1e-10 * u.hessian.norm());
 
     Couple far = c;
-    for (RoundedBody* body : {&far.a, &far.b}) body->pose.position = body->pose.position + ExactVector{Vec3(1e9, -1e9, 1e9), Vec3::Zero()};
-    CHECK((law.derivatives(far.a, far.b).gradient - u.gradient).norm() <= 1e-14 * (u.gradient.norm() + u.hessian.norm()));
+    for (RoundedBody* body : {&far.a, &far.b})
+      body->pose.position = body->pose.position + ExactVector{Vec3(1e9, -1e9, 1e9), Vec3::Zero()};
+    CHECK((law.derivatives(far.a, far.b).gradient - u.gradient).norm() <=
+        1e-14 * (u.gradient.norm() + u.hessian.norm()));
 
     const PairLocal w = law.derivatives(c.b, c.a);
     CHECK(std::abs(w.value - u.value) <= 1e-13 * u.gradient.norm());
@@ -162,10 +168,12 @@ TEST_CASE("a motion of the whole, the order of two bodies and the unit of length
 
     for (const double s : {1e-3, 1e3}) {
       const RoundedShape a = scaled(*c.a.shape, s), b = scaled(*c.b.shape, s);
-      const PairLocal z = law_at_scale(s).derivatives(placed(a, s * c.a.pose.position.hi, c.a.pose.rotation), placed(b, s * c.b.pose.position.hi, c.b.pose.rotation));
+      const PairLocal z = law_at_scale(s).derivatives(placed(a, s * c.a.pose.position.hi, c.a.pose.rotation),
+          placed(b, s * c.b.pose.position.hi, c.b.pose.rotation));
       CHECK(std::abs(z.value / (s * s) - u.value) <= 1e-12 * u.gradient.norm());
       CHECK((z.gradient.head<3>() / s - u.gradient.head<3>()).norm() <= 1e-12 * (u.gradient.norm() + u.hessian.norm()));
-      CHECK((z.gradient.segment<3>(3) / (s * s) - u.gradient.segment<3>(3)).norm() <= 1e-12 * (u.gradient.norm() + u.hessian.norm()));
+      CHECK((z.gradient.segment<3>(3) / (s * s) - u.gradient.segment<3>(3)).norm() <=
+          1e-12 * (u.gradient.norm() + u.hessian.norm()));
     }
   };
   const auto at_scale = [](double s) { return RoundedKernel{100, 4, 0.3 * s, RoundedKernel::Form::coded}; };
@@ -184,14 +192,17 @@ TEST_CASE("aligned boxes have finite derivatives and the energy of their corners
   const RoundedBody below = placed(cube, Vec3::Zero(), Eigen::Quaterniond::Identity());
   const RoundedBody above = placed(cube, {0, 0, 1.15}, Eigen::Quaterniond::Identity());
   const double U = kernel.value(-0.05);
-  const PairLocal m = RoundedMulti{kernel}.derivatives(below, above), c = RoundedClosest{kernel}.derivatives(below, above);
-  CHECK(m.value == Approx(4 * U).epsilon(1e-12));                      // four corners on four corners, each met twice with weight ½
+  const PairLocal m = RoundedMulti{kernel}.derivatives(below, above),
+      c = RoundedClosest{kernel}.derivatives(below, above);
+  // four corners on four corners, each met twice with weight ½
+  CHECK(m.value == Approx(4 * U).epsilon(1e-12));
   CHECK(m.gradient[8] == Approx(4 * kernel.slope(-0.05)).epsilon(1e-12));
   CHECK(m.gradient.segment<3>(3).norm() <= 1e-12);
   CHECK(c.value == Approx(U).epsilon(1e-12));
   CHECK(m.hessian.allFinite());
   CHECK(c.hessian.allFinite());
-  for (const RoundedBody& same : {below, placed(cube, {1, 0, 0}, Eigen::Quaterniond::Identity())}) {   // on itself, face on face
+  // on itself, face on face
+  for (const RoundedBody& same : {below, placed(cube, {1, 0, 0}, Eigen::Quaterniond::Identity())}) {
     CHECK(RoundedMulti{kernel}.derivatives(below, same).hessian.allFinite());
     CHECK(RoundedClosest{kernel}.derivatives(below, same).hessian.allFinite());
   }

@@ -14,7 +14,8 @@ inline Mat3 left_jacobian(const Vec3& theta) {
 }
 
 /// A law of two bodies by the motions (dx, `unit` θ) of A and of B away from a pair of poses. Its gradient is
-/// by these coordinates wherever they are, so differences of it are true second derivatives; its Hessian is that at zero.
+/// by these coordinates wherever they are, so differences of it are true second derivatives; its Hessian is that at
+/// zero.
 template <class L>
 struct AtPoses {
   L law;
@@ -23,7 +24,8 @@ struct AtPoses {
 
   Couple at(const Points<4>& x) const {
     Eigen::Matrix<double, 12, 1> step;
-    for (int k = 0; k < 4; ++k) step.segment<3>(3 * k) = (x.position.col(k) + x.tail.col(k)) / (k % 2 == 1 ? unit : 1.0);
+    for (int k = 0; k < 4; ++k)
+      step.segment<3>(3 * k) = (x.position.col(k) + x.tail.col(k)) / (k % 2 == 1 ? unit : 1.0);
     return moved(couple, step);
   }
   double value(const Points<4>& x) const { return law.value(at(x).a, at(x).b); }
@@ -41,8 +43,9 @@ struct AtPoses {
   }
 };
 
-/// Everything that is wrong, one sentence each. `length`: the smallest over which the law changes by its own size. Differences as
-/// in check_law; besides their error that of rounding the places of the features, ε times the size of the bodies, counts.
+/// Everything that is wrong, one sentence each. `length`: the smallest over which the law changes by its own size.
+/// Differences as in check_law; besides their error that of rounding the places of the features, ε times the size of
+/// the bodies, counts.
 template <class L>
 std::vector<std::string> check_pair(const L& law, const Couple& c, double length) {
   std::vector<std::string> wrong;
@@ -51,7 +54,8 @@ std::vector<std::string> check_pair(const L& law, const Couple& c, double length
   const AtPoses<L> at{law, c, size};
   const Points<4> here;
   const PairLocal u = at.derivatives(here);
-  const double h = length * std::pow(epsilon, 0.2), force = u.gradient.norm() + std::abs(u.value) / length + u.hessian.norm() * length;
+  const double h = length * std::pow(epsilon, 0.2),
+      force = u.gradient.norm() + std::abs(u.value) / length + u.hessian.norm() * length;
   const double accuracy = 100 * std::pow(epsilon, 0.8), rounding = 16 * epsilon * size / h;
 
   demand(u.value == at.value(here), fmt::format("value {} beside derivatives {} alone", at.value(here), u.value));
@@ -59,11 +63,15 @@ std::vector<std::string> check_pair(const L& law, const Couple& c, double length
   demand(u.hessian == u.hessian.transpose(), "Hessian not symmetric");
   for (int k = 0; k < 12; ++k) {
     const double slope = difference([&](double s) { return at.value(moved<4>(here, k, s)); }, h);
-    demand(std::abs(slope - u.gradient[k]) <= (accuracy + rounding) * force, fmt::format("gradient {}: {} by differences {}", k, u.gradient[k], slope));
-    const Eigen::Matrix<double, 12, 1> column =
-        difference([&](double s) -> Eigen::Matrix<double, 12, 1> { return at.derivatives(moved<4>(here, k, s)).gradient; }, h);
+    demand(std::abs(slope - u.gradient[k]) <= (accuracy + rounding) * force,
+        fmt::format("gradient {}: {} by differences {}", k, u.gradient[k], slope));
+    const auto gradient = [&](double s) -> Eigen::Matrix<double, 12, 1> {
+      return at.derivatives(moved<4>(here, k, s)).gradient;
+    };
+    const Eigen::Matrix<double, 12, 1> column = difference(gradient, h);
     const double off = (column - u.hessian.col(k)).cwiseAbs().maxCoeff();
-    demand(off <= (accuracy + rounding) * force / length, fmt::format("Hessian column {}: off by {} of {}", k, off, u.hessian.norm()));
+    demand(off <= (accuracy + rounding) * force / length,
+        fmt::format("Hessian column {}: off by {} of {}", k, off, u.hessian.norm()));
   }
   const PairLocal plain = law.derivatives(c.a, c.b);
   const Vec3 arm = (c.b.pose.position - c.a.pose.position).hi, on_b = plain.gradient.segment<3>(6);

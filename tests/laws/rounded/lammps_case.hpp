@@ -47,7 +47,8 @@ inline Wrenches lammps_forces(const ReferenceCase& c, const LammpsBodies& all) {
     body.push_back({&c.shapes[k], all.state[k].pose});
     motion.push_back(all.state[k].motion(all.mass[k]));
     if (c.settings().contains("walls"))
-      for (const auto& words : c.settings()["walls"]) add(k, lammps_wall(words.get<std::string>()).on(body[k], motion[k]));
+      for (const auto& words : c.settings()["walls"])
+        add(k, lammps_wall(words.get<std::string>()).on(body[k], motion[k]));
   }
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {

@@ -11,7 +11,8 @@ using namespace elamin;
 namespace {
 
 std::string word(LammpsHow how) {
-  return how == LammpsHow::direct ? "direct" : how == LammpsHow::scaled ? "ja=" : how == LammpsHow::dropped ? "dropped" : "through";
+  if (how == LammpsHow::direct) return "direct";
+  return how == LammpsHow::scaled ? "ja=" : how == LammpsHow::dropped ? "dropped" : "through";
 }
 
 }  // namespace
@@ -23,7 +24,8 @@ TEST_CASE("the rules of LAMMPS give its energies, forces and torques", "[laws][r
   }
 }
 
-TEST_CASE("pairs of boxes and prisms in motion, with friction, area factor and parallel edges", "[laws][rounded][lammps]") {
+TEST_CASE("pairs of boxes and prisms in motion, with friction, area factor and parallel edges",
+    "[laws][rounded][lammps]") {
   const ReferenceCase c = read_case("pairs", "polyhedra_pairs");
   const LammpsBodies all = at_start(c);
   CHECK(lammps_forces(c, all).off(c.expected["lammps"]) <= 1e-11);
@@ -52,7 +54,8 @@ TEST_CASE("the rules of LAMMPS list its contacts and know when they have no pote
         CHECK(!pair.overflow);
         for (const LammpsContact& k : contacts) {
           found.insert(line(word(k.how), k.gap)), met.insert(word(k.how));
-          if (!pair.parallel) CHECK((k.point - k.foot).norm() - c.shapes[i].radius - c.shapes[j].radius == Approx(k.gap).margin(1e-12));
+          if (!pair.parallel) CHECK((k.point - k.foot).norm() - c.shapes[i].radius - c.shapes[j].radius ==
+              Approx(k.gap).margin(1e-12));
         }
       }
     for (const auto& k : c.expected["lammps"]["contacts"]) {
@@ -60,7 +63,8 @@ TEST_CASE("the rules of LAMMPS list its contacts and know when they have no pote
       expected.insert(line(how.starts_with("ja=") ? "ja=" : how, k[3]));
     }
     CHECK(found == expected);
-    if (c.name == "ee_rods_parallel") CHECK(!conservative);            // mid points are no gradient elsewhere, here by chance they are
+    // mid points are no gradient elsewhere, here by chance they are
+    if (c.name == "ee_rods_parallel") CHECK(!conservative);
     else CHECK(conservative == c.expected["minus_gradient_of_reported_energy"]["consistent"].get<bool>());
   }
   CHECK(met.size() == 4);
@@ -84,7 +88,8 @@ TEST_CASE("damping acts on touching contacts only, along and across the normal",
     std::vector<LammpsContact> contacts;
     const LammpsPair still = rules.pair(a, b), moving = rules.pair(a, b, v, {}, &contacts);
     REQUIRE(contacts.size() == 1);
-    const Vec3 arm = contacts[0].point - a.pose.position.hi, at = v.velocity + v.spin.cross(arm), f = moving.on[0].force - still.on[0].force;
+    const Vec3 arm = contacts[0].point - a.pose.position.hi, at = v.velocity + v.spin.cross(arm),
+        f = moving.on[0].force - still.on[0].force;
     const Vec3 expected = gap < 0 ? Vec3(-5 * at.x(), -5 * at.y(), -3 * at.z()) : Vec3::Zero();
     CHECK((f - expected).norm() <= 1e-12);
     CHECK((moving.on[0].torque - still.on[0].torque - arm.cross(expected)).norm() <= 1e-12);

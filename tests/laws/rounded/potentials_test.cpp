@@ -50,7 +50,8 @@ struct WithoutLever {
 TEST_CASE("rounded bodies have the energies, forces and torques of the reference", "[laws][rounded]") {
   for (const ReferenceCase& c : static_cases()) {
     INFO(c.name);
-    for (std::size_t k = 0; k < c.bodies.size(); ++k) CHECK(mistakes(c.bodies[k].core, c.bodies[k].radius) == std::vector<std::string>{});
+    for (std::size_t k = 0; k < c.bodies.size(); ++k)
+      CHECK(mistakes(c.bodies[k].core, c.bodies[k].radius) == std::vector<std::string>{});
     const nlohmann::json& p = c.expected["potential"];
     const bool unique = p["closest"]["contact_unique"].get<bool>();
     CHECK(wrenches(c, RoundedMulti{}, Form::coded).off(p["multi"]) <= 2e-12);   // with the gates of the reference
@@ -88,7 +89,8 @@ TEST_CASE("contact lists name kind, gap and weight of the reference", "[laws][ro
     REQUIRE(found.size() == expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
       CHECK(std::abs(found[k].first - expected[k].first) <= 1e-13);
-      if (found[k].first != Approx(-0.05905881177476435)) CHECK(std::abs(found[k].second - expected[k].second) <= 1e-10);
+      if (found[k].first != Approx(-0.05905881177476435))
+        CHECK(std::abs(found[k].second - expected[k].second) <= 1e-10);
     }
   }
   CHECK(met.size() == 4);
@@ -112,7 +114,8 @@ TEST_CASE("the potentials of rounded bodies agree with differences of themselves
 TEST_CASE("a wrong law of rounded bodies fails the check", "[laws][rounded]") {
   int failed = 0, all = 0;
   for_couples(-0.08, 1, [&](const Couple& c) {
-    const bool turns = c.a.shape->vertices.size() > 1 && c.b.shape->vertices.size() > 1;   // of a sphere nothing is forgotten
+    // of a sphere nothing is forgotten
+    const bool turns = c.a.shape->vertices.size() > 1 && c.b.shape->vertices.size() > 1;
     all += turns, failed += !check_pair(WithoutLever{{kernel}}, c, 1e-3).empty();
     if (!turns) CHECK(check_pair(WithoutLever{{kernel}}, c, 1e-3) == std::vector<std::string>{});
   });

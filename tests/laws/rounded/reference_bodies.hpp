@@ -29,13 +29,16 @@ struct ReferenceCase {
 
   const nlohmann::json& settings() const { return expected["settings"]; }
   double setting(const char* key) const { return settings()[key].get<double>(); }
-  RoundedBody body(std::size_t k) const { return {&shapes[k], {{bodies[k].x, Vec3::Zero()}, Eigen::Quaterniond::Identity()}}; }
+  RoundedBody body(std::size_t k) const {
+    return {&shapes[k], {{bodies[k].x, Vec3::Zero()}, Eigen::Quaterniond::Identity()}};
+  }
 
   /// The kernel of the types of two bodies.
   RoundedKernel kernel(std::size_t i, std::size_t j) const {
     for (const auto& row : settings()["pair_coeff"]) {
       const std::set<int> types{row[0].get<int>(), row[1].get<int>()};
-      if (types == std::set<int>{bodies[i].type, bodies[j].type}) return {row[2], row[3], setting("cutoff"), RoundedKernel::Form::coded};
+      if (types == std::set<int>{bodies[i].type, bodies[j].type})
+        return {row[2], row[3], setting("cutoff"), RoundedKernel::Form::coded};
     }
     throw std::runtime_error("no coefficients");
   }
@@ -98,7 +101,8 @@ inline ReferenceCase reference_case(const std::string& name) { return read_case(
 inline std::vector<ReferenceCase> static_cases() {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(ELAMIN_ROOT) + "/data/polyhedra"))
-    if (entry.is_directory() && !entry.path().filename().string().starts_with("dyn")) names.insert(entry.path().filename());
+    if (entry.is_directory() && !entry.path().filename().string().starts_with("dyn"))
+      names.insert(entry.path().filename());
   std::vector<ReferenceCase> cases;
   for (const std::string& name : names) cases.push_back(reference_case(name));
   return cases;

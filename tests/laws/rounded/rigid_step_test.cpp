@@ -53,7 +53,8 @@ TEST_CASE("rigid bodies move as LAMMPS moves them", "[laws][rounded][lammps]") {
           drift(all.state[k], all.mass[k], dt);
         }
         w = all_forces(c, all);
-        for (std::size_t k = 0; k < all.state.size(); ++k) kick(all.state[k], all.mass[k], {w.forces[k], w.torques[k]}, dt);
+        for (std::size_t k = 0; k < all.state.size(); ++k)
+          kick(all.state[k], all.mass[k], {w.forces[k], w.torques[k]}, dt);
       }
       INFO(name << ", step " << step);
       CHECK(off(snapshot, all, w) <= 1e-11);
@@ -72,7 +73,8 @@ TEST_CASE("a free body keeps its energy of rotation, to second order in the time
     s.angular_momentum = L;
     double worst = 0;
     const double start = s.motion(m).spin.dot(L) / 2;
-    for (int k = 0; k < 2 / dt; ++k) drift(s, m, dt), worst = std::max(worst, std::abs(s.motion(m).spin.dot(L) / 2 - start));
+    for (int k = 0; k < 2 / dt; ++k)
+      drift(s, m, dt), worst = std::max(worst, std::abs(s.motion(m).spin.dot(L) / 2 - start));
     return worst;
   };
   const double coarse = drift_of_energy(0.02), fine = drift_of_energy(0.01);

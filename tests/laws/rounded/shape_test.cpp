@@ -41,14 +41,16 @@ CoreMesh changed(CoreMesh core, int vertex, const Vec3& by) {
 
 TEST_CASE("cores without mistakes", "[laws][rounded]") {
   for (const double size : {1e-3, 1.0, 1e3}) {
-    for (const CoreMesh& core : {point_core(), rod_core(size), tetrahedron_core(size), cube_core(size), box_core(size * Vec3(1, 2, 3))})
+    for (const CoreMesh& core :
+         {point_core(), rod_core(size), tetrahedron_core(size), cube_core(size), box_core(size * Vec3(1, 2, 3))})
       CHECK(mistakes(core, 0.1 * size) == Sentences{});
     CHECK(tetrahedron_core(size).vertices.size() == 4);
     CHECK(rounded_shape(tetrahedron_core(size), size).shortest_edge == Approx(size).epsilon(1e-14));
   }
   CHECK(mistakes(pyramid_core(), 0.1) == Sentences{});
   for (const NamedShape& s : test_shapes()) {
-    const int v = static_cast<int>(s.shape.vertices.size()), e = static_cast<int>(s.shape.edges.size()), f = static_cast<int>(s.shape.faces.size());
+    const int v = static_cast<int>(s.shape.vertices.size()), e = static_cast<int>(s.shape.edges.size()),
+        f = static_cast<int>(s.shape.faces.size());
     if (f > 0) CHECK(v - e + f == 2);
   }
 }
@@ -93,7 +95,8 @@ TEST_CASE("each mistake of a core has its sentence", "[laws][rounded]") {
                   {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
   CHECK(mistakes(dented, 1).back() == "the core is not convex: vertices stand on both sides of face 7");
   CHECK(mistakes(changed(dented, 5, {0, 0, -1.5}), 1) == Sentences{});
-  CHECK(mistakes({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}, {{0, 1, 2, 3}, {3, 2, 1, 0}}}, 1) == Sentences{"the core has no volume"});
+  CHECK(mistakes({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}, {{0, 1, 2, 3}, {3, 2, 1, 0}}}, 1) ==
+      Sentences{"the core has no volume"});
 
   c = box, c.vertices.push_back({0, 0, 0});
   CHECK(mistakes(c, 1) == Sentences{"vertex 8 belongs to no face"});
@@ -102,7 +105,8 @@ TEST_CASE("each mistake of a core has its sentence", "[laws][rounded]") {
   CHECK(mistakes(c, 1) == Sentences{"vertex 8 is no corner of the core: leave it out"});
 
   c = tetrahedron_core(1), c.edges = {{0, 1}, {1, 0}, {0, 2}, {0, 3}, {1, 2}};
-  CHECK(mistakes(c, 1) == Sentences{"the edge 0 to 1 is given 2 times", "the side 1 to 3 of a face is missing among the edges",
+  CHECK(mistakes(c, 1) ==
+      Sentences{"the edge 0 to 1 is given 2 times", "the side 1 to 3 of a face is missing among the edges",
                                     "the side 2 to 3 of a face is missing among the edges"});
 }
 
@@ -116,7 +120,8 @@ TEST_CASE("edges between coplanar faces are no features", "[laws][rounded]") {
   for (const auto& e : pieces.edges) flat += e.flat;
   CHECK(flat == 6);
   CHECK(pieces.shortest_edge == whole.shortest_edge);
-  CHECK((mass_properties(pieces).inertia - mass_properties(whole).inertia).norm() <= 1e-13 * mass_properties(whole).inertia.norm());
+  CHECK((mass_properties(pieces).inertia - mass_properties(whole).inertia).norm() <=
+      1e-13 * mass_properties(whole).inertia.norm());
   std::mt19937 random(5);
   for (int k = 0; k < 300; ++k) {
     const Vec3 y = 1.5 * random_vector(random);
@@ -141,7 +146,8 @@ TEST_CASE("mass of spheres, rods, boxes and tetrahedra", "[laws][rounded]") {
   const double cylinder = pi * rho * rho * L;
   CHECK(rod.volume == Approx(cylinder + ball.volume).epsilon(1e-14));
   CHECK(rod.inertia(0, 0) == Approx(cylinder * rho * rho / 2 + 0.4 * ball.volume * rho * rho).epsilon(1e-14));
-  const double across = cylinder * (rho * rho / 4 + L * L / 12) + ball.volume * (0.4 * rho * rho + L * L / 4 + 3 * L * rho / 8);
+  const double across = cylinder * (rho * rho / 4 + L * L / 12)
+      + ball.volume * (0.4 * rho * rho + L * L / 4 + 3 * L * rho / 8);
   CHECK(rod.inertia(1, 1) == Approx(across).epsilon(1e-14));
 
   // ∫ x² of a rounded box by slices: |x| < a full, then with the radius √(ρ² − z²).
@@ -149,9 +155,11 @@ TEST_CASE("mass of spheres, rods, boxes and tetrahedra", "[laws][rounded]") {
   const MassProperties box = mass_properties(rounded_shape(box_core(2 * half), rho));
   Vec3 square;
   for (int k = 0; k < 3; ++k) {
-    const double a = half[k], b = half[(k + 1) % 3], c = half[(k + 2) % 3], p = rho, p2 = p * p, p3 = p2 * p, p4 = p3 * p, p5 = p4 * p;
+    const double a = half[k], b = half[(k + 1) % 3], c = half[(k + 2) % 3], p = rho, p2 = p * p, p3 = p2 * p,
+        p4 = p3 * p, p5 = p4 * p;
     const double full = 4 * b * c + 4 * (b + c) * p + pi * p2;
-    const double flat = ((std::pow(a + p, 3)) - a * a * a) / 3, root = a * a * pi * p2 / 4 + 2 * a * p3 / 3 + pi * p4 / 16;
+    const double flat = ((std::pow(a + p, 3)) - a * a * a) / 3,
+        root = a * a * pi * p2 / 4 + 2 * a * p3 / 3 + pi * p4 / 16;
     const double round = a * a * (2 * p3 / 3) + 2 * a * (p4 / 4) + 2 * p5 / 15;
     square[k] = full * 2 * a * a * a / 3 + 2 * (4 * b * c * flat + 4 * (b + c) * root + pi * round);
   }

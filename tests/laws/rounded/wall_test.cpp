@@ -32,7 +32,8 @@ Region plane(int axis, double at, double sign) {
 TEST_CASE("a body on planes has the energy, forces and torques of the reference", "[laws][rounded]") {
   const ReferenceCase c = reference_case("walls");
   Wrenches w(c.bodies.size());
-  for (const RoundedWall& wall : {RoundedWall{plane(2, 0, 1), true, {500, 0, 0}}, RoundedWall{plane(0, 5, -1), true, {300, 0, 0}}})
+  for (const RoundedWall& wall
+      : {RoundedWall{plane(2, 0, 1), true, {500, 0, 0}}, RoundedWall{plane(0, 5, -1), true, {300, 0, 0}}})
     for (std::size_t k = 0; k < c.bodies.size(); ++k) {
       const Local<2> u = wall.derivatives(c.body(k));
       w.energy += u.value, w.forces[k] -= u.gradient.head<3>(), w.torques[k] -= u.gradient.tail<3>();
@@ -65,11 +66,13 @@ TEST_CASE("bodies at walls agree with differences of their energy", "[laws][roun
         CHECK((force + u.gradient.head<3>()).norm() <= 1e-12);
         const double h = 1e-5, size = u.gradient.norm() + u.hessian.norm();
         for (int m = 0; m < 6; ++m) {
-          CHECK(std::abs(difference([&](double x) { return at.value(moved<4>({}, m, x)); }, h) - u.gradient[m]) <= 1e-9 * (1 + size));
-          const PairLocal base = u;
-          const Eigen::Matrix<double, 12, 1> column =
-              difference([&](double x) -> Eigen::Matrix<double, 12, 1> { return at.derivatives(moved<4>({}, m, x)).gradient; }, h);
-          CHECK((column - base.hessian.col(m)).norm() <= 1e-7 * (1 + size));
+          CHECK(std::abs(difference([&](double x) { return at.value(moved<4>({}, m, x)); }, h) - u.gradient[m]) <=
+              1e-9 * (1 + size));
+          const auto gradient = [&](double x) -> Eigen::Matrix<double, 12, 1> {
+            return at.derivatives(moved<4>({}, m, x)).gradient;
+          };
+          const Eigen::Matrix<double, 12, 1> column = difference(gradient, h);
+          CHECK((column - u.hessian.col(m)).norm() <= 1e-7 * (1 + size));
         }
       }
   }
