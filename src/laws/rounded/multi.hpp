@@ -17,6 +17,7 @@ namespace elamin {
 /// S(x) = 6x⁵ − 15x⁴ + 10x³ within 0..1. An edge on a face meets it at its ends and where it crosses the border.
 /// C¹ (kernel coded) and symmetric in the bodies while the cores do not overlap; U″ jumps where the kernel's does and
 /// where the nearest feature changes. An overlap of the cores is reported by `cores_overlap`.
+/// A particle of radius r is a body of `point_core` with its centre at the origin: it has no torque, its rows θ are zero.
 /// Gates are numbers without unit: nothing here is absolute.
 /// Source: the five kinds of contact of LAMMPS, pair_style body/rounded/polyhedron, as a true potential.
 struct RoundedMulti {

@@ -207,3 +207,21 @@ TEST_CASE("aligned boxes have finite derivatives and the energy of their corners
     CHECK(RoundedClosest{kernel}.derivatives(below, same).hessian.allFinite());
   }
 }
+
+TEST_CASE("edges that are nearly parallel: the distance keeps its digits", "[laws][rounded]") {
+  const RoundedShape rod = rounded_shape(rod_core(2), 0.2);
+  const double h = 0.35;
+  const Eigen::Quaterniond Q = turn({0.4, -0.7, 0.2});
+  for (double angle = 0.3; angle > 1e-18; angle /= 3) {
+    INFO("angle " << angle);
+    const RoundedBody a = placed(rod, Vec3::Zero(), Q), b = placed(rod, Q * Vec3(0.8, 0, h), Q * turn({0, 0, angle}));
+    CHECK(std::abs(core_separation(a, b) - h) <= 1e-13);
+    const PairLocal u = RoundedClosest{kernel}.derivatives(a, b);
+    CHECK(u.hessian.allFinite());
+    CHECK((u.gradient.segment<3>(0) + kernel.slope(h - 0.4) * (Q * Vec3::UnitZ())).norm() <= 1e-6);
+    // Below the gate of the angle an end of each rod at the side of the other; the far ends are out of reach.
+    const double U = kernel.value(h - 0.4), m = RoundedMulti{kernel}.value(a, b);
+    if (angle < 1e-4) CHECK(m == Approx(2 * U).epsilon(1e-6));
+    CHECK(RoundedMulti{kernel}.derivatives(a, b).hessian.allFinite());
+  }
+}

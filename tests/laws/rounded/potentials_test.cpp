@@ -147,3 +147,22 @@ TEST_CASE("overlapping cores have the smallest translation that separates them",
   CHECK(met["fv"] >= 10);
   CHECK(met["ee"] >= 5);
 }
+
+TEST_CASE("a particle is a body of one vertex: both potentials are one, and no torque acts on it", "[laws][rounded]") {
+  std::mt19937 random(31);
+  const RoundedShape particle = rounded_shape(point_core(), 0.3);
+  for (const NamedShape& s : test_shapes())
+    for (const double gap : {-0.1, 0.1}) {
+      INFO(s.name << ", gap " << gap);
+      const Couple c = couple(particle, s.shape, gap, random);
+      const PairLocal m = RoundedMulti{kernel}.derivatives(c.a, c.b), u = RoundedClosest{kernel}.derivatives(c.a, c.b);
+      CHECK(m.value == Approx(kernel.value(gap)).epsilon(1e-10));
+      CHECK(std::abs(m.value - u.value) <= 1e-14);
+      CHECK((m.hessian - u.hessian).norm() <= 1e-12 * u.hessian.norm());
+      for (PairLocal local : {m, u}) {
+        CHECK(local.force_part(1).norm() <= 1e-14 * local.gradient.norm());
+        CHECK(local.hessian.middleRows<3>(3).norm() <= 1e-14 * local.hessian.norm());
+        CHECK(local.force_part(0).norm() > 0);
+      }
+    }
+}
