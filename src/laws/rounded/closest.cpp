@@ -158,7 +158,8 @@ void RoundedClosest::contacts(const RoundedBody& a, const RoundedBody& b, std::v
 
 double core_separation(const RoundedBody& a, const RoundedBody& b) {
   PairView& view = scratch();
-  return find(view, a, b, infinity)->distance;
+  const std::optional<ClosestFeatures> f = find(view, a, b, infinity);
+  return f ? f->distance : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool cores_overlap(const RoundedBody& a, const RoundedBody& b) {

@@ -36,7 +36,8 @@ struct RoundedClosest {
   void contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const;
 };
 
-/// The signed distance of the cores of two bodies [length]; its sum with −ρ_A − ρ_B is the gap of the surfaces.
+/// The signed distance of the cores of two bodies [length]; its sum with −ρ_A − ρ_B is the gap of the surfaces. NaN where a
+/// position is.
 double core_separation(const RoundedBody& a, const RoundedBody& b);
 
 /// Whether the cores overlap: then no potential of rounded bodies means much.

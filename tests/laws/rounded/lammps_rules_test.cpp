@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 using namespace elamin;
 
 namespace {
@@ -68,6 +70,23 @@ TEST_CASE("the rules of LAMMPS list its contacts and know when they have no pote
     else CHECK(conservative == c.expected["minus_gradient_of_reported_energy"]["consistent"].get<bool>());
   }
   CHECK(met.size() == 4);
+}
+
+TEST_CASE("more touching contacts than LAMMPS has room for are reported", "[laws][rounded][lammps]") {
+  const int n = 20;
+  CoreMesh drum{{}, {}, {{}, {}}};
+  for (int k = 0; k < 2 * n; ++k)
+    drum.vertices.push_back({std::cos(k % n * 2 * std::numbers::pi / n), std::sin(k % n * 2 * std::numbers::pi / n), k < n ? -0.3 : 0.3});
+  for (int k = 0; k < n; ++k) {
+    drum.faces[0].insert(drum.faces[0].begin(), k), drum.faces[1].push_back(n + k);
+    drum.faces.push_back({k, (k + 1) % n, n + (k + 1) % n, n + k});
+  }
+  REQUIRE(mistakes(drum, 0.2) == std::vector<std::string>{});
+  const RoundedShape shape = rounded_shape(drum, 0.2);
+  const LammpsRules rules{{100, 2, 0.3, RoundedKernel::Form::coded}};
+  const RoundedBody below = placed(shape, Vec3::Zero(), turn({0, 0, 0}));
+  CHECK(rules.pair(below, placed(shape, {0.001, 0.002, 0.95}, turn({0.001, 0.002, std::numbers::pi / n}))).overflow);
+  CHECK(!rules.pair(below, placed(shape, {0.9, 0.02, 0.95}, turn({0.001, 0.002, std::numbers::pi / n}))).overflow);
 }
 
 TEST_CASE("what LAMMPS's rules cannot minimise is said", "[laws][rounded][lammps]") {

@@ -44,14 +44,15 @@ TEST_CASE("a body on planes has the energy, forces and torques of the reference"
 
 TEST_CASE("bodies at walls agree with differences of their energy", "[laws][rounded]") {
   std::mt19937 random(23);
-  std::vector<RoundedWall> walls{{plane(2, -0.4, 1), true, {50, 4, 0.3}}, {plane(2, 1.4, 1), false, {50, 4, 0.3}}};
+  std::vector<RoundedWall> walls{{plane(2, -0.4, 1), true, {50, 4, 0.3}}, {plane(2, 0.8, 1), false, {50, 4, 0.3}}};
   Region box, tube = frustum(Shape::cylinder, 2, 1.0, 1.0), ball;
-  box.shape = Shape::block, box.lo = Vec3(-0.9, -1, -0.8), box.hi = Vec3(0.9, 1.1, 1);
+  box.shape = Shape::block, box.lo = Vec3(-0.8, -1, -0.8), box.hi = Vec3(0.8, 0.9, 1);
   tube.center = Vec3::Zero();
-  ball.shape = Shape::sphere, ball.radius = 1.1;
+  ball.shape = Shape::sphere, ball.radius = 1.0;
   for (const Region& r : {box, tube, ball}) walls.push_back({r, true, {50, 4, 0.3}});
   for (const RoundedWall& wall : walls) {
     CHECK(wall.exact());
+    int pressed = 0, attracted = 0;
     for (const NamedShape& s : test_shapes())
       for (int k = 0; k < 5; ++k) {
         INFO(s.name << ", " << k);
@@ -62,7 +63,10 @@ TEST_CASE("bodies at walls agree with differences of their energy", "[laws][roun
         std::vector<RoundedWallTouch> touch;
         wall.touches(body, touch);
         Vec3 force = Vec3::Zero();
-        for (const RoundedWallTouch& t : touch) force += t.force * t.normal;
+        for (const RoundedWallTouch& t : touch) {
+          force += t.force * t.normal;
+          (t.force > 0 ? pressed : attracted) += t.force != 0;
+        }
         CHECK((force + u.gradient.head<3>()).norm() <= 1e-12);
         const double h = 1e-5, size = u.gradient.norm() + u.hessian.norm();
         for (int m = 0; m < 6; ++m) {
@@ -75,6 +79,8 @@ TEST_CASE("bodies at walls agree with differences of their energy", "[laws][roun
           CHECK((column - u.hessian.col(m)).norm() <= 1e-7 * (1 + size));
         }
       }
+    CHECK(pressed >= 5);
+    CHECK(attracted >= 5);
   }
   RoundedWall outside{ball, false, {50, 0, 0}};
   CHECK(!outside.exact());
