@@ -5,29 +5,21 @@
 namespace elamin {
 namespace {
 
-constexpr const char* not_yet = "not available in this version";
-
 struct Refusal {
-  std::string_view key, word;   // word "": the key itself; a trailing '*' stands for any ending
-  std::string what;
+  std::string_view key, word;   // word "": the key itself
+  const char* what;
 };
 
-const Refusal refusals[]{
+constexpr Refusal refusals[]{
     {"body", "", "not available in this version; available structures: beam, loop, sheet, grains, lammps"},
-    {"contact.law", "rounded", std::string("\"rounded\" is ") + not_yet + "; use \"hertz\" or \"lj\""},
+    {"contact.law", "rounded", "\"rounded\" is not available in this version; use \"hertz\" or \"lj\""},
 };
-
-bool matches(std::string_view pattern, std::string_view word) {
-  if (pattern.empty() || pattern.back() != '*') return pattern == word;
-  pattern.remove_suffix(1);
-  return word.substr(0, pattern.size()) == pattern;
-}
 
 }  // namespace
 
 std::string unavailable(const std::string& key, const std::string& word) {
   for (const Refusal& r : refusals)
-    if (r.key == key && matches(r.word, word)) return r.what;
+    if (r.key == key && r.word == word) return r.what;
   return "";
 }
 

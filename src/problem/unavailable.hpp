@@ -4,7 +4,7 @@
 
 namespace elamin {
 
-/// The sentence that refuses a key ("sheet", "path.parameter") or a word of it ("solver.method", "ipopt"); "" if
+/// The sentence that refuses a key ("sheet", "path.parameter") or a word of it ("contact.law", "rounded"); "" if
 /// this is not a matter of the version.
 std::string unavailable(const std::string& key, const std::string& word = "");
 

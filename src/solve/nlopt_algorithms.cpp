@@ -68,8 +68,6 @@ std::string names_of(Kind kind) {
   return names;
 }
 
-bool missing(const NloptAlgorithm& a) { return std::string_view(nlopt_algorithm_name(a.code)).find("NOT COMPILED") != std::string_view::npos; }
-
 }  // namespace
 
 std::span<const NloptAlgorithm> nlopt_algorithms() { return algorithms; }
@@ -86,7 +84,6 @@ std::string nlopt_refuses(const std::string& algorithm, int dofs, bool hard) {
     return fmt::format("NLopt has no algorithm \"{}\" that is of use here; did you mean \"{}\"? There are {}; without derivatives, for "
                        "small problems, {}; global, for small problems, {}",
                        algorithm, nearest(algorithm), names_of(Kind::gradient), names_of(Kind::derivative_free), names_of(Kind::global));
-  if (missing(*a)) return fmt::format("NLopt was built without {} on this machine; G_MLSL_LDS is global too", a->name);
   if (hard) return fmt::format("NLopt's {} knows no hard contacts; use \"ipopt\", or an elastic contact", a->name);
   if (dofs > 0 && dofs < a->least)
     return fmt::format("NLopt's {} needs at least {} free dofs, there {} {}; LD_LBFGS or \"newton\" can", a->name, a->least,
