@@ -7,15 +7,15 @@
 namespace elamin {
 
 OtherForces::OtherForces(const Model& model, const EdgeOrder& order, double load_factor) : part_(model), state_(model.start) {
-  part_.bonds.clear(), part_.angles.clear();
+  part_.bonds.clear(), part_.angles.clear(), part_.glued.clear();   // a force on a glued particle is one on the particle
   for (const int b : order.bonds) part_.bonds.push_back(model.bonds[b]);
   for (const int a : order.angles) part_.angles.push_back(model.angles[a]);
   state_.tail.setZero();
   state_.load_factor = load_factor;
-  for (auto& group : {bond_group, angle_group, pressure_group}) {
-    std::unique_ptr<ElementGroup> g = group(part_);
-    if (g->elements() > 0) groups_.push_back(std::move(g));
-  }
+  const Kinematics kinematics(part_);
+  groups_.push_back(bond_group(part_, kinematics).free);
+  groups_.push_back(angle_group(part_, kinematics).free);
+  groups_.push_back(pressure_group(part_));
   for (const auto& g : groups_) {
     value_.resize(std::max<std::size_t>(value_.size(), g->elements()));
     gradient_.resize(std::max<std::size_t>(gradient_.size(), std::size_t(g->elements()) * g->gradient_size()));

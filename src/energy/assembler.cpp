@@ -13,6 +13,12 @@ constexpr std::int64_t grain_of_entries = 50'000;  // entries of the Hessian, ea
 // Both dofs of an entry of an element's Hessian, the larger first.
 struct Entry { int row, column; };
 
+// The free dof of a row of an element, −1: prescribed, or no site.
+int dof_of(const Kinematics& kinematics, const ElementGroup& group, int e, int row) {
+  const int site = group.stencil(e)[row / 3];
+  return site < 0 ? -1 : kinematics.dof(site, row % 3);
+}
+
 // Calls body(element, local row, local column ≤ row) for the packed lower triangle of every element of the group.
 template <class Body>
 void for_each_entry(const ElementGroup& group, const Body& body) {
@@ -44,7 +50,7 @@ void Assembler::build_pattern() {
     for (int e = 0; e < group->elements(); ++e)
       for (const int p : group->stencil(e))
         for (const int q : group->stencil(e))
-          if (q > p) neighbours[p].push_back(q);
+          if (p >= 0 && q > p) neighbours[p].push_back(q);
   parallel_for(kinematics_.sites(), grain, [&](std::int64_t p) {
     std::sort(neighbours[p].begin(), neighbours[p].end());
     neighbours[p].erase(std::unique(neighbours[p].begin(), neighbours[p].end()), neighbours[p].end());
@@ -71,18 +77,19 @@ void Assembler::build_gathers() {
   site_start.assign(kinematics_.sites() + 1, 0);
   for (const auto& group : groups_)
     for (int e = 0; e < group->elements(); ++e)
-      for (const int p : group->stencil(e)) ++site_start[p + 1];
+      for (const int p : group->stencil(e))
+        if (p >= 0) ++site_start[p + 1];
   for (std::size_t p = 1; p < site_start.size(); ++p) site_start[p] += site_start[p - 1];
   site_gather_.index.resize(site_start.back());
   std::vector<std::int64_t> next(site_start.begin(), site_start.end() - 1);
   for (std::size_t k = 0; k < groups_.size(); ++k)
     for (int e = 0; e < groups_[k]->elements(); ++e)
       for (int i = 0; i < groups_[k]->sites(); ++i)
-        site_gather_.index[next[groups_[k]->stencil(e)[i]]++] =
-            gradient_offset_[k] + std::int64_t(e) * groups_[k]->gradient_size() + 3 * i;
+        if (const int p = groups_[k]->stencil(e)[i]; p >= 0)
+          site_gather_.index[next[p]++] = gradient_offset_[k] + std::int64_t(e) * groups_[k]->gradient_size() + 3 * i;
 
   const auto entry = [&](const ElementGroup& group, int e, int r, int c) {
-    const int i = kinematics_.dof(group.stencil(e)[r / 3], r % 3), j = kinematics_.dof(group.stencil(e)[c / 3], c % 3);
+    const int i = dof_of(kinematics_, group, e, r), j = dof_of(kinematics_, group, e, c);
     return Entry{std::max(i, j), std::min(i, j)};
   };
   const auto nonzero = [&](const Entry& at) {
@@ -116,8 +123,8 @@ void Assembler::build_gathers() {
     for_each_entry(*groups_[k], [&](int e, int r, int c) {
       const Entry at = entry(*groups_[k], e, r, c);
       if (at.column >= 0 || at.row < 0) return;
-      const int site_r = groups_[k]->stencil(e)[r / 3], site_c = groups_[k]->stencil(e)[c / 3];
-      const double rate = kinematics_.dof(site_r, r % 3) < 0 ? kinematics_.drive(site_r)[r % 3] : kinematics_.drive(site_c)[c % 3];
+      const int held = dof_of(kinematics_, *groups_[k], e, r) < 0 ? r : c, site = groups_[k]->stencil(e)[held / 3];
+      const double rate = site < 0 ? 0.0 : kinematics_.drive(site)[held % 3];
       if (rate != 0)
         drives_.push_back({at.row, hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c), rate});
     });
@@ -196,7 +203,7 @@ void Assembler::add_load_rates(const ElementGroup& group, const State& state, Ve
   group.load_rates(state, rate.data());
   for (int e = 0; e < group.elements(); ++e)
     for (int i = 0; i < group.gradient_size(); ++i)
-      if (const int dof = kinematics_.dof(group.stencil(e)[i / 3], i % 3); dof >= 0)
+      if (const int dof = dof_of(kinematics_, group, e, i); dof >= 0)
         out[dof] += rate[std::size_t(e) * group.gradient_size() + i];
 }
 
@@ -206,10 +213,10 @@ namespace {
 // v itself where it does.
 void relative_motion(const Field& v, std::span<const int> stencil, bool anchored, double* out) {
   for (std::size_t i = 0; i < stencil.size(); ++i)
-    for (int c = 0; c < 3; ++c) out[3 * i + c] = v(c, stencil[i]) - (anchored ? 0.0 : v(c, stencil[0]));
+    for (int c = 0; c < 3; ++c) out[3 * i + c] = stencil[i] < 0 ? 0.0 : v(c, stencil[i]) - (anchored ? 0.0 : v(c, stencil[0]));
 }
 
-constexpr int most_local = 12;
+constexpr int most_local = 27;                     // three sites, carried by three bodies
 
 // y = H_e v from the packed lower triangle.
 void packed_product(const double* h, const double* v, int n, double* y) {

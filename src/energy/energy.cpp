@@ -1,5 +1,7 @@
 #include "energy/energy.hpp"
 
+#include "energy/body_groups.hpp"
+#include "energy/body_passage.hpp"
 #include "energy/groups.hpp"
 #include "energy/touches.hpp"
 
@@ -9,7 +11,9 @@ namespace elamin {
 
 namespace {
 
-enum Place { bonds, angles, contacts, cohesion, walls, pressures, hard_pairs, hard_walls, places };   // in the list of groups
+// In the list of groups; each with glued particles, and then the same without.
+enum Place { bonds, angles = 2, contacts = 4, cohesion = 6, walls = 8, body_particles = 10, body_pairs = 12, body_walls, body_loads,
+             pressures, hard_pairs, hard_walls, places };
 
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, turn or overlap of order one.
 double stiffest(const Model& model) {
@@ -26,14 +30,20 @@ double stiffest(const Model& model) {
   for (const PairContact& c : model.contacts)
     for (const auto& side : c.particles) contact(c.hard ? 0.0 : c.effective_modulus, side);
   for (const Wall& w : model.walls) contact(w.hard ? 0.0 : w.effective_modulus, w.particles);
+  const auto rounded = [&](const RoundedKernel& k, const std::vector<int>& bodies) {
+    for (const int b : bodies) most = std::max(most, std::max(k.normal, k.attraction) * model.shapes[model.bodies[b].shape].reach());
+  };
+  for (const RoundedPair& r : model.rounded)
+    for (const auto& side : r.bodies) rounded(r.kernel, side);
+  for (const Wall& w : model.walls) rounded(w.kernel, w.bodies);
   for (const PairContact& c : model.contacts)
     if (c.law == PairContact::Law::lj) most = std::max(most, c.epsilon / c.sigma);
   return most;
 }
 
-// The free dofs of particles that no bond and no angle holds.
+// The free dofs of bodies, and of particles that no bond and no angle holds.
 std::vector<int> loose_dofs(const Model& model, const Kinematics& kinematics) {
-  std::vector<bool> glued(model.particles());
+  std::vector<bool> glued(kinematics.sites());
   for (const Bond& b : model.bonds)
     for (const int p : b.particles) glued[p] = true;
   for (const Angle& a : model.angles)
@@ -53,48 +63,69 @@ bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
 }  // namespace
 
 Energy::Energy(const Model& model)
-    : model_(model), kinematics_(model), neighbours_(model), constant_load_(Field::Zero(3, model.particles())),
-      scaled_load_(Field::Zero(3, model.particles())) {
-  const auto add = [&](int p, const Vec3& force, const Scaling& scaling) {
-    constant_load_.col(p) += scaling.fixed * force, scaled_load_.col(p) += scaling.rate * force;
+    : model_(model), kinematics_(model), neighbours_(model), body_neighbours_(model),
+      constant_load_(Field::Zero(3, kinematics_.sites())), scaled_load_(Field::Zero(3, kinematics_.sites())) {
+  const auto add = [&](int site, const Vec3& force, const Scaling& scaling) {
+    constant_load_.col(site) += scaling.fixed * force, scaled_load_.col(site) += scaling.rate * force;
   };
-  for (const Load& l : model.loads)
+  for (const Load& l : model.loads) {
     for (std::size_t k = 0; k < l.particles.size(); ++k) add(l.particles[k], l.on(k), l.scaling);
-  for (const Gravity& g : model.gravity)
+    for (const int b : l.bodies)
+      if (l.point.isZero(0)) add(kinematics_.place_of(b), l.force, l.scaling);
+  }
+  for (const Gravity& g : model.gravity) {
     for (const int p : g.particles) add(p, model.mass(p) * g.acceleration, g.scaling);
+    for (const int b : g.bodies) add(kinematics_.place_of(b), model.bodies[b].mass * g.acceleration, g.scaling);
+  }
+  for (const Glued& g : model.glued) constant_load_.col(g.particle).setZero(), scaled_load_.col(g.particle).setZero();
   force_floor_ = epsilon * stiffest(model);
   loose_ = loose_dofs(model, kinematics_);
   idle_.reserve(loose_.size());
   groups_.resize(places);
-  groups_[bonds] = bond_group(model), groups_[angles] = angle_group(model), groups_[walls] = wall_group(model);
+  put(bonds, bond_group(model, kinematics_)), put(angles, angle_group(model, kinematics_)), put(walls, wall_group(model, kinematics_));
+  groups_[body_walls] = body_wall_group(model, kinematics_), groups_[body_loads] = body_load_group(model, kinematics_);
   groups_[pressures] = pressure_group(model), groups_[hard_walls] = hard_wall_group(model);
-  neighbours_.refresh(model.restart.value_or(model.start));
+  const State& first = model.restart ? *model.restart : model.start;
+  neighbours_.refresh(first), body_neighbours_.refresh(first);
   assemble_groups();
+}
+
+void Energy::put(int place, Parts parts) {
+  groups_[place] = std::move(parts.carried), groups_[place + 1] = std::move(parts.free);
 }
 
 // The groups of pairs and the assembler for the candidates of contact that there are now.
 void Energy::assemble_groups() {
   const std::unique_ptr<Assembler> before = std::move(assembler_);
-  groups_[contacts] = contact_group(model_, neighbours_), groups_[cohesion] = cohesion_group(model_, neighbours_);
+  put(contacts, contact_group(model_, kinematics_, neighbours_)), put(cohesion, cohesion_group(model_, kinematics_, neighbours_));
+  put(body_particles, body_particle_groups(model_, kinematics_, body_neighbours_));
+  groups_[body_pairs] = body_pair_group(model_, kinematics_, body_neighbours_);
   groups_[hard_pairs] = hard_pair_group(model_, neighbours_);
   assembler_ = std::make_unique<Assembler>(kinematics_, groups_);
   if (!before || !same_pattern(before->hessian(), assembler_->hessian())) ++pattern_version_;
 }
 
 void Energy::cover(const State& state) {
-  if (!neighbours_.covers(state) && neighbours_.refresh(state)) assemble_groups();
+  const bool particles = !neighbours_.covers(state) && neighbours_.refresh(state);
+  const bool bodies = !body_neighbours_.covers(state) && body_neighbours_.refresh(state);
+  if (particles || bodies) assemble_groups();
 }
 
 EnergyTerms Energy::terms_of(const std::vector<double>& sums, const State& state) const {
-  return {.bond = sums[bonds], .angle = sums[angles], .contact = sums[contacts], .wall = sums[walls],
-          .cohesion = sums[cohesion], .external = external(state) + sums[pressures]};
+  const auto both = [&](int place) { return sums[place] + sums[place + 1]; };
+  return {.bond = both(bonds), .angle = both(angles), .contact = both(contacts), .wall = both(walls) + sums[body_walls],
+          .cohesion = both(cohesion), .body = both(body_particles) + sums[body_pairs],
+          .external = external(state) + sums[pressures] + sums[body_loads]};
 }
 
 double Energy::external(const State& state) const {
   ExactSum sum;
-  for (Eigen::Index p = 0; p < state.particles(); ++p)
-    for (int c = 0; c < 3; ++c)
-      sum.add(-(constant_load_(c, p) + state.load_factor * scaled_load_(c, p)) * (state.position(c, p) + state.tail(c, p)));
+  const auto add = [&](Eigen::Index site, const Vec3& x) {
+    for (int c = 0; c < 3; ++c) sum.add(-(constant_load_(c, site) + state.load_factor * scaled_load_(c, site)) * x[c]);
+  };
+  for (Eigen::Index p = 0; p < state.particles(); ++p) add(p, state.position.col(p) + state.tail.col(p));
+  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+    add(kinematics_.place_of(static_cast<int>(b)), state.bodies[b].position.hi + state.bodies[b].position.lo);
   return sum.value();
 }
 
@@ -127,9 +158,9 @@ void Energy::anchor_idle() {
   const double largest = stiffness.size() ? stiffness.maxCoeff() : 0.0;
   for (const int d : loose_)
     if (stiffness[d] == 0) {
-      const double fall = std::abs(gradient_[d]) / (2 * model_.diameter[kinematics_.site_of(d)]);
+      const double fall = std::abs(gradient_[d]) / (2 * kinematics_.size(kinematics_.site_of(d)));
       h.valuePtr()[h.outerIndexPtr()[d]] = fall > 0 ? std::max(fall, 1e-12 * largest)
-                                            : largest > 0 ? largest : force_scale_ > 0 ? force_scale_ / model_.diameter[kinematics_.site_of(d)] : 1.0;
+                                            : largest > 0 ? largest : force_scale_ > 0 ? force_scale_ / kinematics_.size(kinematics_.site_of(d)) : 1.0;
       idle_.push_back(d);
     }
 }
@@ -137,7 +168,7 @@ void Energy::anchor_idle() {
 void Energy::finish_gradient(const State& state) {
   assembler_->gradient(site_gradient_);
   force_scale_ = assembler_->largest_element_force();
-  for (Eigen::Index p = 0; p < state.particles(); ++p) {
+  for (Eigen::Index p = 0; p < site_gradient_.cols(); ++p) {
     const Vec3 load = constant_load_.col(p) + state.load_factor * scaled_load_.col(p);
     site_gradient_.col(p) -= load;
     force_scale_ = std::max(force_scale_, load.norm());
@@ -153,13 +184,13 @@ Vector Energy::load_derivative() const {
 
 Vector Energy::load_force() const {
   Vector pressed = Vector::Zero(dofs());
-  assembler_->add_load_rates(*groups_[pressures], evaluated_, pressed);
+  for (const Place given : {pressures, body_loads}) assembler_->add_load_rates(*groups_[given], evaluated_, pressed);
   return kinematics_.restrict(scaled_load_) - pressed;
 }
 
 bool Energy::loads_scaled() const {
   const auto pushes = [](const Pressure& p) { return p.scaling.rate * p.pressure != 0; };
-  return !scaled_load_.isZero(0) || std::any_of(model_.pressures.begin(), model_.pressures.end(), pushes);
+  return !scaled_load_.isZero(0) || groups_[body_loads]->moves() || std::any_of(model_.pressures.begin(), model_.pressures.end(), pushes);
 }
 
 Vector Energy::multiply(const Vector& v) const {
@@ -174,11 +205,16 @@ double Energy::relative(const Vector& force) const {
 }
 
 std::vector<Touch> Energy::touches(const State& state, double within) {
-  return find_touches(model_, neighbours_.rules(), state, within);
+  return find_touches(model_, neighbours_.rules(), body_neighbours_.rules(), state, within);
 }
 
 void Energy::look_around(const State& state) {
-  if (neighbours_.refresh(state)) assemble_groups();
+  const bool particles = neighbours_.refresh(state), bodies = body_neighbours_.refresh(state);
+  if (particles || bodies) assemble_groups();
+}
+
+double Energy::passage(const State& from, const State& to) const {
+  return std::min(free_passage(model_, neighbours_.rules(), from, to), free_body_passage(model_, body_neighbours_.rules(), from, to));
 }
 
 std::vector<HardForce> Energy::hard_contacts(const State& state, double reach) {

@@ -1,8 +1,10 @@
 #pragma once
 // The total energy of a model as a function of its free dofs and of the load factor.
 #include "energy/assembler.hpp"
+#include "energy/body_neighbours.hpp"
 #include "energy/hard_gaps.hpp"
 #include "energy/neighbours.hpp"
+#include "energy/groups.hpp"
 #include "energy/passage.hpp"
 #include "energy/terms.hpp"
 #include "energy/touch.hpp"
@@ -11,8 +13,9 @@
 
 namespace elamin {
 
-/// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_wall(λ) + Σ p(λ) A − Σ F(λ)·x,   F(λ) = F₀ + λ F₁ (dead
-/// loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. The topology is taken once from the model, which must outlive this; the candidates of contact are looked for
+/// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_body + Σ U_wall(λ) + Σ p(λ) A − Σ F(λ)·x − Σ τ(λ)·φ,
+/// F(λ) = F₀ + λ F₁ (dead loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. Rounded
+/// bodies that follow LAMMPS's rules feel nothing here. The topology is taken once from the model, which must outlive this; the candidates of contact are looked for
 /// anew whenever a state is evaluated that the last list does not cover, so that no contact is ever missed. Not for use by
 /// several threads at once; inside, every evaluation is shared over the cores with the same bits for any number of them.
 /// Hard contacts have no energy. With the forces f of State::hard, gradient, Hessian, load_derivative and forces are those of
@@ -41,6 +44,8 @@ class Energy {
   const Vector& gradient() const { return gradient_; }        // g = ∂E/∂q (dofs) [force]
   /// H = ∂²E/∂q∂q, lower triangle [force/length]; its pattern is there before any evaluation.
   const SparseMatrix& hessian() const { return std::as_const(*assembler_).hessian(); }
+  /// The same, for whoever changes coordinates until the next evaluation.
+  SparseMatrix& hessian() { return assembler_->hessian(); }
   /// Free dofs of single particles that nothing gives a stiffness, at the last evaluation with Hessian: grains that fly, or
   /// slide on a plane. On the diagonal of hessian() they have |gᵢ|/2d, so that a step of Newton's method lets a grain
   /// fall by two diameters, or where no force acts on them the largest stiffness there is, so that they stay.
@@ -57,15 +62,17 @@ class Energy {
   Vector multiply(const Vector& v) const;
   double quadratic_form(const Vector& v) const { return assembler_->quadratic_form(kinematics_.extend(v)); }
   /// Largest part of the way from → to, in (0, 1], on which nothing passes through anything (see free_passage).
-  double passage(const State& from, const State& to) const { return free_passage(model_, neighbours_.rules(), from, to); }
+  double passage(const State& from, const State& to) const;
+  const BodyRules& body_rules() const { return body_neighbours_.rules(); }
+  const BodyNeighbours& body_neighbours() const { return body_neighbours_; }
   const ContactRules& contact_rules() const { return neighbours_.rules(); }
   /// The scale of internal forces: the largest force of one element on a particle, or of one load if that is larger.
   double force_scale() const { return force_scale_; }
   /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
   double relative(const Vector& force) const;
 
-  /// Every contact that is closed, and every one whose gap is at most `within` [length]: particle pairs in ascending
-  /// order, then wall after wall. A hard contact is closed where it bears a force.
+  /// Every contact that is closed, and every one whose gap is at most `within` [length]: pairs in ascending order, then wall
+  /// after wall; particles and bodies, see Touch. A hard contact is closed where it bears a force.
   std::vector<Touch> touches(const State& state, double within = 0);
 
   /// Looks for the candidates of contact now: from here on every particle may move by freedom() before that happens again.
@@ -80,8 +87,9 @@ class Energy {
   /// negative: overlap; infinity where the wall does not see the particle. [length]
   double gap(int particle, int other, int wall, const State& state) const;
 
-  /// −∂U/∂x of all particles, loads included, held or not: 3 × particles [force]. At a held coordinate of an
-  /// equilibrium it is minus the reaction.
+  /// −∂U/∂x of all sites, loads included, held or not: 3 × sites [force]; of a turn the torque about the body's position over
+  /// its lever. At a held coordinate of an equilibrium it is minus the reaction. Of a glued particle it is what acts on it; its
+  /// body's has it too.
   Field forces(const State& state);
 
  private:
@@ -89,22 +97,24 @@ class Energy {
   void finish_gradient(const State& state);
   void cover(const State& state);
   void anchor_idle();
+  void put(int place, Parts parts);
   void assemble_groups();
   EnergyTerms terms_of(const std::vector<double>& sums, const State& state) const;
 
   const Model& model_;
   Kinematics kinematics_;
   Neighbours neighbours_;
-  Assembler::Groups groups_;                                  // bonds, angles, contacts, cohesion, walls, pressures
+  BodyNeighbours body_neighbours_;
+  Assembler::Groups groups_;                                  // by place: see energy.cpp
   std::unique_ptr<Assembler> assembler_;
-  Field constant_load_, scaled_load_;                         // F₀, F₁: 3 × particles
+  Field constant_load_, scaled_load_;                         // F₀, F₁: 3 × sites, of what nothing carries
   Field site_gradient_;
   Vector gradient_, row_sums_;
   State evaluated_;                                           // where load_derivative() is asked for
   int pattern_version_ = 0;
   EnergyTerms terms_;
   double force_scale_ = 0, force_floor_ = 0;
-  std::vector<int> loose_, idle_;                             // free dofs of particles without bonds; those without stiffness
+  std::vector<int> loose_, idle_;                             // free dofs of single particles and bodies; those without stiffness
 };
 
 }  // namespace elamin

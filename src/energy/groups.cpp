@@ -1,5 +1,7 @@
 #include "energy/groups.hpp"
 
+#include "energy/body_groups.hpp"
+#include "energy/carried_group.hpp"
 #include "energy/changes.hpp"
 #include "energy/hard_group.hpp"
 #include "energy/wall_group.hpp"
@@ -8,21 +10,43 @@
 #include "laws/edge_pressure.hpp"
 #include "laws/harmonic_bond.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace elamin {
 
 namespace {
 
+std::vector<bool> glued_particles(const Model& model) {
+  std::vector<bool> glued(model.particles(), false);
+  for (const Glued& g : model.glued) glued[g.particle] = true;
+  return glued;
+}
+
+// The elements in two groups; `laws`: as a list, or as their course.
+template <class L, class Laws>
+Parts law_groups(const Model& model, const Kinematics& kinematics, const Laws& laws, const std::vector<int>& kind,
+                 const std::vector<std::array<int, L::sites>>& stencils) {
+  const std::vector<bool> glued = glued_particles(model);
+  std::array<std::vector<int>, 2> kinds;
+  std::array<std::vector<std::array<int, L::sites>>, 2> elements;
+  for (std::size_t e = 0; e < stencils.size(); ++e) {
+    const bool carried = std::any_of(stencils[e].begin(), stencils[e].end(), [&](int p) { return glued[p]; });
+    kinds[carried].push_back(kind[e]), elements[carried].push_back(stencils[e]);
+  }
+  return {std::make_unique<LawGroup<L>>(laws, std::move(kinds[0]), std::move(elements[0])),
+          std::make_unique<CarriedGroup>(model, kinematics, std::make_unique<LawGroup<L>>(laws, std::move(kinds[1]), std::move(elements[1])))};
+}
+
 // A law of its own for every pair.
 template <class L, class Make>
-std::unique_ptr<ElementGroup> pair_group(const std::vector<IndexPair>& pairs, const Make& law_of) {
+Parts pair_groups(const Model& model, const Kinematics& kinematics, const std::vector<IndexPair>& pairs, const Make& law_of) {
   std::vector<L> laws;
   std::vector<int> kind(pairs.size());
   std::vector<std::array<int, 2>> stencils;
   std::iota(kind.begin(), kind.end(), 0);
   for (const auto& [i, j] : pairs) laws.push_back(law_of(i, j)), stencils.push_back({i, j});
-  return std::make_unique<LawGroup<L>>(std::move(laws), std::move(kind), std::move(stencils));
+  return law_groups<L>(model, kinematics, laws, kind, stencils);
 }
 
 // In a plane a turn has a sign (see CosineAngle): the sites in the order in which they turn about the axis across the
@@ -36,15 +60,13 @@ std::array<int, 3> in_its_sense(const Model& model, const std::array<int, 3>& si
 
 }  // namespace
 
-std::unique_ptr<ElementGroup> bond_group(const Model& model) {
+Parts bond_group(const Model& model, const Kinematics& kinematics) {
   std::vector<HarmonicBond> laws;
   for (const BondType& t : model.bond_types) laws.push_back({t.stiffness, t.rest_length});
   std::vector<std::array<int, 2>> stencils;
   for (const Bond& b : model.bonds) stencils.push_back(b.particles);
   Kinds kinds = bond_kinds(model);
-  std::vector<int> kind = kinds.of;
-  if (!kinds.changed())
-    return std::make_unique<LawGroup<HarmonicBond>>(std::move(laws), std::move(kind), std::move(stencils));
+  if (!kinds.changed()) return law_groups<HarmonicBond>(model, kinematics, laws, kinds.of, stencils);
   const auto course = [&model, laws, kinds](const State& state) {
     Course<HarmonicBond> now;
     for (std::size_t k = 0; k < kinds.type.size(); ++k) {
@@ -57,19 +79,17 @@ std::unique_ptr<ElementGroup> bond_group(const Model& model) {
     }
     return now;
   };
-  return std::make_unique<LawGroup<HarmonicBond>>(course, std::move(kind), std::move(stencils));
+  return law_groups<HarmonicBond>(model, kinematics, LawGroup<HarmonicBond>::CourseAt(course), kinds.of, stencils);
 }
 
-std::unique_ptr<ElementGroup> angle_group(const Model& model) {
+Parts angle_group(const Model& model, const Kinematics& kinematics) {
   std::vector<CosineAngle> laws;
   const int kept = model.plane_normal.value_or(-1);
   for (const AngleType& t : model.angle_types) laws.push_back(CosineAngle{t.stiffness, t.rest, kept});
   std::vector<std::array<int, 3>> stencils;
   for (const Angle& a : model.angles) stencils.push_back(in_its_sense(model, a.particles));
   Kinds kinds = angle_kinds(model);
-  std::vector<int> kind = kinds.of;
-  if (!kinds.changed())
-    return std::make_unique<LawGroup<CosineAngle>>(std::move(laws), std::move(kind), std::move(stencils));
+  if (!kinds.changed()) return law_groups<CosineAngle>(model, kinematics, laws, kinds.of, stencils);
   const auto course = [&model, laws, kinds](const State& state) {
     Course<CosineAngle> now;
     for (std::size_t k = 0; k < kinds.type.size(); ++k) {
@@ -80,7 +100,7 @@ std::unique_ptr<ElementGroup> angle_group(const Model& model) {
     }
     return now;
   };
-  return std::make_unique<LawGroup<CosineAngle>>(course, std::move(kind), std::move(stencils));
+  return law_groups<CosineAngle>(model, kinematics, LawGroup<CosineAngle>::CourseAt(course), kinds.of, stencils);
 }
 
 std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
@@ -111,20 +131,31 @@ HertzContact hertz_contact(const Model& model, int table, int i, int j) {
   return {hertz_stiffness(model.contacts[table].effective_modulus, ri, rj), ri + rj};
 }
 
-std::unique_ptr<ElementGroup> contact_group(const Model& model, const Neighbours& neighbours) {
-  return pair_group<HertzContact>(neighbours.hertz(), [&](int i, int j) {
+Parts contact_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours) {
+  return pair_groups<HertzContact>(model, kinematics, neighbours.hertz(), [&](int i, int j) {
     return hertz_contact(model, neighbours.rules().hertz(i, j), i, j);
   });
 }
 
-std::unique_ptr<ElementGroup> cohesion_group(const Model& model, const Neighbours& neighbours) {
-  return pair_group<Cohesion>(neighbours.lj(), [&](int i, int j) {
+Parts cohesion_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours) {
+  return pair_groups<Cohesion>(model, kinematics, neighbours.lj(), [&](int i, int j) {
     const PairContact& t = model.contacts[neighbours.rules().lj(i, j)];
     return Cohesion{t.epsilon, t.sigma, t.cutoff};
   });
 }
 
-std::unique_ptr<ElementGroup> wall_group(const Model& model) { return std::make_unique<WallGroup>(model); }
+Parts wall_group(const Model& model, const Kinematics& kinematics) {
+  const std::vector<bool> glued = glued_particles(model);
+  const auto part = [&](bool carried) {
+    return std::make_unique<WallGroup>(model, [glued, carried](int p) { return glued[p] == carried; });
+  };
+  return {part(false), std::make_unique<CarriedGroup>(model, kinematics, part(true))};
+}
+
+Parts body_particle_groups(const Model& model, const Kinematics& kinematics, const BodyNeighbours& neighbours) {
+  return {body_particle_group(model, kinematics, neighbours, false),
+          std::make_unique<CarriedGroup>(model, kinematics, body_particle_group(model, kinematics, neighbours, true))};
+}
 
 std::unique_ptr<ElementGroup> hard_pair_group(const Model& model, const Neighbours& neighbours) {
   return std::make_unique<HardPairGroup>(model, neighbours.hard());

@@ -1,5 +1,7 @@
 #pragma once
 // From the lists of a model to the element groups of its energy.
+#include "energy/body_neighbours.hpp"
+#include "energy/kinematics.hpp"
 #include "energy/law_group.hpp"
 #include "energy/neighbours.hpp"
 #include "laws/hertz_contact.hpp"
@@ -8,15 +10,22 @@
 
 namespace elamin {
 
+/// The elements without glued particles, and those with (see CarriedGroup).
+struct Parts {
+  std::unique_ptr<ElementGroup> free, carried;
+};
+
 /// One kind a type; where there are changes, one more for every type and choice of changes that act on it.
-std::unique_ptr<ElementGroup> bond_group(const Model& model);
-std::unique_ptr<ElementGroup> angle_group(const Model& model);
+Parts bond_group(const Model& model, const Kinematics& kinematics);
+Parts angle_group(const Model& model, const Kinematics& kinematics);
 /// Edges of the loops under pressure, one kind a loop.
 std::unique_ptr<ElementGroup> pressure_group(const Model& model);
 /// Hertz contacts of the candidate pairs, one law a pair: E_eff of its table, radii of its particles.
-std::unique_ptr<ElementGroup> contact_group(const Model& model, const Neighbours& neighbours);
-std::unique_ptr<ElementGroup> cohesion_group(const Model& model, const Neighbours& neighbours);
-std::unique_ptr<ElementGroup> wall_group(const Model& model);
+Parts contact_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours);
+Parts cohesion_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours);
+Parts wall_group(const Model& model, const Kinematics& kinematics);
+/// Of bodies with particles: both parts of body_particle_group.
+Parts body_particle_groups(const Model& model, const Kinematics& kinematics, const BodyNeighbours& neighbours);
 /// What hard contacts add to the Lagrangian.
 std::unique_ptr<ElementGroup> hard_pair_group(const Model& model, const Neighbours& neighbours);
 std::unique_ptr<ElementGroup> hard_wall_group(const Model& model);

@@ -19,6 +19,7 @@ class ElementGroup {
   virtual ~ElementGroup() = default;
   virtual int elements() const = 0;
   virtual int sites() const = 0;
+  /// The element's sites; −1: none, whose derivatives are left out.
   virtual std::span<const int> stencil(int element) const = 0;
   /// Energy of every element.
   virtual void values(const State& state, double* value) const = 0;

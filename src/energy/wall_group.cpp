@@ -12,10 +12,11 @@ WallContact wall_at(const Wall& wall, double load_factor) {
           wall.hard ? 0.0 : wall.effective_modulus, wall.curved};
 }
 
-WallGroup::WallGroup(const Model& model) : model_(model) {
+WallGroup::WallGroup(const Model& model, const std::function<bool(int)>& wanted) : model_(model) {
   walls_.reserve(model.walls.size());
   for (std::size_t w = 0; w < model.walls.size(); ++w) {
-    for (const int p : model.walls[w].particles) particle_.push_back(p), wall_.push_back(static_cast<int>(w));
+    for (const int p : model.walls[w].particles)
+      if (wanted(p)) particle_.push_back(p), wall_.push_back(static_cast<int>(w));
     const Wall& wall = model.walls[w];
     moves_ = moves_ || (wall.scaling.rate != 0 && (!wall.displacement.isZero(0) || wall.radius_change != 0));
   }

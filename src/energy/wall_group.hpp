@@ -14,7 +14,8 @@ WallContact wall_at(const Wall& wall, double load_factor);
 ///   ∂(∇U)/∂λ = s′ (−∇∇U d + ∂(∇U)/∂R ΔR).
 class WallGroup final : public ElementGroup {
  public:
-  explicit WallGroup(const Model& model);
+  /// Of the particles that are wanted.
+  WallGroup(const Model& model, const std::function<bool(int)>& wanted);
 
   int elements() const override { return static_cast<int>(particle_.size()); }
   int sites() const override { return 1; }

@@ -1,6 +1,7 @@
 #pragma once
 // A structure made of glued particles: what there is, how it is held and loaded. No mathematics, no input.
 #include "laws/region.hpp"
+#include "laws/rounded/kernel.hpp"
 #include "laws/section.hpp"
 #include "model/state.hpp"
 
@@ -17,10 +18,25 @@ struct AngleType { double stiffness, rest = pi; };
 struct Bond { int type; std::array<int, 2> particles; };    // particles by index from 0
 struct Angle { int type; std::array<int, 3> particles; };   // the middle one second
 
-/// A named set of particles, indices from 0, ascending.
+/// A rigid body: the solid of a shape, its centre of mass at the origin of the shape's frame.
+struct Body {
+  int shape = 0;                                // of Model::shapes
+  int id = 1, type = 1;                         // LAMMPS's own, or counted on from the particles
+  double mass = 0;                              // 0: not given
+  Mat3 inertia = Mat3::Zero();                  // about the centre of mass, in the frame of the shape [mass·length²]
+};
+
+/// A particle that a body carries: at x + R arm.
+struct Glued {
+  int particle = 0, body = 0;
+  Vec3 arm = Vec3::Zero();                      // in the frame of the body [length]
+};
+
+/// A named set of particles and bodies, indices from 0, ascending.
 struct Group {
   std::string name;
   std::vector<int> particles;
+  std::vector<int> bodies = {};
 };
 
 /// How much of a condition acts at load factor λ: fixed + rate λ. What is scaled has {0, 1}, what is constant {1, 0}.
@@ -33,7 +49,9 @@ struct Scaling {
   bool operator==(const Scaling&) const = default;
 };
 
-/// Particles whose chosen coordinates are prescribed: x = X + s(λ) d, X where they are in Model::start or in `reference`.
+/// Particles and bodies whose chosen coordinates are prescribed: x = X + s(λ) d, X where they are in Model::start or in
+/// `reference`; bodies besides turned by R = exp([s(λ) φ]×) R₀ where they may not turn freely. Of the three turns of a body
+/// none, two or all are held: to hold one alone is no condition on where it is, only on how it gets there.
 struct Support {
   std::string group;
   std::vector<int> particles;
@@ -42,15 +60,23 @@ struct Support {
   Scaling scaling;
   std::vector<ExactVector> reference = {};      // of each of the particles, unless empty
   Vec3 velocity = Vec3::Zero();                 // of what is held, in dynamics [length/time]
+  std::vector<int> bodies = {};
+  std::array<bool, 3> turns_held{false, false, false};   // of the bodies, about x, y, z
+  Vec3 rotation = Vec3::Zero();                 // φ, a rotation vector, where all turns are held [rad]
+  std::vector<Pose> body_reference = {};        // of each of the bodies, unless empty
 };
 
-/// Dead load on each of these particles: energy −s(λ) Σ F·x.
+/// Dead load on each of these particles and bodies: energy −s(λ) Σ F·x, of bodies at x + R point. A torque τ on bodies
+/// has the energy −s(λ) τ·φ, φ the rotation vector from where the body was at the start: with a fixed axis a constant torque.
 struct Load {
   std::string group;
   std::vector<int> particles;
   Vec3 force = Vec3::Zero();                    // on every particle …
   Scaling scaling;
   Field own = {};                               // … and besides, unless empty, on each its own: 3 × particles
+  std::vector<int> bodies = {};
+  Vec3 point = Vec3::Zero();                    // of bodies, in their frame [length]
+  Vec3 torque = Vec3::Zero();                   // on every body [force·length]
   Vec3 on(std::size_t k) const { return own.size() ? Vec3(force + own.col(static_cast<Eigen::Index>(k))) : force; }
 };
 
@@ -60,6 +86,7 @@ struct Gravity {
   std::vector<int> particles;
   Vec3 acceleration = Vec3::Zero();
   Scaling scaling = Scaling::constant();
+  std::vector<int> bodies = {};
 };
 
 /// Pressure from outside on a closed row of particles, in a plane: energy s(λ) p A with the area inside, projected along
@@ -108,7 +135,29 @@ struct PairContact {
   ContactDamping damping = {};
 };
 
-/// A rigid surface that the particles of a group touch: moved by s(λ) d, its radius larger by s(λ) ΔR.
+/// How rounded bodies feel each other: by one of two true potentials, or by LAMMPS's own rules, which have none.
+enum class RoundedFormulation { multi, closest, lammps };
+
+/// What acts besides where rounded bodies touch, in dynamics only; see RoundedFriction and LammpsRules.
+struct RoundedDamping {
+  double normal = 0, tangential = 0;            // c_n, c_t [force·time/length]
+  double friction = 0;                          // μ
+  double slip = 0;                              // η of the potentials' friction [force·time/length]
+  bool apart = false;                           // normal damping within the cutoff, as printed; else on overlap, as coded
+};
+
+/// What two rounded bodies feel of each other, or a body and a particle, which is a ball. Where two tables speak of a
+/// pair, the later one holds.
+struct RoundedPair {
+  std::array<std::string, 2> between;           // names of the groups
+  std::array<std::vector<int>, 2> particles, bodies;   // theirs
+  RoundedFormulation formulation = RoundedFormulation::multi;
+  RoundedKernel kernel;
+  RoundedDamping damping = {};
+  double unit_area = 1;                         // δ_ua of LAMMPS's rules
+};
+
+/// A rigid surface that the particles and bodies of a group touch: moved by s(λ) d, its radius larger by s(λ) ΔR.
 struct Wall {
   std::string name, group;
   std::vector<int> particles;
@@ -121,20 +170,26 @@ struct Wall {
   Scaling scaling;
   bool hard = false;                            // impenetrable, gap ≥ 0, instead of elastic
   ContactDamping damping = {};
+  std::vector<int> bodies = {};
+  RoundedKernel kernel = {};                    // of the bodies' vertices
+  RoundedDamping body_damping = {};
+  bool lammps = false;                          // bodies: as fix wall/body/polyhedron, a force without energy
 };
 
 /// Drag −γ v: no energy; matters in dynamics and in the forces of a moving state.
 struct Viscosity {
   std::vector<int> particles;
   double coefficient = 0;
+  std::vector<int> bodies = {};
 };
 
-/// A set of particles that was built as one thing, for messages and `check`.
+/// A set of particles and bodies that was built as one thing, for messages and `check`.
 struct Structure {
-  std::string name, kind;                       // kind: "beam", "loop", "sheet", "grains", "lammps"
+  std::string name, kind;                       // kind: "beam", "loop", "sheet", "grains", "body", "lammps"
   int first = 0, count = 0;                     // its particles
   double youngs_modulus = 0;                    // 0: not known
   int bond_type = -1, angle_type = -1;          // its first ones, or none
+  int first_body = 0, bodies = 0;
 };
 
 struct Model {
@@ -145,6 +200,10 @@ struct Model {
   std::vector<double> diameter, density;        // density 0: not given
   Field velocity;                               // 3 × particles, or empty: at rest
   Field spin;                                   // angular velocities, 3 × particles, or empty: none
+  std::vector<RoundedShape> shapes;
+  std::vector<Body> bodies;                     // at start.bodies
+  Field body_velocity, angular_momentum;        // of bodies, axes of space, 3 × bodies, or empty: at rest
+  std::vector<Glued> glued;                     // ascending by particle, none twice
   std::vector<BondType> bond_types;
   std::vector<AngleType> angle_types;
   std::vector<Bond> bonds;
@@ -153,6 +212,7 @@ struct Model {
   std::vector<Group> groups;                    // structures' own, "all", then the named ones
   std::vector<Support> supports;
   std::vector<PairContact> contacts;
+  std::vector<RoundedPair> rounded;
   std::vector<Wall> walls;
   std::vector<Load> loads;
   std::vector<Gravity> gravity;
@@ -162,6 +222,7 @@ struct Model {
   std::optional<int> plane_normal;              // 0, 1, 2: the coordinate that every particle keeps
 
   int particles() const { return static_cast<int>(start.particles()); }
+  RoundedBody body(int b, const State& state) const { return {&shapes[bodies[b].shape], state.bodies[b]}; }
   /// Mass of particle i: density · π d³/6.
   double mass(int i) const { return density[i] * pi / 6 * diameter[i] * diameter[i] * diameter[i]; }
 };

@@ -1,6 +1,6 @@
 #pragma once
 // Where everything is: the configuration that an energy is a function of.
-#include "core/exact.hpp"
+#include "laws/rounded/pose.hpp"
 
 #include <vector>
 
@@ -14,12 +14,13 @@ struct HardForce {
   bool operator==(const HardForce&) const = default;
 };
 
-/// Positions of all particles as position + tail (about 32 digits), and the load factor λ.
+/// Positions of all particles as position + tail (about 32 digits), poses of all rigid bodies, and the load factor λ.
 /// A chain of N particles has a condition number of about 5 N⁴; the tails keep differences of neighbours exact to the
 /// last bit although the positions are large beside them.
 struct State {
   Field position;          // 3 × particles [length]
   Field tail;              // 3 × particles, what the rounding of `position` left out
+  std::vector<Pose> bodies;
   double load_factor = 0;
   std::vector<HardForce> hard;   // of the hard contacts that bear a force
 
@@ -31,7 +32,7 @@ struct State {
   void set(Eigen::Index i, const ExactVector& x) { position.col(i) = x.hi, tail.col(i) = x.lo; }
 };
 
-/// b − a of all particles, 3 × particles [length].
+/// b − a of all particles, 3 × particles [length]; with bodies see Kinematics::difference.
 inline Field displacement(const State& a, const State& b) { return (b.position - a.position) + (b.tail - a.tail); }
 
 }  // namespace elamin

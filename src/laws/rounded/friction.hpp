@@ -23,7 +23,7 @@ struct RoundedFriction {
   bool apart = true;
 
   /// On A and B. The contacts are those with gap ≤ r_c.
-  std::array<Wrench, 2> at(const RoundedContact& c, const Pose& a, const Pose& b, const Motion& va, const Motion& vb) const {
+  std::array<Wrench, 2> at(const RoundedContact& c, const Pose& a, const Pose& b, const BodyMotion& va, const BodyMotion& vb) const {
     std::array<Wrench, 2> on;
     const Vec3 arm_a = c.point - a.position.hi, arm_b = c.point - b.position.hi;
     const Vec3 v = va.at(arm_a) - vb.at(arm_b), vn = v.dot(c.normal) * c.normal, vt = v - vn;

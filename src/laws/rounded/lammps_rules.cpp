@@ -22,7 +22,7 @@ struct Stored {
 /// Adds up what the hits of one pair do.
 class Sum {
  public:
-  Sum(const LammpsRules& rules, const LammpsPlaced& i, const LammpsPlaced& j, const Motion& vi, const Motion& vj,
+  Sum(const LammpsRules& rules, const LammpsPlaced& i, const LammpsPlaced& j, const BodyMotion& vi, const BodyMotion& vj,
       const Vec3& origin,
       std::vector<LammpsContact>* contacts)
       : rules_(rules), body_{&i, &j}, motion_{&vi, &vj}, origin_(origin), contacts_(contacts),
@@ -72,8 +72,11 @@ class Sum {
 
   void damp(const LammpsHit& hit, const Vec3& n) {
     const int a = hit.first_of, b = 1 - a;
-    const Vec3 v = motion_[a]->at(arm(a, hit.point)) - motion_[b]->at(arm(b, hit.foot)), vn = v.dot(n) * n;
-    apply(hit, -rules_.normal_damping * vn - rules_.tangential_damping * (v - vn));
+    const Vec3 arm_a = arm(a, hit.point), arm_b = arm(b, hit.foot);
+    const Vec3 v = motion_[a]->at(arm_a) - motion_[b]->at(arm_b), vn = v.dot(n) * n;
+    const Vec3 f = -rules_.normal_damping * vn - rules_.tangential_damping * (v - vn);
+    apply(hit, f);
+    pair_.damping[a].add(f, arm_a), pair_.damping[b].add(-f, arm_b);
   }
 
   /// A sphere is pushed and moved at its centre.
@@ -106,7 +109,7 @@ class Sum {
 
   const LammpsRules& rules_;
   std::array<const LammpsPlaced*, 2> body_;
-  std::array<const Motion*, 2> motion_;
+  std::array<const BodyMotion*, 2> motion_;
   Vec3 origin_;
   std::vector<LammpsContact>* contacts_;
   double radii_;
@@ -118,7 +121,7 @@ class Sum {
 
 }  // namespace
 
-LammpsPair LammpsRules::pair(const RoundedBody& i, const RoundedBody& j, const Motion& vi, const Motion& vj,
+LammpsPair LammpsRules::pair(const RoundedBody& i, const RoundedBody& j, const BodyMotion& vi, const BodyMotion& vj,
                              std::vector<LammpsContact>* contacts) const {
   const Vec3 apart = (j.pose.position - i.pose.position).hi;
   const auto size = [](const RoundedShape& s) { return s.vertices.size() == 1 ? s.radius : s.extent; };
@@ -137,7 +140,7 @@ std::vector<std::string> LammpsRules::no_potential() const {
   return why;
 }
 
-Wrench LammpsWall::on(const RoundedBody& body, const Motion& motion) const {
+Wrench LammpsWall::on(const RoundedBody& body, const BodyMotion& motion, Wrench* damping) const {
   Wrench w;
   const Vec3 x = body.pose.position.hi;
   const double plane = x[axis] - lo < hi - x[axis] ? lo : hi, rho = body.shape->radius;
@@ -149,7 +152,9 @@ Wrench LammpsWall::on(const RoundedBody& body, const Motion& motion) const {
     Vec3 n = Vec3::Zero();
     n[axis] = height < 0 ? -1 : 1;
     const Vec3 v = motion.at(arm), vn = v.dot(n) * n;
-    w.add(stiffness * (rho - s) * n - normal_damping * vn - tangential_damping * (v - vn), arm);
+    const Vec3 resistance = -normal_damping * vn - tangential_damping * (v - vn);
+    w.add(stiffness * (rho - s) * n + resistance, arm);
+    if (damping) damping->add(resistance, arm);
   }
   return w;
 }

@@ -10,7 +10,7 @@
 namespace elamin {
 
 /// How a body moves: velocity of its position and angular velocity.
-struct Motion {
+struct BodyMotion {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   /// Of the point at `arm` from the position.
   Vec3 at(const Vec3& arm) const { return velocity + spin.cross(arm); }
@@ -42,6 +42,7 @@ struct LammpsContact {
 struct LammpsPair {
   double energy = 0;                           // as LAMMPS reports it: RoundedKernel::reported
   std::array<Wrench, 2> on;                    // bodies i and j
+  std::array<Wrench, 2> damping;               // of that, what c_n and c_t do
   double area_factor = 1;                      // j_a ≥ 1
   bool through = false;                        // an edge passes through a face: the cores overlap
   bool overflow = false;                       // more than 32 touching contacts: LAMMPS writes beyond its list
@@ -68,7 +69,7 @@ struct LammpsRules {
   double unit_area = 1;                        // δ_ua; LAMMPS takes a negative one for 1; not 0
 
   /// Body i before j, as in the file. Contacts, if wanted, are appended.
-  LammpsPair pair(const RoundedBody& i, const RoundedBody& j, const Motion& vi = {}, const Motion& vj = {},
+  LammpsPair pair(const RoundedBody& i, const RoundedBody& j, const BodyMotion& vi = {}, const BodyMotion& vj = {},
                   std::vector<LammpsContact>* contacts = nullptr) const;
 
   /// Why no energy can be minimised by these rules, whatever the contacts; empty if it can while each pair is
@@ -85,7 +86,8 @@ struct LammpsWall {
   double lo = -std::numeric_limits<double>::infinity();                // infinite: no wall
   double hi = std::numeric_limits<double>::infinity();
 
-  Wrench on(const RoundedBody& body, const Motion& motion = {}) const;
+  /// All of it; what c_n and c_t do of that is added to `damping`, if wanted.
+  Wrench on(const RoundedBody& body, const BodyMotion& motion = {}, Wrench* damping = nullptr) const;
 };
 
 }  // namespace elamin

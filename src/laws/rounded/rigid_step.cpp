@@ -28,7 +28,7 @@ RigidMass::RigidMass(double m, const Mat3& inertia) : mass(m) {
   }
 }
 
-Motion RigidState::motion(const RigidMass& m) const { return {velocity, spin(pose.rotation, m, angular_momentum)}; }
+BodyMotion RigidState::motion(const RigidMass& m) const { return {velocity, spin(pose.rotation, m, angular_momentum)}; }
 
 void kick(RigidState& s, const RigidMass& m, const Wrench& w, double dt) {
   s.velocity += dt / 2 / m.mass * w.force;

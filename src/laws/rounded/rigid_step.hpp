@@ -19,7 +19,7 @@ struct RigidState {
   Vec3 velocity = Vec3::Zero(), angular_momentum = Vec3::Zero();
 
   /// With ω = R I⁻¹ Rᵀ L.
-  Motion motion(const RigidMass& m) const;
+  BodyMotion motion(const RigidMass& m) const;
 };
 
 /// v += dt/2 F/m,  L += dt/2 T.

@@ -43,8 +43,9 @@ struct RoundedShape {
 /// Everything that is wrong with a core and its radius, one sentence each; empty: nothing. Asked for: finite numbers;
 /// radius > 0; 1, 2, 4 or more vertices, all different; faces of three or more different vertices, planar, convex,
 /// closed (every side met once in each direction), outward; every vertex a corner of the hull; edges, if given, those
-/// of the faces. Tolerances are 1e-8 of the size of the core.
-std::vector<std::string> mistakes(const CoreMesh& core, double radius);
+/// of the faces. Tolerances are 1e-8 of the size of the core. The sentences count vertices, edges and faces from
+/// `first`.
+std::vector<std::string> mistakes(const CoreMesh& core, double radius, int first = 0);
 
 /// The body of a core without mistakes. Edges that are not given come face after face, side after side.
 RoundedShape rounded_shape(const CoreMesh& core, double radius);

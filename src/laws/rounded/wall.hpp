@@ -13,6 +13,7 @@ struct RoundedWallTouch {
   Vec3 normal = Vec3::Zero();                  // unit, from the wall into its free side
   Vec3 point = Vec3::Zero();                   // of the wall
   double force = 0;                            // along the normal; negative: attraction
+  int face = 0;                                // of the region, see WallGap
 };
 
 /// A rounded body and a wall: E = Σ U(s − ρ) over the vertices, s the signed distance of a vertex from the wall, U the

@@ -15,7 +15,7 @@ TEST_CASE("damping and friction take energy, and leave momentum and angular mome
       RoundedClosest{{100, 2, 0.3, RoundedKernel::Form::coded}}.contacts(c.a, c.b, contact);
       REQUIRE(contact.size() == 1);
       const Vec3 n = contact[0].normal;
-      const Motion va{random_vector(random), random_vector(random)}, vb{random_vector(random), random_vector(random)};
+      const BodyMotion va{random_vector(random), random_vector(random)}, vb{random_vector(random), random_vector(random)};
       const auto on = law.at(contact[0], c.a.pose, c.b.pose, va, vb);
       const Vec3 xa = c.a.pose.position.hi, xb = c.b.pose.position.hi;
       CHECK((on[0].force + on[1].force).norm() == 0);

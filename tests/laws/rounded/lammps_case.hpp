@@ -41,7 +41,7 @@ inline Wrenches lammps_forces(const ReferenceCase& c, const LammpsBodies& all) {
   const std::size_t n = c.bodies.size();
   Wrenches w(n);
   std::vector<RoundedBody> body;
-  std::vector<Motion> motion;
+  std::vector<BodyMotion> motion;
   const auto add = [&w](std::size_t k, const Wrench& on) { w.forces[k] += on.force, w.torques[k] += on.torque; };
   for (std::size_t k = 0; k < n; ++k) {
     body.push_back({&c.shapes[k], all.state[k].pose});

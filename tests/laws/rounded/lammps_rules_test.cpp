@@ -103,7 +103,7 @@ TEST_CASE("damping acts on touching contacts only, along and across the normal",
   const LammpsRules rules{{100, 2, 0.3, RoundedKernel::Form::coded}, 3, 5, 0, 1};
   for (const double gap : {-0.05, 0.05}) {
     const RoundedBody a{&rod, {{{0.1, 0.2, 0.5 + 0.5 + gap + std::sin(1.1)}, Vec3::Zero()}, tilt}}, b{&box, {}};
-    const Motion v{{0.3, -0.2, 0.4}, {0.5, 0.1, -0.7}};
+    const BodyMotion v{{0.3, -0.2, 0.4}, {0.5, 0.1, -0.7}};
     std::vector<LammpsContact> contacts;
     const LammpsPair still = rules.pair(a, b), moving = rules.pair(a, b, v, {}, &contacts);
     REQUIRE(contacts.size() == 1);

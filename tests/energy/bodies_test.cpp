@@ -1,0 +1,246 @@
+// Rigid bodies in the energy: derivatives, driven bodies, glued particles, objectivity, coordinates about a state.
+#include "catch.hpp"
+#include "chain.hpp"
+#include "core/parallel.hpp"
+#include "energy/body_passage.hpp"
+#include "energy/energy.hpp"
+#include "laws/check_law.hpp"
+#include "laws/rounded/rotation.hpp"
+
+using namespace elamin;
+
+namespace {
+
+Pose pose(const Vec3& x, const Vec3& turned) { return {{x, Vec3::Zero()}, turn(turned)}; }
+
+int add_body(Model& m, const CoreMesh& core, double radius, const Pose& at) {
+  m.shapes.push_back(rounded_shape(core, radius));
+  const int b = static_cast<int>(m.bodies.size());
+  m.bodies.push_back({b, m.particles() + b + 1, 1, 2.0, Mat3::Identity()});
+  m.start.bodies.push_back(at);
+  return b;
+}
+
+// A chain whose first two particles a box carries, boxes and a rod that press on it, on each other, on a free particle and on a
+// plane; forces at points, torques, weights.
+Model crowd(RoundedFormulation formulation) {
+  Model m = chain(7, 50, 0.4, 0.5, Vec3(1, 0.2, -0.3));
+  const Vec3 from = m.start.position.col(0);
+  const Vec3 along = (Vec3(m.start.position.col(6)) - from).normalized();
+  add_body(m, box_core(Vec3(0.8, 0.6, 0.5)), 0.2, pose(from - 0.35 * along, Vec3(0.3, -0.2, 0.1)));
+  add_body(m, cube_core(0.7), 0.15, pose(from + Vec3(-0.55, 0.2, 1.02), Vec3(0.4, 0.3, -0.7)));
+  add_body(m, rod_core(1.2), 0.25, pose(from + Vec3(0.2, -0.95, 0.1), Vec3(-0.2, 0.5, 0.9)));
+  add_body(m, tetrahedron_core(0.9), 0.1, pose(from + 2.2 * along + Vec3(0.1, 0.75, 0.2), Vec3(1, 0.2, -0.5)));
+  for (const int p : {0, 1})
+    m.glued.push_back({p, 0, m.start.bodies[0].rotation.conjugate() * (Vec3(m.start.position.col(p)) - m.start.bodies[0].position.hi)});
+  RoundedPair t;
+  t.particles = {std::vector{2, 3, 4, 5, 6}, std::vector{2, 3, 4, 5, 6}};
+  t.bodies = {std::vector{0, 1, 2, 3}, std::vector{0, 1, 2, 3}};
+  t.formulation = formulation;
+  t.kernel = {30, 2, 0.3, RoundedKernel::Form::coded};
+  m.rounded.push_back(t);
+  Wall floor;
+  floor.region.shape = Shape::plane, floor.region.center = from + Vec3(0, 0, -0.42), floor.region.normal = Vec3(0.1, -0.2, 1).normalized();
+  floor.bodies = {0, 1, 2, 3};
+  floor.kernel.normal = 20;
+  floor.displacement = Vec3(0.02, 0.01, 0.05);
+  m.walls.push_back(floor);
+  Load push;
+  push.particles = {1, 5}, push.bodies = {0, 1}, push.force = Vec3(0.4, -0.3, 0.2), push.point = Vec3(0.1, 0.2, -0.15);
+  m.loads.push_back(push);
+  Load twist;
+  twist.bodies = {1, 2}, twist.torque = Vec3(0.5, 0.3, -0.6), twist.scaling = {0.5, 1};
+  m.loads.push_back(twist);
+  Gravity g;
+  g.particles = {0, 1, 2, 3, 4, 5, 6}, g.bodies = {0, 1, 2, 3}, g.acceleration = Vec3(0.1, 0.2, -0.5);
+  m.gravity.push_back(g);
+  return m;
+}
+
+State jolted(const Energy& energy, double load_factor, double size) {
+  State state = energy.model().start;
+  energy.kinematics().prescribe(state, load_factor);
+  Vector step(energy.dofs());
+  for (Eigen::Index k = 0; k < step.size(); ++k) step[k] = size * std::sin(1.7 * static_cast<double>(k));
+  energy.kinematics().retract(state, step);
+  return state;
+}
+
+const double h = std::pow(epsilon, 0.2), accuracy = 200 * std::pow(epsilon, 0.8);
+
+Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
+
+}  // namespace
+
+TEST_CASE("with bodies the assembled energy agrees with its differences", "[energy][bodies]") {
+  const RoundedFormulation formulation = GENERATE(RoundedFormulation::multi, RoundedFormulation::closest);
+  const Model model = crowd(formulation);
+  Energy energy(model);
+  const State state = jolted(energy, 0.7, 0.03);
+  energy.evaluate(state);
+  const Vector g = energy.gradient();
+  const Eigen::MatrixXd H = whole(energy.hessian());
+  CHECK(energy.dofs() == 5 * 3 + 4 * 6);
+  CHECK(energy.idle().empty());
+  CHECK(std::abs(energy.last_terms().body) > 0.01);
+  CHECK(energy.last_terms().wall > 0.01);
+  CHECK(energy.last_terms().total() == energy.value(state));
+  const auto along = [&](int k, double s) {
+    State moved = state;
+    energy.kinematics().retract(moved, Vector::Unit(energy.dofs(), k), s);
+    return moved;
+  };
+  Eigen::MatrixXd D(energy.dofs(), energy.dofs());
+  for (int k = 0; k < energy.dofs(); ++k) {
+    const double slope = difference([&](double s) { return energy.value(along(k, s)); }, h);
+    CHECK(std::abs(slope - g[k]) <= accuracy * H.norm());
+    D.col(k) = difference([&](double s) -> Vector { energy.evaluate(along(k, s), false); return energy.gradient(); }, h);
+  }
+  // Turns about a turned body: ∂g differs from the Hessian by the antisymmetric [g]×/2.
+  CHECK(((D + D.transpose()) / 2 - H).cwiseAbs().maxCoeff() <= accuracy * H.norm());
+  energy.evaluate(state);
+  Vector v(energy.dofs());
+  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = std::cos(2.3 * static_cast<double>(k));
+  CHECK((energy.multiply(v) - H * v).norm() <= 100 * epsilon * H.norm() * v.norm());
+  CHECK(std::abs(energy.quadratic_form(v) - v.dot(H * v)) <= 100 * epsilon * H.norm() * v.squaredNorm());
+}
+
+TEST_CASE("with bodies ∂g/∂λ agrees with differences in the load factor", "[energy][bodies]") {
+  Model model = crowd(RoundedFormulation::multi);
+  Support turned;
+  turned.bodies = {1}, turned.displacement = Vec3(0.1, -0.2, 0.05), turned.turns_held = {true, true, true}, turned.rotation = Vec3(0.3, -0.2, 0.5);
+  Support pushed;
+  pushed.bodies = {2}, pushed.held = {true, false, true}, pushed.displacement = Vec3(0.1, 0, -0.1);
+  Support clamped;
+  clamped.bodies = {0}, clamped.turns_held = {true, true, true}, clamped.rotation = Vec3(-0.1, 0.2, 0.1);
+  const bool clamp = GENERATE(false, true);
+  model.supports = {turned, pushed};
+  if (clamp) model.supports.push_back(clamped);
+  Energy energy(model);
+  CHECK(energy.dofs() == 5 * 3 + (clamp ? 0 : 6) + 0 + 4 + 6);
+  const State state = jolted(energy, 0.4, 0.02);
+  energy.evaluate(state);
+  const Vector exact = energy.load_derivative();
+  const double scale = whole(energy.hessian()).norm();
+  const Vector differences = difference([&](double s) -> Vector {
+    State moved = state;
+    energy.kinematics().prescribe(moved, state.load_factor + s);
+    energy.evaluate(moved, false);
+    return energy.gradient();
+  }, h);
+  CHECK((exact - differences).cwiseAbs().maxCoeff() <= accuracy * scale);
+  CHECK(exact.norm() > 0.1);
+}
+
+TEST_CASE("coordinates about another state have derivatives of their own", "[energy][bodies]") {
+  const Model model = crowd(RoundedFormulation::closest);
+  Energy energy(model);
+  const State origin = jolted(energy, 0.7, 0);
+  Vector y(energy.dofs());
+  for (Eigen::Index k = 0; k < y.size(); ++k) y[k] = 0.05 * std::sin(1.3 * static_cast<double>(k));
+  y *= 1 + 0.1 * GENERATE(0, 1, 2);
+  const auto at = [&](const Vector& z) {
+    State s = origin;
+    energy.kinematics().retract(s, z);
+    return s;
+  };
+  const auto gradient = [&](const Vector& z) {
+    energy.evaluate(at(z), false);
+    Vector g = energy.gradient();
+    energy.kinematics().pull_back(g, z);
+    return g;
+  };
+  const Vector g = gradient(y);
+  energy.evaluate(at(y));
+  const Vector here = energy.gradient();
+  energy.kinematics().pull_back(energy.hessian(), here, y);
+  const Eigen::MatrixXd H = whole(energy.hessian());
+  CHECK((energy.kinematics().difference(origin, at(y)) - y).norm() <= 1e-14 * y.norm());
+  for (int k = 0; k < energy.dofs(); ++k) {
+    const Vector e = Vector::Unit(energy.dofs(), k);
+    CHECK(std::abs(difference([&](double s) { return energy.value(at(y + s * e)); }, h) - g[k]) <= accuracy * H.norm());
+    const Vector column = difference([&](double s) -> Vector { return gradient(y + s * e); }, h);
+    CHECK((column - H.col(k)).cwiseAbs().maxCoeff() <= accuracy * H.norm());
+  }
+}
+
+TEST_CASE("the torque of a load follows a turn by more than half a circle", "[energy][bodies]") {
+  const RotationTorque torque{Vec3(0.3, -0.8, 0.5), turn(Vec3(0.2, 0.1, -0.4))};
+  for (const double angle : {0.0, 1e-3, 0.04, 0.06, 1.0, 3.0, 3.3, 5.0}) {
+    const Eigen::Quaterniond q = turn(angle * Vec3(0.48, 0.6, -0.64)) * torque.from;
+    const Local<1> u = torque.derivatives(q);
+    const auto at = [&](int k, double s) { return turn(s * Vec3::Unit(k)) * q; };
+    Mat3 D;
+    for (int k = 0; k < 3; ++k) {
+      CHECK(std::abs(difference([&](double s) { return torque.value(at(k, s)); }, h) - u.gradient[k]) <= accuracy);
+      D.col(k) = difference([&](double s) -> Vec3 { return torque.derivatives(at(k, s)).gradient; }, h);
+    }
+    CHECK(((D + D.transpose()) / 2 - u.hessian).norm() <= (angle > 4 ? 100 : 1) * accuracy);
+  }
+}
+
+TEST_CASE("turned as a whole, bodies have the same energy and turned forces", "[energy][bodies]") {
+  const RoundedFormulation formulation = GENERATE(RoundedFormulation::multi, RoundedFormulation::closest);
+  Model model = crowd(formulation);
+  model.walls.clear(), model.loads.clear(), model.gravity.clear();
+  Energy energy(model);
+  const State state = jolted(energy, 0, 0.03);
+  const Eigen::Quaterniond q = turn(Vec3(0.7, -1.1, 0.4));
+  State turned = state;
+  for (int p = 0; p < model.particles(); ++p) turned.set(p, {q * Vec3(state.position.col(p)), q * Vec3(state.tail.col(p))});
+  for (Pose& b : turned.bodies) b.position = {q * b.position.hi, q * b.position.lo}, b.rotation = q * b.rotation;
+  const Field before = energy.forces(state);
+  const double size = energy.last_terms().size(), e = energy.last_terms().total();
+  const Field after = energy.forces(turned);
+  CHECK(std::abs(energy.last_terms().total() - e) <= 1e-12 * size);
+  CHECK((after - q.toRotationMatrix() * before).norm() <= 1e-12 * before.norm());
+  // No net force and no net torque; glued particles' forces are in those of their body.
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (int p = 2; p < model.particles(); ++p) force += before.col(p), moment += Vec3(state.position.col(p)).cross(Vec3(before.col(p)));
+  for (int b = 0; b < 4; ++b) {
+    const Vec3 f = before.col(energy.kinematics().place_of(b));
+    force += f;
+    moment += state.bodies[b].position.hi.cross(f) + energy.kinematics().lever(b) * before.col(energy.kinematics().turn_of(b));
+  }
+  CHECK(force.norm() <= 1e-13 * before.norm());
+  CHECK(moment.norm() <= 1e-12 * before.norm());
+}
+
+TEST_CASE("a step ends before a body passes through another one, a particle or a wall", "[energy][bodies]") {
+  Model model;
+  model.start = State(Field(3, 1));
+  model.start.position.col(0) = Vec3(0, 0, 3);
+  model.id = model.type = model.molecule = {1};
+  model.diameter = model.density = {0.5};
+  add_body(model, cube_core(1), 0.1, pose(Vec3(0, 0, 0), Vec3::Zero()));
+  add_body(model, rod_core(1), 0.1, pose(Vec3(3, 0.1, 0), Vec3(0, 0, 1)));
+  RoundedPair t;
+  t.particles = {std::vector{0}, std::vector<int>{}}, t.bodies = {std::vector{0, 1}, std::vector{0, 1}};
+  t.kernel.normal = 10;
+  model.rounded.push_back(t);
+  Wall wall;
+  wall.region.shape = Shape::plane, wall.region.center = Vec3(0, 0, -2), wall.region.normal = Vec3::UnitZ(), wall.bodies = {0, 1};
+  wall.kernel.normal = 10;
+  model.walls.push_back(wall);
+  const double size = GENERATE(1e-3, 1.0, 1e3);
+  for (auto* v : {&model.start.position}) *v *= size;
+  model.shapes = {rounded_shape(cube_core(size), 0.1 * size), rounded_shape(rod_core(size), 0.1 * size)};
+  for (Pose& p : model.start.bodies) p.position.hi *= size;
+  model.diameter[0] *= size, model.walls[0].region.center *= size;
+  Energy energy(model);
+  const auto part = [&](const Vec3& cube, const Vec3& rod) {
+    State to = model.start;
+    to.bodies[0].position.hi += size * cube, to.bodies[1].position.hi += size * rod;
+    return energy.passage(model.start, to);
+  };
+  CHECK(part(Vec3::Zero(), Vec3::Zero()) == 1);
+  CHECK(part(Vec3(0, 5, 0), Vec3(0, 5, 0)) == 1);
+  CHECK(part(Vec3(0, 5, 0), Vec3(0, -5, 0)) == 1);
+  const double through = part(Vec3::Zero(), Vec3(-6, 0, 0));
+  CHECK(through > 0.25);
+  CHECK(through < 0.4);
+  const double up = part(Vec3(0, 0, 4), Vec3::Zero());             // 2.5 to the particle's centre, of 4
+  CHECK(std::abs(up - 0.8 * 2.5 / 4) <= 0.01);
+  const double down = part(Vec3(0, 0, -4), Vec3::Zero());          // 1.5 to the plane
+  CHECK(std::abs(down - 0.8 * 1.5 / 4) <= 0.01);
+}
