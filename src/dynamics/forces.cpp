@@ -39,12 +39,14 @@ Forces::Forces(const Model& model, double load_factor, const EdgeOrder& order)
   skin_ = skin_for(model, rules_ ? &*rules_ : nullptr);
   if (rules_) pairs_.emplace(model, *rules_, skin_);
   if (!model.walls.empty()) walls_.emplace(model, load_factor, skin_);
-  by_row_ = pairs_ || walls_;
+  if (!model.bodies.empty()) bodies_.emplace(model, load_factor);
+  by_row_ = pairs_ || walls_ || (bodies_ && bodies_->meets_particles());
   const int n = model.particles();
   if (by_row_) movement_.position = Rows(n), listed_ = Columns(n);
   if (by_row_ || others_) pushes_.force = Rows(n);
-  const bool rub = (pairs_ && pairs_->rubs()) || (walls_ && walls_->rubs());
-  if (rub || (pairs_ && pairs_->damped()) || (walls_ && walls_->damped())) pushes_.damping = movement_.velocity = Rows(n);
+  const bool rub = (pairs_ && pairs_->rubs()) || (walls_ && walls_->rubs()) || (bodies_ && bodies_->rubs_particles());
+  if (rub || (pairs_ && pairs_->damped()) || (walls_ && walls_->damped()) || (bodies_ && bodies_->damps_particles()))
+    pushes_.damping = movement_.velocity = Rows(n);
   if (rub) pushes_.torque = movement_.spin = Rows(n);
   travelled_ = std::numeric_limits<double>::infinity();
 }
@@ -72,7 +74,11 @@ void Forces::find_near(const Columns& x) {
 
 void Forces::prepare(const Columns& x) {
   edges_.begin();
-  if (!pushes()) return;
+  if (pushes()) push(x);
+  if (bodies_) bodies_->find(places_, movement_, pushes_);
+}
+
+void Forces::push(const Columns& x) {
   pushes_.force.clear(), pushes_.damping.clear(), pushes_.torque.clear();
   if (by_row_) {
     find_near(x);

@@ -1,5 +1,6 @@
 #pragma once
 // All forces of a model on plain doubles, as fast as they come: without energies, exact tails, or anything allocated.
+#include "dynamics/body_forces.hpp"
 #include "dynamics/edge_forces.hpp"
 #include "dynamics/other_forces.hpp"
 #include "dynamics/wall_forces.hpp"
@@ -21,6 +22,10 @@ class Forces {
   /// Whether positions are wanted by row, in movement().
   bool by_row() const { return by_row_; }
   Movement& movement() { return movement_; }
+  /// Where bodies are, as prepare() wants it; with bodies only.
+  BodyPlaces& places() { return places_; }
+  /// What acts on the bodies, after prepare(); none: there are no bodies.
+  const BodyForces* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
 
   /// Says that no particle has moved farther than this since the last call of prepare() [length].
   void moved(double distance) { travelled_ += distance; }
@@ -36,12 +41,14 @@ class Forces {
   }
   /// Damping and friction on them; only if damped().
   Triple<Lanes> damping_on(int block) const { return pushes_.damping.load(4 * block); }
+  Triple<double> damping_at(int particle) const { return pushes_.damping.at(particle); }
   /// The torque on a particle; only if rubs().
   Lanes torque_on(int particle) const { return pushes_.torque.row[particle]; }
 
  private:
   Forces(const Model& model, double load_factor, const EdgeOrder& order);
   bool pushes() const { return by_row_ || others_.has_value(); }
+  void push(const Columns& x);
   void find_near(const Columns& x);
   double farthest(const Columns& x) const;
 
@@ -52,6 +59,8 @@ class Forces {
   std::optional<PairForces> pairs_;
   std::optional<WallForces> walls_;
   std::optional<OtherForces> others_;
+  std::optional<BodyForces> bodies_;
+  BodyPlaces places_;
   bool by_row_ = false, loaded_ = false;
   double skin_ = 0, travelled_ = 0;
   Columns listed_;                              // where everything was when the lists were made

@@ -17,4 +17,8 @@ struct Motion {
   double dissipation = 0;              // by drag, damping and friction so far [energy]
 };
 
+class Kinematics;
+/// Throws InputError where something that can move has no mass, a contact is hard, or bodies cannot move as they are held.
+void refuse_what_cannot_move(const Model& model, const Kinematics& kinematics);
+
 }  // namespace elamin

@@ -51,13 +51,22 @@ Vector masses(Energy& energy) {
       m[j] += std::abs(it.value());
       if (it.row() != j) m[it.row()] += std::abs(it.value());
     }
-  std::vector<double> light(energy.model().particles(), 0.0);
+  const Kinematics& kinematics = energy.kinematics();
+  std::vector<double> light(kinematics.sites(), 0.0);
   const auto contact = [&](double modulus, const std::vector<int>& particles) {
     for (const int p : particles) light[p] = std::max(light[p], modulus * energy.model().diameter[p] / 2);
   };
   for (const PairContact& c : energy.model().contacts)
     for (const auto& side : c.particles) contact(c.effective_modulus, side);
   for (const Wall& w : energy.model().walls) contact(w.effective_modulus, w.particles);
+  const auto rounded = [&](const RoundedKernel& kernel, const std::vector<int>& particles, const std::vector<int>& bodies) {
+    const auto at = [&](int site) { light[site] = std::max(light[site], std::max(kernel.normal, kernel.attraction)); };
+    for (const int p : particles) at(p);
+    for (const int b : bodies) at(kinematics.place_of(b)), at(kinematics.turn_of(b));
+  };
+  for (const RoundedPair& t : energy.model().rounded)
+    for (int side = 0; side < 2; ++side) rounded(t.kernel, t.particles[side], t.bodies[side]);
+  for (const Wall& w : energy.model().walls) rounded(w.kernel, {}, w.bodies);
   for (int d = 0; d < energy.dofs(); ++d) m[d] = std::max(m[d], light[energy.kinematics().site_of(d)]);
   const double most = m.maxCoeff();
   for (int d = 0; d < energy.dofs(); ++d)
@@ -75,13 +84,14 @@ class Relaxation {
       if (!model.walls.empty() || energy.contact_rules().reach(p) > 0) smallest = std::min(smallest, model.diameter[p]);
     for (const Bond& b : model.bonds)
       smallest = std::min(smallest, model.bond_types[b.type].rest_length);
+    for (const Body& b : model.bodies) smallest = std::min(smallest, 2 * model.shapes[b.shape].radius);
     longest_ = step_of_diameter * smallest;
   }
 
   Report run() {
     const Stopwatch watch;
     look();
-    if (converging()) fast();
+    if (converging() && energy_.model().bodies.empty()) fast();
     if (converging()) exact();
     finish();
     report_.seconds = watch.seconds();

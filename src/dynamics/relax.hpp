@@ -15,6 +15,7 @@ struct RelaxOptions {
 /// the stiffness, so that no frequency is above 1 and every coordinate is as quick as it can be: the steps needed grow with
 /// the square root of the condition number. No step is longer than a twentieth of the smallest diameter that can touch
 /// something, so that nothing passes through anything. Prescribed coordinates stay where they are.
+/// Bodies: in the coordinates (x, ℓθ), a step no longer than a tenth of the radius of their rounding, by the exact forces throughout.
 /// Plain doubles while the residual is above what they can tell; the exact forces of the energy from there on.
 /// The history has every thousandth step. Report::negative stays −1: a saddle is left sooner or later, but not looked for.
 Report relax(Energy& energy, State& state, const RelaxOptions& options = {});

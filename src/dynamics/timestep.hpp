@@ -19,7 +19,8 @@ struct TimestepLimit {
 };
 
 /// The limit at the state, whatever moves there. Contacts count with the stiffness that they have at the state, open ones
-/// not at all: in a collision the limit may be lower. Evaluates the energy with Hessian.
+/// not at all: in a collision the limit may be lower. Bodies count in the coordinates (x, ℓθ) of InverseMass; pairs and walls that
+/// follow LAMMPS's rules as the potential `multi` of the same kernel, without area factor and μ. Evaluates the energy with Hessian.
 TimestepLimit timestep_limit(Energy& energy, const State& state);
 
 /// Why this step is too long, in a sentence with the longest one that is not and the advised one; "" if it is not.

@@ -1,12 +1,10 @@
 #include "dynamics/verlet.hpp"
 
-#include "core/error.hpp"
 #include "core/exact.hpp"
 #include "core/interrupt.hpp"
+#include "dynamics/body_steps.hpp"
 #include "dynamics/forces.hpp"
 #include "energy/kinematics.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -14,35 +12,10 @@ namespace elamin {
 
 namespace {
 
+constexpr int work_of_body = 20;                // in particles
 constexpr std::int64_t work_between_looks = 200000;   // particle-steps until the next look at interrupts and lost positions
 
-void refuse_what_cannot_move(const Model& model, const Kinematics& kinematics) {
-  std::vector<Mistake> mistakes;
-  const auto add = [&](const std::string& key, const std::string& what) { mistakes.push_back({"", 0, 0, key, what}); };
-  int massless = 0, first = -1;
-  for (int d = 0; d < kinematics.dofs(); ++d)
-    if (const int p = kinematics.site_of(d); !(model.mass(p) > 0) && p != first) ++massless, first = p;
-  if (massless > 0)
-    add("density", fmt::format("{} particle{} can move but {} no mass (the last is {}); dynamics needs a density and a diameter",
-                               massless, massless > 1 ? "s" : "", massless > 1 ? "have" : "has", model.id[first]));
-  for (const PairContact& c : model.contacts)
-    if (c.hard) add("contact.hard", fmt::format("the contact between '{}' and '{}' is hard; dynamics needs elastic ones", c.between[0], c.between[1]));
-  for (const Wall& w : model.walls)
-    if (w.hard) add("wall.hard", fmt::format("the wall '{}' is hard; dynamics needs elastic ones", w.name));
-  if (!mistakes.empty()) throw InputError(mistakes);
-}
-
 }  // namespace
-
-Motion begin_motion(const Model& model) {
-  Motion m;
-  const int n = model.particles();
-  m.state = model.restart.value_or(model.start);
-  m.velocity = model.velocity.cols() == n ? model.velocity : Field(Field::Zero(3, n));
-  m.spin = model.spin.cols() == n ? model.spin : Field(Field::Zero(3, n));
-  m.force = Field::Zero(3, n);
-  return m;
-}
 
 class Verlet::Engine {
  public:
@@ -52,6 +25,7 @@ class Verlet::Engine {
         turn_(padded(n_)), first_step_(motion_.step), first_time_(motion_.time) {
     const Kinematics kinematics(model);
     refuse_what_cannot_move(model, kinematics);
+    if (!model.bodies.empty()) bodies_.emplace(model, kinematics, motion_, dt_, forces_, MovingParticles{x_, v_, f_, drag_});
     motion_.state.tail.setZero();
     if (motion_.velocity.cols() == n_) v_ = Columns(motion_.velocity);
     if (motion_.spin.cols() != n_) motion_.spin = Field::Zero(3, n_);
@@ -70,18 +44,20 @@ class Verlet::Engine {
     drive();
     for (const Viscosity& w : model.viscosity)
       for (const int p : w.particles) drag_[p] += w.coefficient;
-    resists_ = forces_.damped() || std::any_of(drag_.begin(), drag_.end(), [](double g) { return g != 0; });
+    resists_ = forces_.damped() || (bodies_ && forces_.bodies()->damps()) || std::any_of(drag_.begin(), drag_.end(), [](double g) { return g != 0; });
     for (int p = 0; p < n_ && forces_.rubs(); ++p)
       forces_.movement().spin.add(p, {motion_.spin(0, p), motion_.spin(1, p), motion_.spin(2, p)});
     if (!forces_.rubs()) motion_.spin.resize(3, 0);
     for (int p = 0; p < n_ && forces_.by_row(); p += 4) show(p, x_.load(p), v_.load(p));
+    if (bodies_) bodies_->carry();
     forces_.prepare(x_);
     look();
     write_motion();
   }
 
   std::int64_t advance(std::int64_t steps) {
-    const std::int64_t between_looks = std::max<std::int64_t>(1, work_between_looks / std::max(n_, 1));
+    const int work = n_ + work_of_body * static_cast<int>(model_.bodies.size());
+    const std::int64_t between_looks = std::max<std::int64_t>(1, work_between_looks / std::max(work, 1));
     std::int64_t done = 0;
     while (done < steps && finite_ && !interrupted()) {
       const std::int64_t some = std::min(between_looks, steps - done);
@@ -98,11 +74,12 @@ class Verlet::Engine {
   double timestep() const { return dt_; }
   double kinetic() const {
     ExactSum sum;
+    if (bodies_) sum.add(bodies_->kinetic());
     for (int p = 0; p < n_; ++p) {
       const double m = model_.mass(p), r = model_.diameter[p] / 2;
       if (!(m > 0)) continue;
       sum.add(m / 2 * motion_.velocity.col(p).squaredNorm());
-      if (motion_.spin.cols() == n_) sum.add(0.2 * m * r * r * motion_.spin.col(p).squaredNorm());
+      if (motion_.spin.cols() == n_ && turn_[p] > 0) sum.add(0.2 * m * r * r * motion_.spin.col(p).squaredNorm());
     }
     return sum.value();
   }
@@ -133,10 +110,11 @@ class Verlet::Engine {
       place_driven();
       forces_.moved(dt_ * std::sqrt(fastest_));
       forces_.prepare(x_);
-      const double power = finish<resists>(k == steps);
+      double power = finish<resists>(k == steps);
+      if (bodies_) power += bodies_->finish(k == steps);
       motion_.dissipation += dt_ / 2 * (dissipating_ + power);
       dissipating_ = power;
-      if (driven_.empty()) continue;
+      if (driven_.empty() && !(bodies_ && bodies_->driven())) continue;
       const double rate = work_rate();
       motion_.work += dt_ / 2 * (working_ + rate);
       working_ = rate;
@@ -163,7 +141,9 @@ class Verlet::Engine {
       power -= dot(resistance, v);
     }
     for (int p = 0; p < n_ && forces_.rubs(); ++p) power -= forces_.torque_on(p) * forces_.movement().spin.row[p];
-    dissipating_ = power.sum(), working_ = work_rate();
+    dissipating_ = power.sum();
+    if (bodies_) dissipating_ += bodies_->look();
+    working_ = work_rate();
   }
 
   // From a whole step: the first kick and the drift.
@@ -176,6 +156,7 @@ class Verlet::Engine {
     }
     fastest_ = fastest.largest();
     for (int p = 0; p < n_ && forces_.rubs(); ++p) forces_.movement().spin.row[p] += Lanes(turn_[p]) * forces_.torque_on(p);
+    if (bodies_) bodies_->start();
   }
 
   // The second kick of a step; unless it is the last one, the first kick and the drift of the next besides. Returns the power
@@ -183,7 +164,7 @@ class Verlet::Engine {
   template <bool resists>
   double finish(bool last) {
     Lanes fastest(0.0), power(0.0);
-    const bool keep = last || !driven_.empty();
+    const bool keep = last || !driven_.empty() || !model_.glued.empty();
     for (int p = 0; p < n_; p += 4) {
       Triple<Lanes> v = v_.load(p), resistance;
       const Triple<Lanes> f = force<resists>(p, v, resistance);
@@ -232,13 +213,14 @@ class Verlet::Engine {
       x_.at(d.coordinate, d.particle) = x;
       if (forces_.by_row()) forces_.movement().position.row[d.particle].v[d.coordinate] = x;
     }
+    if (bodies_) fastest_ = std::max(fastest_, bodies_->place(static_cast<double>(steps_) * dt_));
   }
 
   // What the supports put in: they bear what the forces leave, −F, at the velocity V.
   double work_rate() {
     double rate = 0;
     for (const Driven& d : driven_) rate -= f_.at(d.coordinate, d.particle) * d.velocity;
-    return rate;
+    return bodies_ ? rate + bodies_->work_rate() : rate;
   }
 
   bool all_finite() const {
@@ -247,7 +229,7 @@ class Verlet::Engine {
       const Triple<Lanes> x = x_.load(p);
       zero += (x.x - x.x) + (x.y - x.y) + (x.z - x.z);
     }
-    return zero.sum() == 0;
+    return zero.sum() == 0 && !(bodies_ && !bodies_->finite());
   }
 
   void write_motion() {
@@ -256,6 +238,7 @@ class Verlet::Engine {
       const Triple<double> w = forces_.movement().spin.at(p);
       motion_.spin.col(p) << w.x, w.y, w.z;
     }
+    if (bodies_) bodies_->write(motion_);
     motion_.step = first_step_ + steps_;
     motion_.time = first_time_ + static_cast<double>(steps_) * dt_;
   }
@@ -269,6 +252,7 @@ class Verlet::Engine {
   Columns kick_;                                // dt/2m of every coordinate, 0 where it is held
   std::vector<double> drag_;                    // γ
   std::vector<double> turn_;                    // dt/2I, 0 where the particle is held whole
+  std::optional<BodySteps> bodies_;
   std::vector<Driven> driven_;
   bool resists_ = false, finite_ = true;
   std::int64_t steps_ = 0, first_step_;         // taken by this one; before

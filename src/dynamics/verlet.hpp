@@ -19,11 +19,17 @@ Motion begin_motion(const Model& model);
 /// work: ∫ −F·V dt over the driven coordinates; dissipation: ∫ −D·v + … dt with the forces and torques D of drag, damping
 /// and friction; both by the trapezoidal rule at whole steps, so that kinetic + potential + dissipation − work is constant to
 /// O(dt²). Motion::force holds every force of the moment on every particle, held or not.
+/// Bodies: as LAMMPS's fix nve/body, see MovingBodies; F and T of everything that acts on them and on what they carry, whose mass and inertia
+/// they have besides their own (balls of density · π d³/6). A body is held or driven in its place as particles are; a held turn stays.
+/// Pairs and walls that follow LAMMPS's rules act with their damping, which is counted as dissipation; their elastic forces need not
+/// have an energy, so that then nothing balances.
 /// One thread; the same bits however the steps are divided among calls. Who takes up a copy of motion() goes on with its
-/// step, time, work and dissipation; x(0) is where that one starts, and contacts may be summed in another order.
+/// step, time, work and dissipation; x(0) is where that one starts, and contacts may be summed in another order; where a body carries
+/// mass its centre of mass is formed anew.
 class Verlet {
  public:
-  /// Throws InputError where a particle that can move has no mass, or a contact is hard.
+  /// Throws InputError where something that can move has no mass, a contact is hard, or a body that carries mass is held in a way that
+  /// needs more than this: see MovingBodies::mistakes.
   Verlet(const Model& model, Motion start, double timestep);
   ~Verlet();
   Verlet(Verlet&&) noexcept;
@@ -34,7 +40,7 @@ class Verlet {
   bool finite() const;
   const Motion& motion() const;
   double timestep() const;
-  /// Σ ½ m v² + ½ I ω² (spins: where friction acts) [energy].
+  /// Σ ½ m v² + ½ I ω² (spins: of bodies, and where friction acts) [energy].
   double kinetic() const;
 
  private:

@@ -41,6 +41,20 @@ double stiffest(const Model& model) {
   return most;
 }
 
+// Below this forces between bodies are rounding, or parts of one element that cancel: what rounding of a vertex's place does, 4 ε k ℓ,
+// is the usual tolerance 1e-10 of it; and the attraction k_na r_c.
+double floor_of_bodies(const Model& model) {
+  constexpr double rounding = 1e-5;
+  double most = 0;
+  const auto take = [&](const RoundedKernel& k, const std::vector<int>& bodies) {
+    for (const int b : bodies) most = std::max({most, rounding * k.normal * model.shapes[model.bodies[b].shape].reach(), k.attraction * k.cutoff});
+  };
+  for (const RoundedPair& r : model.rounded)
+    for (const auto& side : r.bodies) take(r.kernel, side);
+  for (const Wall& w : model.walls) take(w.kernel, w.bodies);
+  return most;
+}
+
 // The free dofs of bodies, and of particles that no bond and no angle holds.
 std::vector<int> loose_dofs(const Model& model, const Kinematics& kinematics) {
   std::vector<bool> glued(kinematics.sites());
@@ -78,7 +92,7 @@ Energy::Energy(const Model& model)
     for (const int b : g.bodies) add(kinematics_.place_of(b), model.bodies[b].mass * g.acceleration, g.scaling);
   }
   for (const Glued& g : model.glued) constant_load_.col(g.particle).setZero(), scaled_load_.col(g.particle).setZero();
-  force_floor_ = epsilon * stiffest(model);
+  force_floor_ = std::max(epsilon * stiffest(model), floor_of_bodies(model));
   loose_ = loose_dofs(model, kinematics_);
   idle_.reserve(loose_.size());
   groups_.resize(places);

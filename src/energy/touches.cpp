@@ -1,5 +1,6 @@
 #include "energy/touches.hpp"
 
+#include "energy/body_touches.hpp"
 #include "energy/groups.hpp"
 #include "energy/hard_gaps.hpp"
 #include "energy/wall_group.hpp"
@@ -94,7 +95,7 @@ double wall_gap(const Model& model, int particle, int wall, const State& state) 
   return least;
 }
 
-std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, const State& state, double within) {
+std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, const BodyRules& body_rules, const State& state, double within) {
   std::vector<Touch> touches;
   within = std::max(within, 0.0);
   const auto near = [&](double gap) { return gap < 0 || (gap <= within && within > 0); };
@@ -125,6 +126,7 @@ std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, c
           touches.push_back({p, -1, static_cast<int>(w), faces[k].gap, faces[k].force * faces[k].normal, faces[k].point});
     }
   }
+  add_body_touches(model, body_rules, state, within, touches);
   std::stable_sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
     return std::array{a.wall, a.particle, a.other} < std::array{b.wall, b.particle, b.other};
   });

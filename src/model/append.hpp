@@ -9,13 +9,33 @@
 
 namespace elamin {
 
+/// One more than the largest of some numbers. Throws InputError if there is no room above it for `more`.
+inline int next_number(const std::vector<int>& numbers, int largest, int more) {
+  for (const int n : numbers) largest = std::max(largest, n);
+  if (largest >= std::numeric_limits<int>::max() - more)
+    throw InputError("the ids, types or molecules of the particles reach " + std::to_string(largest) +
+                     "; there must be room above them for " + std::to_string(more) + " more");
+  return largest + 1;
+}
+/// The next id and the next type of a particle or a body, which count together.
+inline int next_id(const Model& model, int more) {
+  int largest = 0;
+  for (const Body& b : model.bodies) largest = std::max(largest, b.id);
+  return next_number(model.id, largest, more);
+}
+inline int next_type(const Model& model, int more) {
+  int largest = 0;
+  for (const Body& b : model.bodies) largest = std::max(largest, b.type);
+  return next_number(model.type, largest, more);
+}
+
 /// Appends structures to a model whose arrays grow once.
 class Appender {
  public:
   /// Room for `more` particles. Throws InputError if the numbers of ids, types or molecules end before that.
   Appender(Model& model, int more)
-      : model_(model), first_(model.particles()), type_(next(model.type, more)), molecule_(next(model.molecule, more)) {
-    const int id = next(model.id, more), total = first_ + more;
+      : model_(model), first_(model.particles()), type_(next_type(model, more)), molecule_(next_number(model.molecule, 0, more)) {
+    const int id = next_id(model, more), total = first_ + more;
     model.start.position.conservativeResize(3, total);
     model.start.tail.conservativeResize(3, total);
     model.start.position.rightCols(more).setZero();
@@ -40,13 +60,6 @@ class Appender {
   }
 
  private:
-  static int next(const std::vector<int>& numbers, int more) {
-    const int largest = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
-    if (largest >= std::numeric_limits<int>::max() - more)
-      throw InputError("the ids, types or molecules of the particles reach " + std::to_string(largest) +
-                       "; there must be room above them for " + std::to_string(more) + " more");
-    return largest + 1;
-  }
   int of_one_type(int n, double diameter, double density) {
     const int first = first_;
     first_ += n;

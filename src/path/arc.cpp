@@ -1,5 +1,7 @@
 #include "path/arc.hpp"
 
+#include "model/entities.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +13,7 @@ constexpr double least_cosine = 0.1;          // between the directions at two s
 }  // namespace
 
 double span(const Model& model) {
-  const Field& x = model.start.position;
-  double longest = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-  for (const double d : model.diameter) longest = std::max(longest, d);
-  return longest;
+  return std::max(sides_of(model.start).maxCoeff(), largest_size(model));
 }
 
 Direction direction_of(const Equilibrium& e, const Metric& metric, const Direction& along) {
@@ -28,13 +27,13 @@ Direction direction_of(const Equilibrium& e, const Metric& metric, const Directi
 double cosine(const Direction& a, const Direction& b, const Metric& metric) { return metric.dot(a.x, a.load, b.x, b.load); }
 
 double Arc::position(const State& state) const {
-  const Vector x = newton_.energy().kinematics().restrict(displacement(from_.point.state, state));
+  const Vector x = newton_.energy().kinematics().difference(from_.point.state, state);
   return metric_.dot(x, state.load_factor - from_.point.state.load_factor, direction_.x, direction_.load);
 }
 
 double Arc::distance(const State& state) const {
   const double s = position(state);
-  const Vector x = newton_.energy().kinematics().restrict(displacement(from_.point.state, state)) - s * direction_.x;
+  const Vector x = newton_.energy().kinematics().difference(from_.point.state, state) - s * direction_.x;
   const double load = state.load_factor - from_.point.state.load_factor - s * direction_.load;
   return std::sqrt(metric_.dot(x, load, x, load));
 }

@@ -139,7 +139,7 @@ void ArcLength::show(Waypoint waypoint) {
     else emit(waypoint.at.point);
     if (event.kind == EventKind::watch && options_.watches[event.watch].stop)
       return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, load));
-    if ((event.kind == EventKind::limit || event.kind == EventKind::branch) && event.before == 0 && event.after > 0) lose_stability(event);
+    if (event.kind != EventKind::watch && event.before == 0 && event.after > 0) lose_stability(event);
     return;
   }
   emit(waypoint.at.point);
@@ -157,8 +157,7 @@ Resume ArcLength::resume_here(const Waypoint& waypoint) const {
   r.tangent = waypoint.at.tangent;
   r.direction = walk_->direction().x, r.load = walk_->direction().load;
   r.length = walk_->metric().length, r.step = walk_->step(), r.shortest = walk_->shortest();
-  if (!waypoint.event)
-    for (const ContactKey& key : walk_->closed()) r.closed.push_back({key.particle, key.other, key.wall});
+  if (!waypoint.event) store(walk_->closed(), r);
   return r;
 }
 
@@ -192,9 +191,9 @@ bool ArcLength::meets_known(const Waypoint& waypoint) {
   const Metric& metric = walk_->metric();
   for (std::size_t k = 0; k < known_.size(); ++k) {
     const State& other = known_[k].at.point.state;
-    const Vector apart = kinematics.restrict(displacement(other, state));
+    const Vector apart = kinematics.difference(other, state);
     const double load = state.load_factor - other.load_factor;
-    const Vector travelled = kinematics.restrict(displacement(first_.point.state, state));
+    const Vector travelled = kinematics.difference(first_.point.state, state);
     const double way = std::sqrt(metric.dot(travelled, 0, travelled, 0)) + std::abs(state.load_factor - first_.point.state.load_factor) / metric.load;
     if (std::sqrt(metric.dot(apart, load, apart, load)) > same_point * way) continue;
     emit(waypoint.at.point);

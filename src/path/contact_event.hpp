@@ -8,14 +8,16 @@
 
 namespace elamin {
 
-/// Two particles (wall −1), or a particle at a wall (other −1).
+/// Two entities (wall −1), or one at a wall (other −1); of bodies each place where they may touch, see TouchKey.
 struct ContactKey {
   int particle, other, wall;
+  int feature = -1;
+  bool reach = false;                  // bodies that attract each other: within the cutoff, whether they overlap or not
   auto operator<=>(const ContactKey&) const = default;
 };
 using ContactSet = std::set<ContactKey>;
 
-/// The contacts whose surfaces overlap at the state.
+/// The contacts whose surfaces overlap at the state, and which bodies are within the reach of an attraction.
 ContactSet closed_contacts(Energy& energy, const State& state);
 
 struct ContactChange {
@@ -24,6 +26,10 @@ struct ContactChange {
   Equilibrium at;
   ContactSet after;                    // what is closed beyond
   std::string what;                    // who touches or leaves whom
+  // Of bodies, whose stiffness jumps there: `at` has tangent, zero modes and stability of just before, `beyond` those behind;
+  // and the sign of dλ with which the branch goes on, 0: it could not be told.
+  std::optional<Equilibrium> beyond = {};
+  int onward = 0;
 };
 
 /// The first change of the closed contacts on a segment from `a` to `b`, located at the zero of the gap that changes sign,
@@ -31,5 +37,10 @@ struct ContactChange {
 /// Contacts that change together are one event. Nothing if none changes.
 std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
                                             const Equilibrium& b);
+
+/// A corner that is ahead: the equilibrium at which the first contact of bodies changes on the way along the tangent of `a`, up to the
+/// part 1 of the way (dofs) and change of the load factor, found without equilibria beyond, of which there may be none: by
+/// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
+std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
 
 }  // namespace elamin

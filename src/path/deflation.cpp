@@ -63,7 +63,7 @@ class Deflation {
   }
 
  private:
-  Vector apart(const State& a, const State& b) const { return energy_.kinematics().restrict(displacement(a, b)); }
+  Vector apart(const State& a, const State& b) const { return energy_.kinematics().difference(a, b); }
 
   // ∇ log M = Σ −2 ρ² (x − xᵢ) / (|x − xᵢ|² (|x − xᵢ|² + ρ²))
   Vector slope(const State& state) const {
@@ -89,7 +89,7 @@ std::vector<State> brought_to(Newton& newton, const std::vector<State>& states, 
     newton.energy().kinematics().prescribe(s, load_factor);
     if (!newton.correct(s, {}, nullptr, 20).converged()) continue;
     const auto twin = [&](const State& t) {
-      const Vector apart = newton.energy().kinematics().restrict(displacement(t, s));
+      const Vector apart = newton.energy().kinematics().difference(t, s);
       return apart.norm() <= 1e-9 * span(newton.energy().model());
     };
     if (std::none_of(there.begin(), there.end(), twin)) there.push_back(std::move(s));

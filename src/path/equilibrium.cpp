@@ -1,10 +1,12 @@
 #include "path/equilibrium.hpp"
 
+#include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "path/contact_event.hpp"
 #include "solve/contact_equilibrium.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +18,8 @@ namespace {
 // A basis of the zero modes that have been explained, orthonormal, and their names.
 class Explained {
  public:
-  Explained(const Energy& energy, const Eigen::MatrixXd& zero, std::vector<std::string>& names)
-      : energy_(energy), zero_(zero), names_(names), rigid_(zero.rows(), 0) {}
+  Explained(const Energy& energy, Equilibrium& e)
+      : energy_(energy), zero_(e.zero_modes), names_(e.point.stability.zero_modes), motions_(e.motions), rigid_(zero_.rows(), 0) {}
 
   bool all() const { return rigid_.cols() == zero_.cols(); }
 
@@ -25,15 +27,37 @@ class Explained {
   void take(const std::vector<RigidMotion>& motions) {
     for (const RigidMotion& m : motions) {
       if (all()) return;
-      Vector v = energy_.kinematics().restrict(m.velocity_field(energy_.model().particles()));
+      Vector v = energy_.kinematics().restrict(m.velocity_field(energy_.kinematics().sites()));
       if (v.norm() == 0) continue;
       v.normalize();
       if ((v - zero_ * (zero_.transpose() * v)).norm() > close) continue;
       v -= rigid_ * (rigid_.transpose() * v);
       if (v.norm() < close) continue;
-      names_.push_back(m.name);
+      names_.push_back(m.name), motions_.push_back(m);
       rigid_.conservativeResize(Eigen::NoChange, rigid_.cols() + 1);
       rigid_.rightCols(1) = v.normalized();
+    }
+  }
+
+  /// Takes what of the motions of each part with a body lies in the span: the spin of a rod, whatever way it points.
+  void take_combined(const std::vector<RigidMotion>& motions, int particles) {
+    for (std::size_t k = 0, end; k < motions.size() && !all(); k = end) {
+      for (end = k; end < motions.size() && motions[end].particle == motions[k].particle; ++end) {}
+      if (motions[k].sites.back() < particles) continue;
+      const std::vector<RigidMotion> part(motions.begin() + static_cast<std::ptrdiff_t>(k), motions.begin() + static_cast<std::ptrdiff_t>(end));
+      Eigen::MatrixXd v(zero_.rows(), static_cast<Eigen::Index>(part.size()));
+      for (std::size_t m = 0; m < part.size(); ++m) {
+        v.col(static_cast<Eigen::Index>(m)) = energy_.kinematics().restrict(part[m].velocity_field(energy_.kinematics().sites()));
+        v.col(static_cast<Eigen::Index>(m)) /= std::max(v.col(static_cast<Eigen::Index>(m)).norm(), 1e-300);
+      }
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(v - zero_ * (zero_.transpose() * v)), Eigen::ComputeThinV);
+      Eigen::Index inside = 0;
+      while (inside < svd.singularValues().size() && svd.singularValues()[svd.singularValues().size() - 1 - inside] <= close) ++inside;
+      if (inside == 0) continue;
+      Eigen::MatrixXd c = svd.matrixV().rightCols(inside);
+      for (std::size_t m = 0; m < part.size(); ++m)
+        c.row(static_cast<Eigen::Index>(m)) /= std::max(energy_.kinematics().restrict(part[m].velocity_field(energy_.kinematics().sites())).norm(), 1e-300);
+      take(combined(part, c));
     }
   }
 
@@ -43,7 +67,7 @@ class Explained {
     if (all() || motions.empty() || motions.size() > most_motions) return;
     Eigen::MatrixXd span(zero_.rows(), static_cast<Eigen::Index>(motions.size()));
     for (std::size_t k = 0; k < motions.size(); ++k)
-      span.col(static_cast<Eigen::Index>(k)) = energy_.kinematics().restrict(motions[k].velocity_field(energy_.model().particles()));
+      span.col(static_cast<Eigen::Index>(k)) = energy_.kinematics().restrict(motions[k].velocity_field(energy_.kinematics().sites()));
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(span);
     for (Eigen::Index j = 0; j < zero_.cols(); ++j)
       if ((span * qr.solve(zero_.col(j)) - zero_.col(j)).norm() > close) return;
@@ -56,44 +80,66 @@ class Explained {
   const Energy& energy_;
   const Eigen::MatrixXd& zero_;
   std::vector<std::string>& names_;
+  std::vector<RigidMotion>& motions_;
   Eigen::MatrixXd rigid_;
 };
 
 // Names what the zero modes are: rigid motions of glued parts, of parts in contact together, of parts against each other.
 // True if they explain all of them.
-bool name_zero_modes(Energy& energy, const State& state, const Eigen::MatrixXd& zero, std::vector<std::string>& names) {
-  Explained explained(energy, zero, names);
+bool name_zero_modes(Energy& energy, Equilibrium& e) {
+  const State& state = e.point.state;
+  Explained explained(energy, e);
   const std::vector<RigidMotion> of_parts = free_rigid_motions(energy.model(), state);
   explained.take(of_parts);
-  if (!explained.all() && !energy.model().contacts.empty()) {
+  if (!explained.all()) explained.take_combined(of_parts, energy.model().particles());
+  if (!explained.all() && !(energy.model().contacts.empty() && energy.model().rounded.empty())) {
     std::vector<std::array<int, 2>> touching;
     for (const Touch& t : energy.touches(state))
       if (t.other >= 0) touching.push_back({t.particle, t.other});
-    explained.take(free_rigid_motions(energy.model(), state, touching));
+    const std::vector<RigidMotion> together = free_rigid_motions(energy.model(), state, touching);
+    explained.take(together);
+    if (!explained.all()) explained.take_combined(together, energy.model().particles());
   }
   explained.take_relative(of_parts);
   return explained.all();
 }
 
-// Single particles that no stiffness holds: a grain that flies is named as such, one that slides on a plane by direction.
+// Single particles and bodies that no stiffness holds: one that flies is named as such, one that slides or spins on a plane by
+// direction.
 void name_idle(const Energy& energy, std::vector<std::string>& names) {
   constexpr std::size_t most_names = 20;
   const Kinematics& kinematics = energy.kinematics();
+  const Model& model = energy.model();
+  const auto entity_of = [&](int dof) {
+    const int site = kinematics.site_of(dof), body = kinematics.body_of(site);
+    return body < 0 ? site : model.particles() + body;
+  };
   std::size_t left_out = 0;
   const std::vector<int>& idle = energy.idle();
   for (std::size_t k = 0; k < idle.size();) {
-    const int p = kinematics.site_of(idle[k]);
-    std::string along;
+    const int e = entity_of(idle[k]), body = is_body(model, e) ? e - model.particles() : -1;
+    std::array<std::string, 2> along;                            // places, turns
     int without_stiffness = 0, free = 0;
-    for (; k < idle.size() && kinematics.site_of(idle[k]) == p; ++k, ++without_stiffness)
-      along += (along.empty() ? "" : ", ") + std::string(1, "xyz"[kinematics.coordinate_of(idle[k])]);
-    for (int c = 0; c < 3; ++c) free += kinematics.dof(p, c) >= 0;
-    const bool flies = without_stiffness == free;
-    if (names.size() >= most_names) ++left_out;
-    else names.push_back((flies ? "rattler: particle " : "translation of particle ") + std::to_string(energy.model().id[p]) +
-                         (flies ? " touches nothing" : " along " + along));
+    for (; k < idle.size() && entity_of(idle[k]) == e; ++k, ++without_stiffness) {
+      std::string& axes = along[kinematics.is_turn(kinematics.site_of(idle[k]))];
+      axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[kinematics.coordinate_of(idle[k])]);
+    }
+    for (int c = 0; c < 3; ++c) {
+      free += kinematics.dof(body < 0 ? e : kinematics.place_of(body), c) >= 0;
+      if (body >= 0) free += kinematics.dof(kinematics.turn_of(body), c) >= 0;
+    }
+    const auto tell = [&](std::string name) {
+      if (names.size() >= most_names) ++left_out;
+      else names.push_back(std::move(name));
+    };
+    if (without_stiffness == free) {
+      tell("rattler: " + called(model, e) + " touches nothing");
+      continue;
+    }
+    if (!along[0].empty()) tell("translation of " + called(model, e) + " along " + along[0]);
+    if (!along[1].empty()) tell("rotation of " + called(model, e) + " about " + along[1]);
   }
-  if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more particles");
+  if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more " + (model.bodies.empty() ? "particles" : "particles and bodies"));
 }
 
 // Whether contacts are made from one state to the other, and none is lost.
@@ -125,7 +171,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     s.negative = s.negative_rigid = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
     name_idle(energy, s.zero_modes);
     if (inertia.zero > 0) e.zero_modes = held.lowest(state, inertia.negative + inertia.zero).vectors.rightCols(inertia.zero);
-    const bool named = inertia.zero == 0 || name_zero_modes(energy, state, e.zero_modes, s.zero_modes);
+    const bool named = inertia.zero == 0 || name_zero_modes(energy, e);
     s.critical = named ? 0 : inertia.zero;
     s.stable = s.negative == 0 && named;
     e.tangent = held.tangent(state).q;
@@ -138,7 +184,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   if (inertia.zero > 0) {
     const EigenPairs lowest = newton.factors().lowest(inertia.negative + inertia.zero);
     e.zero_modes = lowest.vectors.rightCols(inertia.zero);
-    named = name_zero_modes(energy, state, e.zero_modes, s.zero_modes);
+    named = name_zero_modes(energy, e);
   }
   s.critical = named ? 0 : inertia.zero;
   s.stable = s.negative == 0 && named;
@@ -155,11 +201,13 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
 
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   constexpr double largest_part = 0.45, least_cosine = 0.5;
-  const Vector moved = energy.kinematics().restrict(displacement(a.point.state, b.point.state));
+  const Vector moved = energy.kinematics().difference(a.point.state, b.point.state);
   const double change = b.point.state.load_factor - a.point.state.load_factor;
   const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
                by_both = (moved - change / 2 * (a.tangent + b.tangent)).norm();
-  const double rounding = 1e-12 * b.point.state.position.norm();
+  double place = b.point.state.position.squaredNorm();
+  for (const Pose& p : b.point.state.bodies) place += p.position.hi.squaredNorm();
+  const double rounding = 1e-12 * std::sqrt(place);
   if (std::min({by_a, by_b, by_both}) > largest_part * moved.norm() + rounding) return false;
   if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
@@ -188,7 +236,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   }
   State state = predicted;
   Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, most_iterations);
-  const bool meets = !energy.model().contacts.empty() || !energy.model().walls.empty();
+  const bool meets = !energy.model().contacts.empty() || !energy.model().walls.empty() || !energy.model().rounded.empty();
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = predicted;

@@ -1,5 +1,6 @@
 #pragma once
 // One equilibrium with what its neighbours are computed from.
+#include "model/rigid_motion.hpp"
 #include "path/options.hpp"
 #include "solve/newton.hpp"
 
@@ -9,6 +10,7 @@ struct Equilibrium {
   PathPoint point;
   Vector tangent;                      // dx/dλ at fixed zero modes (dofs) [length]
   Eigen::MatrixXd zero_modes;          // orthonormal, dofs × count: rigid motions and symmetries that cost nothing
+  std::vector<RigidMotion> motions = {};   // the rigid ones that they have been told to be
   EigenPairs lowest;                   // eigenpairs as far as they were asked for: where the search at a neighbour begins
 };
 

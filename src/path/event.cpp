@@ -18,13 +18,19 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& mode
 
 }  // namespace
 
+void store(const ContactSet& closed, Resume& resume) {
+  for (const ContactKey& key : closed)
+    if (key.feature < 0) resume.closed.push_back({key.particle, key.other, key.wall});
+    else resume.closed_bodies.push_back({key.particle, key.other, key.wall, key.feature, key.reach});
+}
+
 Resume resume_of(const Event& event, const ContactSet& closed) {
   Resume resume;
   resume.label = event.at.point.label;
   resume.before = event.before, resume.after = event.after;
   resume.modes = event.modes;
   resume.tangent = event.at.tangent;
-  for (const ContactKey& key : closed) resume.closed.push_back({key.particle, key.other, key.wall});
+  store(closed, resume);
   return resume;
 }
 
@@ -46,6 +52,7 @@ std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at) 
 ContactSet resumed_contacts(const Resume& resume) {
   ContactSet set;
   for (const auto& [particle, other, wall] : resume.closed) set.insert({particle, other, wall});
+  for (const auto& [particle, other, wall, feature, reach] : resume.closed_bodies) set.insert({particle, other, wall, feature, reach != 0});
   return set;
 }
 

@@ -4,7 +4,8 @@
 
 namespace elamin {
 
-/// limit, branch: the equilibrium at which the Hessian is singular, with its critical modes. contact: a gap that vanishes.
+/// limit, branch: the equilibrium at which the Hessian is singular, with its critical modes; a limit without a mode: a contact of
+/// bodies at which the stiffness jumps and the load factor turns. contact: a gap that vanishes.
 /// watch: an observable at its value.
 struct Event {
   EventKind kind = EventKind::branch;
@@ -14,12 +15,17 @@ struct Event {
   int before = 0, after = 0;           // Morse index on both sides
   bool arrival = false;                // a branch point reached along a side branch: an eigenvalue touches zero
   ContactSet closed;                   // contact: what is closed beyond
+  std::optional<Equilibrium> beyond = {};   // at a contact of bodies: see ContactChange
+  int onward = 0;
   std::string what;
   int watch = -1;                      // which of the options' watches
 };
 
 /// What a path needs to be taken up behind this event; closed: the contacts from there on.
 Resume resume_of(const Event& event, const ContactSet& closed);
+
+/// The contacts that a path goes on with.
+void store(const ContactSet& closed, Resume& resume);
 
 /// The limit point or branch point that a path is taken up at, with its equilibrium; nothing if it was none.
 std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at);

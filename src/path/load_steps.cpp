@@ -116,7 +116,7 @@ void LoadSteps::step() {
   }
   if (event) return lose_stability(std::move(*event), goal);
   if (std::optional<Event> seen = locate_watch(options_.watches, side_, segment, current_, candidate, negative_)) return reach(std::move(*seen));
-  if (contact) return meet(std::move(*contact));
+  if (contact) return meet(std::move(*contact), goal);
 
   const std::int64_t done = arrived;
   const double start = interval_start_;
@@ -141,18 +141,27 @@ void LoadSteps::reach(Event event) {
 }
 
 // A contact made or lost: a point of the path, which goes on from there.
-void LoadSteps::meet(ContactChange change) {
+void LoadSteps::meet(ContactChange change, double target) {
   Event event;
   event.kind = EventKind::contact, event.what = change.what;
   event.at = std::move(change.at);
   event.before = event.after = negative_;
   event.closed = change.after;
+  const double here = event.at.point.state.load_factor;
+  if (change.beyond) {
+    event.after = change.beyond->point.stability.negative;
+    if (change.onward * (target - here) < 0) event.kind = EventKind::limit;
+  }
+  if (event.kind == EventKind::limit) return lose_stability(std::move(event), target);
   halvings_ = 0;
   emit(event);
-  const double here = event.at.point.state.load_factor;
-  event.at.point.label.clear();
-  settle(std::move(event.at), here);
+  Equilibrium on = change.beyond ? std::move(*change.beyond) : event.at;
+  on.point.label.clear();
+  settle(std::move(on), here);
   closed_ = std::move(change.after);
+  if (event.before > 0 || event.after == 0) return;
+  if (options_.when_unstable == WhenUnstable::stop) return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", event.at.point.label, here));
+  if (options_.when_unstable == WhenUnstable::jump) jump(event, target);
 }
 
 // What stops the steps, told by following the branch in arc length: an event that load steps cannot meet themselves, or an
@@ -174,7 +183,7 @@ bool LoadSteps::explore(double target) {
     if (next->event) {
       Event& event = *next->event;
       if (event.kind == EventKind::contact) {
-        meet({true, 0, std::move(event.at), std::move(event.closed), event.what});
+        meet({true, 0, std::move(event.at), std::move(event.closed), event.what, std::move(event.beyond), event.onward}, targets_[interval_]);
         return true;
       }
       if (event.kind == EventKind::limit && event.before > 0 && options_.when_unstable != WhenUnstable::follow) return false;

@@ -21,7 +21,7 @@ class LoadSteps : public Path {
   void begin();
   void step();
   bool explore(double target);
-  void meet(ContactChange change);
+  void meet(ContactChange change, double target);
   void reach(Event watched);
   void lose_stability(Event event, double target);
   void pass(const Event& event, double target);

@@ -206,7 +206,7 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
   // Hermite's cubic between the two, with dx/ds = dλ/ds dx/dλ.
   const double width = upper.t - lower.t, u = (zero_of(lower, upper) - lower.t) / width;
   const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
-  const Vector moved = kinematics.restrict(displacement(lower.e.point.state, upper.e.point.state));
+  const Vector moved = kinematics.difference(lower.e.point.state, upper.e.point.state);
   State state = lower.e.point.state;
   const double load = state.load_factor + h01 * (upper.e.point.state.load_factor - state.load_factor) + h10 * lower.f + h11 * upper.f;
   kinematics.prescribe(state, load);

@@ -40,7 +40,7 @@ void Path::emit(Event& event) {
     point.stability.negative = std::min(event.before, event.after);
     point.stability.negative_rigid = point.stability.negative - (event.kind == EventKind::limit ? 0 : std::min(lost, point.stability.negative));
   }
-  if (event.kind == EventKind::contact) point.what = event.what;
+  if (event.kind == EventKind::contact || event.kind == EventKind::limit) point.what = event.what;
   if (event.arrival) point.what = "reached along a side branch";
   if (!point.resume) point.resume = resume_of(event, event.closed);
   point.resume->label = point.label;

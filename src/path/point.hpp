@@ -33,6 +33,7 @@ struct Resume {
   double load = 0;                        // … and its load factor
   double length = 0, step = 0, shortest = 0;   // the metric's L, the next step, the shortest one
   std::vector<std::array<int, 3>> closed; // contacts from here on: particle, other or −1, wall or −1
+  std::vector<std::array<int, 5>> closed_bodies = {};   // of bodies besides: feature, 1: within reach (see ContactKey)
 };
 
 /// One equilibrium on a path; label "" unless it is an event, "initial" or "final".

@@ -40,7 +40,7 @@ class Switch {
       State state;
       const Report report = at(state, along, amplitude, {});
       if (!report.converged()) continue;
-      const Vector moved = kinematics().restrict(displacement(event_.at.point.state, state));
+      const Vector moved = kinematics().difference(event_.at.point.state, state);
       if (moved.norm() > 2 * amplitude || newton_.energy().passage(event_.at.point.state, state) < 1) continue;
       SideBranch side{assess(newton_, state, report), {}, along};
       const double load = state.load_factor - event_.at.point.state.load_factor;

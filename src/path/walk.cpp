@@ -52,16 +52,17 @@ std::optional<Waypoint> Walk::next() {
   for (double s = step_; s >= shortest_ && !interrupted();) {
     const Arc arc(newton_, current_, direction_, metric_);
     std::optional<Candidate> c = reach(arc, s, why);
+    const bool corner = !c && (c = reach_corner(arc, s)).has_value();
     if (!c) {
       s /= 2;
       continue;
     }
-    if (c->e.point.stability.critical > 0 && current_.point.stability.critical == 0 && shifts < most_shifts) {
+    if (!corner && c->e.point.stability.critical > 0 && current_.point.stability.critical == 0 && shifts < most_shifts) {
       s *= 0.87, ++shifts;                                     // an event by chance: let it be inside of a step
       continue;
     }
-    Segment segment{0, s, [&arc](double t, const Equilibrium& nearest) { return arc.at(t, nearest); }};
-    if (!find_contact(segment, *c, why) || !find_critical(segment, arc, *c, why)) {
+    Segment segment{0, c->s, [&arc](double t, const Equilibrium& nearest) { return arc.at(t, nearest); }};
+    if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, arc, *c, why)) {
       s /= 2;
       continue;
     }
@@ -90,18 +91,36 @@ std::optional<Walk::Candidate> Walk::reach(const Arc& arc, double s, std::string
   return Candidate{s, std::move(e), {}, {}};
 }
 
+// Or, where the branch may end or turn in a corner, the corner.
+std::optional<Walk::Candidate> Walk::reach_corner(const Arc& arc, double s) {
+  if (!options_.contacts) return {};
+  std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * direction_.x, s * direction_.load);
+  if (!change) return {};
+  const double t = arc.position(change->at.point.state);
+  constexpr double here = 1e-6;                                 // of the step: it may be where the walk stands
+  if (!(t >= -here * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(largest_departure * t, here * s)) return {};
+  return with_contact(Candidate{t, {}, {}, {}}, std::move(*change));
+}
+
+Walk::Candidate Walk::with_contact(Candidate c, ContactChange change) const {
+  Event event;
+  event.kind = EventKind::contact;
+  event.before = negative_;                                     // after: when it is known that nothing comes before
+  event.closed = std::move(change.after), event.what = std::move(change.what);
+  event.beyond = std::move(change.beyond), event.onward = change.onward;
+  c.e = std::move(change.at);
+  event.at = c.e;
+  c.event = std::move(event);
+  return c;
+}
+
 bool Walk::find_contact(const Segment& segment, Candidate& c, std::string& why) {
   if (!options_.contacts) return true;
   std::optional<ContactChange> change = locate_contact(newton_, segment, closed_, current_, c.e);
   if (!change) return true;
   if (!change->found) return why = "a contact that is made or lost could not be located", false;
-  Event event;
-  event.kind = EventKind::contact;
-  event.before = negative_;                                     // after: when it is known that nothing comes before
-  event.closed = std::move(change->after), event.what = std::move(change->what);
-  c.s = change->at_parameter, c.e = change->at;
-  event.at = c.e;
-  c.event = std::move(event);
+  c.s = change->at_parameter;
+  c = with_contact(std::move(c), std::move(*change));
   return true;
 }
 
@@ -112,7 +131,8 @@ bool Walk::find_critical(Segment segment, const Arc& arc, Candidate& c, std::str
   const auto slope = [&](const Equilibrium& e) { return direction_of(e, metric_, arc.direction()).load; };
   const bool turns = sign_of(slope(c.e)) != sign_;
   if (after == negative_ && !turns) {
-    if (c.event) c.event->after = after;
+    if (c.event) c.event->after = c.event->beyond ? c.event->beyond->point.stability.negative : after;
+    if (c.event && c.event->beyond && c.event->onward == -sign_) c.event->kind = EventKind::limit;
     return true;
   }
   std::optional<Event> event;
@@ -163,10 +183,14 @@ void Walk::weigh(const Equilibrium& e, Direction& direction) {
 }
 
 Waypoint Walk::accept(Candidate c, const Arc& arc) {
-  const bool ordinary = !c.event && !c.stop;
-  Direction next = direction_of(c.e, metric_, arc.direction());
+  const bool ordinary = !c.event && !c.stop, corner = c.event && c.event->beyond.has_value();
+  Direction next = direction_of(corner ? *c.event->beyond : c.e, metric_, arc.direction());
+  if (corner && c.event->onward != 0 && sign_of(next.load) != c.event->onward) next.x = -next.x, next.load = -next.load;
   last_stop_ = c.stop;
-  if (c.event && (c.event->kind == EventKind::limit || c.event->kind == EventKind::branch)) {
+  if (corner) {
+    negative_ = c.event->after;
+    sign_ = sign_of(next.load);
+  } else if (c.event && (c.event->kind == EventKind::limit || c.event->kind == EventKind::branch)) {
     if (c.event->arrival) next = arc.direction();               // on along the side branch, to its other half
     if (c.event->kind == EventKind::limit) sign_ = -sign_;
     if (c.event->arrival) sign_ = -sign_;
@@ -176,7 +200,7 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
     negative_ = c.e.point.stability.negative;
     sign_ = sign_of(next.load);
   }
-  closed_ = c.event && c.event->kind == EventKind::contact ? c.event->closed : closed_contacts(newton_.energy(), c.e.point.state);
+  closed_ = c.event && (corner || c.event->kind == EventKind::contact) ? c.event->closed : closed_contacts(newton_.energy(), c.e.point.state);
   for (std::size_t k = 0; k < side_.size(); ++k) {
     side_[k] = c.event && c.event->watch == static_cast<int>(k) ? -side_[k] : options_.watches[k].side(c.e.point.state);
   }
@@ -187,6 +211,10 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
   }
   if (ordinary) weigh(c.e, next);
   current_ = c.e;
+  if (corner) {
+    current_ = *c.event->beyond;
+    step_ = std::min(step_, longest());
+  }
   current_.point.stability.critical = 0;                        // what is singular here has been told
   direction_ = std::move(next);
   if (c.event) c.event->at = c.e;

@@ -59,6 +59,8 @@ class Walk {
   };
   double longest() const;
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
+  std::optional<Candidate> reach_corner(const Arc& arc, double s);
+  Candidate with_contact(Candidate c, ContactChange change) const;
   bool find_contact(const Segment& segment, Candidate& c, std::string& why);
   bool find_critical(Segment segment, const Arc& arc, Candidate& c, std::string& why);
   void find_stop(Segment segment, const Arc& arc, Candidate& c);

@@ -49,18 +49,26 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
     }
 }
 
-void check_plane(const Problem& problem, const Model& model, const Field& position, const TablePlace& whose,
+void check_plane(const Problem& problem, const Model& model, const State& state, const TablePlace& whose,
                  Mistakes& mistakes) {
-  if (!model.plane_normal || position.cols() == 0) return;
+  if (!model.plane_normal || state.particles() + state.bodies.size() == 0) return;
   const int c = *model.plane_normal;
-  const auto coordinate = position.row(c);
-  const double level = model.start.position(c, 0), allowed = 1e-12 * position.cwiseAbs().maxCoeff();
-  Eigen::Index i = 0;
-  const double off = (coordinate.array() - level).abs().maxCoeff(&i);
-  if (off > allowed)
-    mistakes.add(whose, fmt::format("particle {} is not in the plane \"{}\" of particle {}: {} is {} instead of {}",
-                                    model.id[static_cast<std::size_t>(i)], problem.plane, model.id[0], "xyz"[c],
-                                    coordinate[i], level));
+  const auto at = [c](const State& s, std::size_t k) {
+    const auto n = static_cast<std::size_t>(s.particles());
+    return k < n ? s.position(c, static_cast<Eigen::Index>(k)) : s.bodies[k - n].position.hi[c];
+  };
+  const auto name = [&](std::size_t k) {
+    return k < model.id.size() ? fmt::format("particle {}", model.id[k]) : fmt::format("body {}", model.bodies[k - model.id.size()].id);
+  };
+  double extent = state.particles() > 0 ? state.position.cwiseAbs().maxCoeff() : 0;
+  for (const Pose& pose : state.bodies) extent = std::max(extent, pose.position.hi.cwiseAbs().maxCoeff());
+  const double level = at(model.start, 0);
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < state.particles() + state.bodies.size(); ++k)
+    if (std::abs(at(state, k) - level) > std::abs(at(state, worst) - level)) worst = k;
+  if (std::abs(at(state, worst) - level) > 1e-12 * extent)
+    mistakes.add(whose, fmt::format("{} is not in the plane \"{}\" of {}: {} is {} instead of {}", name(worst), problem.plane,
+                                    name(0), "xyz"[c], at(state, worst), level));
 }
 
 void check_timestep(const Problem& problem, const Model& model, Mistakes& mistakes) {

@@ -10,8 +10,8 @@ namespace elamin {
 /// Inside a LAMMPS data file it is allowed in an energy study.
 void check_distinct(const Problem& problem, const Model& model, Mistakes& mistakes);
 
-/// Particles that are not in one plane, where the problem asks for it.
-void check_plane(const Problem& problem, const Model& model, const Field& position, const TablePlace& whose,
+/// Particles and bodies that are not in one plane, where the problem asks for it.
+void check_plane(const Problem& problem, const Model& model, const State& state, const TablePlace& whose,
                  Mistakes& mistakes);
 
 /// What cannot be an equilibrium. Glued parts that neither a support nor, by its tables, a wall or a contact may hold

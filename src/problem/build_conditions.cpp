@@ -15,66 +15,14 @@
 namespace elamin {
 namespace {
 
-/// A vector that has a component along the normal of the plane is a mistake.
-void stay_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
+/// An axial vector must be normal to the plane.
+void turn_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
                    Mistakes& mistakes) {
-  if (!model.plane_normal || v[*model.plane_normal] == 0) return;
-  const char normal = "xyz"[*model.plane_normal];
-  mistakes.add(place, key,
-               fmt::format("leads out of the plane \"{}\": its {} component is {}; it must be 0", problem.plane, normal,
-                           v[*model.plane_normal]));
+  for (int c = 0; model.plane_normal && c < 3; ++c)
+    if (c != *model.plane_normal && v[c] != 0)
+      return mistakes.add(place, key, fmt::format("turns out of the plane \"{}\": its {} component is {}; it must be 0",
+                                                  problem.plane, "xyz"[c], v[c]));
 }
-
-/// Which support holds each coordinate of each particle; two that hold one alike are fine.
-class Holders {
- public:
-  Holders(const Problem& problem, const Model& model, Mistakes& mistakes)
-      : problem_(problem),
-        model_(model),
-        mistakes_(mistakes),
-        holder_(3 * static_cast<std::size_t>(model.particles()), -1) {}
-
-  void hold(int table, const Support& s) {
-    for (const int i : s.particles)
-      for (int c = 0; c < 3; ++c) {
-        if (!s.held[c]) continue;
-        int& holder = holder_[3 * static_cast<std::size_t>(i) + c];
-        if (holder < 0)
-          holder = table;
-        else
-          compare(table, holder, i, c);
-      }
-  }
-
- private:
-  void compare(int table, int earlier, int particle, int c) {
-    const SupportTable &a = problem_.supports[table], &b = problem_.supports[earlier];
-    if (a.velocity[c] != b.velocity[c] && told_.insert({table, earlier}).second)
-      return mistakes_.add(a.place, "velocity", fmt::format("moves {} of particle {} otherwise than {} ({} here, {} there); one coordinate has "
-                                                            "one velocity", "xyz"[c], model_.id[particle], named(b.place),
-                                                            a.velocity[c], b.velocity[c]));
-    const double here = a.displacement[c], there = b.displacement[c];
-    if ((here == 0 && there == 0) || told_.count({table, earlier})) return;
-    const Condition one = condition_of("support", problem_.supports, table), other = condition_of("support", problem_.supports, earlier);
-    if (!ever_together(problem_, one, other)) return;
-    const Scaling at_a = scaling_of(problem_, condition_of("support", problem_.supports, table)),
-                  at_b = scaling_of(problem_, condition_of("support", problem_.supports, earlier));
-    if (here == there && at_a == at_b) return;
-    told_.insert({table, earlier});
-    const auto word = [](const Scaling& s) { return s.rate == 0 ? "constant" : "scaled"; };
-    const std::string what = here != there ? fmt::format("{} here, {} there", here, there)
-                                           : fmt::format("{} here, {} there", word(at_a), word(at_b));
-    mistakes_.add(
-        a.place, fmt::format("prescribes {} of particle {} otherwise than {} ({}); one coordinate has one displacement",
-                             "xyz"[c], model_.id[particle], named(b.place), what));
-  }
-
-  const Problem& problem_;
-  const Model& model_;
-  Mistakes& mistakes_;
-  std::vector<int> holder_;
-  std::set<std::pair<int, int>> told_;
-};
 
 /// Every structure that has a particle without mass among these, which `needed` names, is told once. Particles and structures both ascend.
 void need_density(const Problem& problem, const Model& model, const std::vector<int>& particles, const std::string& needed,
@@ -90,6 +38,19 @@ void need_density(const Problem& problem, const Model& model, const std::vector<
     else
       mistakes.add(place_of(problem, *s), "density",
                    fmt::format("is missing; it must be a positive number, {} needs it", needed));
+  }
+}
+
+/// Every body without mass among these is told, at its table, once.
+void need_mass(const Problem& problem, const Model& model, const std::vector<int>& bodies, const std::string& needed,
+               std::set<std::string>& told, Mistakes& mistakes) {
+  for (const int b : bodies) {
+    if (model.bodies[b].mass > 0) continue;
+    const auto s = std::find_if(model.structures.begin(), model.structures.end(),
+                                [&](const Structure& t) { return b >= t.first_body && b < t.first_body + t.bodies; });
+    if (s == model.structures.end() || !told.insert(s->name).second) continue;
+    mistakes.add(place_of(problem, *s), s->kind == "lammps" ? "bodies" : "mass",
+                 fmt::format("is missing; it must be a positive number, or give density: {} needs it", needed));
   }
 }
 
@@ -122,6 +83,26 @@ Field radial_forces(const Problem& problem, const Model& model, const LoadTable&
   return forces;
 }
 
+void set_velocity(const Problem& problem, const VelocityTable& table, const Members& members, Model& model, Mistakes& mistakes) {
+  const auto bodies = static_cast<Eigen::Index>(model.bodies.size());
+  if (table.velocity) {
+    stay_in_plane(problem, model, table.place, "velocity", *table.velocity, mistakes);
+    if (model.velocity.cols() == 0) model.velocity = Field::Zero(3, model.particles());
+    for (const int i : members.particles) model.velocity.col(i) = *table.velocity;
+    if (model.body_velocity.cols() == 0) model.body_velocity = Field::Zero(3, bodies);
+    for (const int b : members.bodies) model.body_velocity.col(b) = *table.velocity;
+  }
+  if (!table.spin) return;
+  if (members.bodies.empty())
+    mistakes.add(table.place, "spin", fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
+  turn_in_plane(problem, model, table.place, "spin", *table.spin, mistakes);
+  if (model.angular_momentum.cols() == 0) model.angular_momentum = Field::Zero(3, bodies);
+  for (const int b : members.bodies) {
+    const Mat3 R = model.start.bodies[b].rotation.toRotationMatrix();
+    model.angular_momentum.col(b) = R * (model.bodies[b].inertia * (R.transpose() * *table.spin));
+  }
+}
+
 void add_pressures(const Problem& problem, Model& model) {
   for (std::size_t t = 0; t < problem.pressures.size(); ++t) {
     const PressureTable& table = problem.pressures[t];
@@ -141,9 +122,9 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
   std::vector<const ChangeTable*> tables;         // of the model's changes
   for (std::size_t t = 0; t < problem.changes.size(); ++t) {
     const ChangeTable& table = problem.changes[t];
-    const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
-    if (!particles) continue;
-    model.changes.push_back({table.group, *particles, table.rest_length.value_or(0), table.bond_stiffness.value_or(0),
+    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    if (!members) continue;
+    model.changes.push_back({table.group, members->particles, table.rest_length.value_or(0), table.bond_stiffness.value_or(0),
                              table.angle_stiffness.value_or(0),
                              scaling_of(problem, condition_of("change", problem.changes, t))});
     tables.push_back(&table);
@@ -180,71 +161,66 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
 
 }  // namespace
 
+void stay_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
+                   Mistakes& mistakes) {
+  if (!model.plane_normal || v[*model.plane_normal] == 0) return;
+  const char normal = "xyz"[*model.plane_normal];
+  mistakes.add(place, key,
+               fmt::format("leads out of the plane \"{}\": its {} component is {}; it must be 0", problem.plane, normal,
+                           v[*model.plane_normal]));
+}
+
 void need_masses(const Problem& problem, const Model& model, Mistakes& mistakes) {
   std::vector<int> all(model.particles());
   std::iota(all.begin(), all.end(), 0);
   std::set<std::string> told;
   need_density(problem, model, all, "dynamics", told, mistakes);
-}
-
-bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
-  bool whole = true;
-  Holders holders(problem, model, mistakes);
-  for (int t = 0; t < static_cast<int>(problem.supports.size()); ++t) {
-    const SupportTable& table = problem.supports[t];
-    const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
-    if (!particles) {
-      whole = false;
-      continue;
-    }
-    Support s{table.group, *particles, {false, false, false}, table.displacement,
-              scaling_of(problem, condition_of("support", problem.supports, t))};
-    for (const char letter : table.directions) s.held[letter - 'x'] = true;
-    s.velocity = table.velocity;
-    stay_in_plane(problem, model, table.place, "displacement", s.displacement, mistakes);
-    stay_in_plane(problem, model, table.place, "velocity", s.velocity, mistakes);
-    holders.hold(t, s);
-    model.supports.push_back(std::move(s));
-  }
-  return whole;
+  all.resize(model.bodies.size());
+  std::iota(all.begin(), all.end(), 0);
+  need_mass(problem, model, all, "dynamics", told, mistakes);
 }
 
 void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
   for (std::size_t t = 0; t < problem.loads.size(); ++t) {
     const LoadTable& table = problem.loads[t];
-    const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
-    if (!particles) continue;
-    Load load{table.group, *particles, Vec3::Zero(),
+    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    if (!members) continue;
+    Load load{table.group, members->particles, Vec3::Zero(),
               scaling_of(problem, condition_of("load", problem.loads, t))};
+    load.bodies = members->bodies;
+    for (const char* key : {"point", "torque"})
+      if (table.place.keys.count(key) && load.bodies.empty())
+        mistakes.add(table.place, key, fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
+    load.point = table.point.value_or(load.point), load.torque = table.torque.value_or(load.torque);
     if (table.radial) {
-      load.own = radial_forces(problem, model, table, *particles, mistakes);
-    } else {
-      load.force = table.force ? *table.force : *table.total_force / static_cast<double>(particles->size());
+      if (!load.bodies.empty())
+        mistakes.add(table.place, "radial", fmt::format("is of particles, and \"{}\" has bodies; give force", table.group));
+      load.own = radial_forces(problem, model, table, load.particles, mistakes);
+    } else if (table.force || table.total_force) {
+      load.force = table.force ? *table.force : *table.total_force / members->count();
       stay_in_plane(problem, model, table.place, table.force ? "force" : "total_force",
                     table.force ? *table.force : *table.total_force, mistakes);
     }
+    turn_in_plane(problem, model, table.place, "torque", load.torque, mistakes);
     model.loads.push_back(std::move(load));
   }
   std::set<std::string> told;
   for (std::size_t t = 0; t < problem.gravity.size(); ++t) {
     const GravityTable& table = problem.gravity[t];
-    const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
-    if (!particles) continue;
+    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    if (!members) continue;
     stay_in_plane(problem, model, table.place, "acceleration", table.acceleration, mistakes);
-    need_density(problem, model, *particles, named(table.place), told, mistakes);
-    model.gravity.push_back({table.group, *particles, table.acceleration,
-                             scaling_of(problem, condition_of("gravity", problem.gravity, t))});
+    need_density(problem, model, members->particles, named(table.place), told, mistakes);
+    need_mass(problem, model, members->bodies, named(table.place), told, mistakes);
+    model.gravity.push_back({table.group, members->particles, table.acceleration,
+                             scaling_of(problem, condition_of("gravity", problem.gravity, t)), members->bodies});
   }
   for (const ViscosityTable& table : problem.viscosity)
-    if (const auto* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
-      model.viscosity.push_back({*particles, table.coefficient});
-  for (const VelocityTable& table : problem.velocities) {
-    const std::vector<int>* particles = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
-    if (!particles) continue;
-    stay_in_plane(problem, model, table.place, "velocity", table.velocity, mistakes);
-    if (model.velocity.cols() == 0) model.velocity = Field::Zero(3, model.particles());
-    for (const int i : *particles) model.velocity.col(i) = table.velocity;
-  }
+    if (const auto* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
+      model.viscosity.push_back({members->particles, table.coefficient, members->bodies});
+  for (const VelocityTable& table : problem.velocities)
+    if (const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
+      set_velocity(problem, table, *members, model, mistakes);
   add_pressures(problem, model);
   add_changes(problem, groups, model, mistakes);
 }

@@ -14,11 +14,6 @@
 namespace elamin {
 namespace {
 
-const Structure& structure_with(const Model& model, int particle) {
-  return *std::find_if(model.structures.begin(), model.structures.end(),
-                       [&](const Structure& s) { return particle < s.first + s.count; });
-}
-
 /// E_eff of two spheres: ((1 − ν₁²)/E₁ + (1 − ν₂²)/E₂)⁻¹, for like materials E/(2 (1 − ν²)).
 /// Source: Guerra 2021, below equation (5).
 double effective_modulus(const ContactTable& t) {
@@ -50,9 +45,12 @@ class ContactBuilder {
       : groups_(groups), model_(model), mistakes_(mistakes) {}
 
   bool add(const ContactTable& t) {
+    std::array<Members, 2> members;
+    if (t.place.broken || !both(t.place, t.between, members)) return false;
+    if (t.law == "rounded") return add_rounded(t, members);
     PairContact c;
     c.between = t.between;
-    if (t.place.broken || !both(t.place, t.between, c.particles)) return false;
+    if (!take_particles(t, members, c.particles)) return false;
     c.exclude_bonds = t.exclude_bonds;
     if (t.law == "lj") {
       c.law = PairContact::Law::lj;
@@ -69,10 +67,14 @@ class ContactBuilder {
   }
 
   bool add(const WallTable& t, const Scaling& scaling) {
-    const std::vector<int>* particles = t.place.broken ? nullptr : groups_.find(t.place, "group", t.group);
-    if (!particles) return false;
-    Wall w{t.name, t.group, *particles, with_unit_normal(t.region), t.inside, t.hard ? 0 : effective_modulus(t), t.curved,
-           t.displacement, t.radius_change, scaling, t.hard, damping_of(t.damping)};
+    const Members* members = t.place.broken ? nullptr : groups_.find(t.place, "group", t.group);
+    if (!members || !can_have(t, *members)) return false;
+    const bool elastic = !t.hard && !members->particles.empty();
+    Wall w{t.name, t.group, members->particles, with_unit_normal(t.region), t.inside, elastic ? effective_modulus(t) : 0, t.curved,
+           t.displacement, t.radius_change, scaling, t.hard, damping_of(t.damping), members->bodies};
+    w.kernel = {t.k_n.value_or(0), t.k_na, t.cutoff, RoundedKernel::Form::coded};
+    w.body_damping.normal = t.c_n, w.body_damping.tangential = t.c_t.value_or(t.c_n / 2);
+    w.lammps = t.lammps;
     if (!has_number(t.place, w.effective_modulus)) return false;
     if ((w.hard || w.effective_modulus > 0) && !round(t.place, "group", w.particles)) return false;
     model_.walls.push_back(std::move(w));
@@ -80,8 +82,9 @@ class ContactBuilder {
   }
 
   bool add(const ConnectTable& t) {
+    std::array<Members, 2> members;
     std::array<std::vector<int>, 2> particles;
-    if (t.place.broken || !both(t.place, t.between, particles)) return false;
+    if (t.place.broken || !both(t.place, t.between, members) || !take_particles(t, members, particles)) return false;
     Connection c;
     c.first = std::move(particles[0]), c.second = std::move(particles[1]);
     c.within = t.within, c.bonds_per_particle = t.bonds_per_particle.value_or(0);
@@ -100,19 +103,76 @@ class ContactBuilder {
   }
 
  private:
-  bool both(const TablePlace& place, const std::array<std::string, 2>& names,
-            std::array<std::vector<int>, 2>& particles) {
+  bool both(const TablePlace& place, const std::array<std::string, 2>& names, std::array<Members, 2>& members) {
     bool found = true;
     for (int side = 0; side < 2; ++side) {
       if (side == 1 && names[1] == names[0]) {
-        particles[1] = particles[0];
+        members[1] = members[0];
         break;
       }
-      const std::vector<int>* group = groups_.find(place, "between", names[side]);
-      if (group) particles[side] = *group;
+      const Members* group = groups_.find(place, "between", names[side]);
+      if (group) members[side] = *group;
       found = found && group;
     }
     return found;
+  }
+
+  /// The particles of both sides, which there must be.
+  template <class Table>
+  bool take_particles(const Table& t, std::array<Members, 2>& members, std::array<std::vector<int>, 2>& particles) {
+    constexpr bool contact = requires { t.law; };
+    for (int side = 0; side < 2; ++side) {
+      if (members[side].particles.empty()) {
+        mistakes_.add(t.place, "between", fmt::format("\"{}\" has no particle{}", t.between[side],
+                                                      contact ? "; between bodies write law = \"rounded\"" : "; bodies are not connected"));
+        return false;
+      }
+      if constexpr (contact)
+        if (t.hard && !members[side].bodies.empty()) {
+          mistakes_.add(t.place, "hard", fmt::format("\"{}\" has bodies, which feel no hard contacts; write law = \"rounded\"", t.between[side]));
+          return false;
+        }
+      particles[side] = std::move(members[side].particles);
+    }
+    return true;
+  }
+
+  bool add_rounded(const ContactTable& t, std::array<Members, 2>& members) {
+    if (members[0].bodies.empty() && members[1].bodies.empty()) {
+      mistakes_.add(t.place, "between", "none of the groups has a body; the law \"rounded\" is between bodies, or a body and particles");
+      return false;
+    }
+    const RoundedKeys& r = t.rounded;
+    RoundedPair p;
+    p.between = t.between, p.formulation = r.formulation;
+    p.kernel = {r.k_n, r.k_na, t.cutoff.value_or(0), r.kernel};
+    p.damping = {r.c_n, r.c_t, r.mu, r.slip, r.apart};
+    p.unit_area = r.delta_ua.value_or(1);
+    for (int side = 0; side < 2; ++side) {
+      if (!round(t.place, "between", members[side].particles)) return false;
+      p.particles[side] = std::move(members[side].particles), p.bodies[side] = std::move(members[side].bodies);
+    }
+    model_.rounded.push_back(std::move(p));
+    return true;
+  }
+
+  /// Whether the group of a wall has what the wall's numbers are of, and the wall can be one of bodies.
+  bool can_have(const WallTable& t, const Members& members) {
+    bool good = true;
+    const auto wrong = [&](const char* key, const std::string& what) { mistakes_.add(t.place, key, what), good = false; };
+    const bool elastic = t.effective_modulus || t.youngs_modulus;
+    if (!members.particles.empty() && !elastic && !t.hard)
+      wrong("youngs_modulus", fmt::format("is missing; \"{}\" has particles: it must be a positive number, or give effective_modulus", t.group));
+    if (members.bodies.empty()) {
+      if (t.k_n) wrong("k_n", fmt::format("is of bodies, and \"{}\" has none; leave it out", t.group));
+      return good;
+    }
+    if (t.hard) wrong("hard", fmt::format("\"{}\" has bodies, which feel no hard walls; give k_n", t.group));
+    else if (!t.k_n) wrong("k_n", fmt::format("is missing; \"{}\" has bodies: it must be a number that is not negative", t.group));
+    if (t.radius_change != 0) wrong("radius_change", fmt::format("\"{}\" has bodies; for them a wall keeps its radius", t.group));
+    if (!t.lammps && t.region.shape != Shape::plane && !t.inside)
+      wrong("side", fmt::format("\"{}\" has bodies, which feel planes from either side and other walls from inside", t.group));
+    return good;
   }
 
   bool has_number(const TablePlace& place, double modulus) {
@@ -138,33 +198,30 @@ class ContactBuilder {
   Mistakes& mistakes_;
 };
 
-/// Where a run starts from at a load factor: prescribed coordinates are where they are then.
-State start_at(const Model& model, double load_factor) {
-  State state = model.restart ? *model.restart : model.start;
-  state.load_factor = load_factor;
-  for (const Support& s : model.supports)
-    for (const int i : s.particles)
-      for (int c = 0; c < 3; ++c)
-        if (s.held[c])
-          state.position(c, i) = model.start.position(c, i) + s.scaling.at(load_factor) * s.displacement[c];
-  return state;
-}
-
 /// A gap is to something.
 void check_gaps(const Problem& problem, Groups& groups, const Model& model, Mistakes& mistakes) {
   std::vector<bool> touches(model.particles(), false);
+  std::vector<bool> bodies(model.bodies.size(), false);
   for (const PairContact& c : model.contacts)
     for (const auto& side : c.particles)
       for (const int i : side) touches[i] = true;
-  for (const Wall& w : model.walls)
+  for (const RoundedPair& r : model.rounded)
+    for (int side = 0; side < 2; ++side) {
+      for (const int i : r.particles[side]) touches[i] = true;
+      for (const int b : r.bodies[side]) bodies[b] = true;
+    }
+  for (const Wall& w : model.walls) {
     for (const int i : w.particles) touches[i] = true;
+    for (const int b : w.bodies) bodies[b] = true;
+  }
   const auto is_wall = [&](const std::string& name) {
     return std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& w) { return w.name == name; });
   };
   for (const ObserveTable& o : problem.observe) {
     if (o.place.broken || o.quantity != Quantity::gap || is_wall(o.group)) continue;
-    const std::vector<int>* particles = groups.find(o.place, "group", o.group);
-    if (particles && std::none_of(particles->begin(), particles->end(), [&](int i) { return touches[i]; }))
+    const Members* of = groups.find(o.place, "group", o.group);
+    if (of && std::none_of(of->particles.begin(), of->particles.end(), [&](int i) { return touches[i]; }) &&
+        std::none_of(of->bodies.begin(), of->bodies.end(), [&](int b) { return bodies[b]; }))
       mistakes.add(
           o.place, "quantity",
           fmt::format("there is no [[contact]] and no [[wall]] for \"{}\"; a gap is to something that may touch",
@@ -194,37 +251,6 @@ bool add_contacts(const Problem& problem, Groups& groups, Model& model, Mistakes
     whole = builder.add(problem.walls[k], scaling_of(problem, condition_of("wall", problem.walls, k))) && whole;
   if (whole) check_gaps(problem, groups, model, mistakes);
   return whole;
-}
-
-void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes) {
-  if (problem.study == StudyType::energy) return;
-  // A path starts at its own load factor. An equilibrium at 1 may be reached from what was built at 0.
-  std::vector<double> factors{1};
-  if (problem.study == StudyType::path)
-    factors = {(model.restart ? *model.restart : model.start).load_factor};
-  else if (!model.restart)
-    factors = {0, 1};
-  std::vector<State> states;
-  for (const double factor : factors) states.push_back(start_at(model, factor));
-  for (const Wall& w : model.walls) {
-    if (w.region.any_open() || (w.effective_modulus == 0 && !w.hard)) continue;
-    const auto wrong = [&](int i) {
-      return std::all_of(states.begin(), states.end(), [&](const State& state) {
-        const double part = w.scaling.at(state.load_factor);
-        return w.region.moved(part * w.displacement, part * w.radius_change).contains(state.at(i)) != w.inside;
-      });
-    };
-    const auto first = std::find_if(w.particles.begin(), w.particles.end(), wrong);
-    if (first == w.particles.end()) continue;
-    const auto more = std::count_if(first + 1, w.particles.end(), wrong);
-    const auto table = std::find_if(problem.walls.begin(), problem.walls.end(),
-                                    [&](const WallTable& t) { return t.name == w.name; });
-    const Vec3 x = states[0].position.col(*first);
-    mistakes.add(table->place, "side",
-                 fmt::format("particle {} of \"{}\" is {} of it, at [{}, {}, {}]{}; it must be {}", model.id[*first],
-                             structure_with(model, *first).name, w.inside ? "outside" : "inside", x[0], x[1], x[2],
-                             more > 0 ? fmt::format(", and {} more are", more) : "", w.inside ? "inside" : "outside"));
-  }
 }
 
 }  // namespace elamin

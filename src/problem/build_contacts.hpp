@@ -10,11 +10,11 @@ Region with_unit_normal(Region region);
 /// Adds the bonds and angles of the connections. A mistake: one that makes no bond. Returns whether all could be built.
 bool add_connections(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
-/// Adds contacts and walls with their effective moduli. A mistake: particles without diameter that would touch; a gap
-/// to observe where nothing touches. Returns whether all could be built.
+/// Adds contacts, of rounded bodies too, and walls. A mistake: groups without what a law is between; particles without diameter
+/// that would touch; a wall without the numbers of what its group has; a gap to observe where nothing touches. Returns whether all could be built.
 bool add_contacts(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
-/// Particles whose centres start on the wrong side of their wall are a mistake: nothing would push them back. A wall
+/// Particles and bodies whose centres start on the wrong side of their wall are a mistake: nothing would push them back. A wall
 /// with open faces acts on both sides; an energy study may have any state.
 void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes);
 

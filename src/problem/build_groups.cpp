@@ -13,40 +13,56 @@ namespace elamin {
 namespace {
 
 std::vector<int> range_of(int first, int count) {
-  std::vector<int> particles(count);
-  std::iota(particles.begin(), particles.end(), first);
-  return particles;
+  std::vector<int> indices(count);
+  std::iota(indices.begin(), indices.end(), first);
+  return indices;
+}
+
+/// The part of a set that begins behind `skip` of its members.
+Members part_of(const Members& from, int skip, int count) {
+  Members part;
+  const int particles = static_cast<int>(from.particles.size());
+  for (int k = skip; k < skip + count; ++k)
+    if (k < particles) part.particles.push_back(from.particles[k]);
+    else part.bodies.push_back(from.bodies[k - particles]);
+  return part;
+}
+
+/// What a set is made of, for messages.
+std::string kinds(const Members& members) {
+  return members.bodies.empty() ? "particles" : members.particles.empty() ? "bodies" : "particles and bodies";
 }
 
 }  // namespace
 
 Groups::Groups(const Model& model, bool whole, Mistakes& mistakes) : model_(model), mistakes_(mistakes) {
   if (whole)
-    put("all", range_of(0, model.particles()));
+    put("all", {range_of(0, model.particles()), range_of(0, static_cast<int>(model.bodies.size()))});
   else
     add_unknown("all");
   for (const Structure& s : model.structures) {
-    put(s.name, range_of(s.first, s.count));
+    put(s.name, {range_of(s.first, s.count), range_of(s.first_body, s.bodies)});
     if (s.kind != "lammps") continue;
-    std::map<int, std::vector<int>> by_type;
-    for (int i = s.first; i < s.first + s.count; ++i) by_type[model.type[i]].push_back(i);
-    for (auto& [type, particles] : by_type) put("type" + std::to_string(type), std::move(particles));
+    std::map<int, Members> by_type;
+    for (int i = s.first; i < s.first + s.count; ++i) by_type[model.type[i]].particles.push_back(i);
+    for (int b = s.first_body; b < s.first_body + s.bodies; ++b) by_type[model.bodies[b].type].bodies.push_back(b);
+    for (auto& [type, members] : by_type) put("type" + std::to_string(type), std::move(members));
   }
 }
 
-void Groups::put(const std::string& name, std::vector<int> particles) {
+void Groups::put(const std::string& name, Members members) {
   order_.push_back(name);
-  sets_[name] = std::move(particles);
+  sets_[name] = std::move(members);
 }
 
 std::vector<Group> Groups::groups() const {
   std::vector<Group> all;
   for (const std::string& name : order_)
-    if (const auto& particles = sets_.at(name)) all.push_back({name, *particles});
+    if (const auto& members = sets_.at(name)) all.push_back({name, members->particles, members->bodies});
   return all;
 }
 
-const std::vector<int>* Groups::find(const TablePlace& table, const char* key, const std::string& name) {
+const Members* Groups::find(const TablePlace& table, const char* key, const std::string& name) {
   const auto found = sets_.find(name);
   if (found != sets_.end()) return found->second ? &*found->second : nullptr;
   // Other names were checked when the file was read; the types are known only now, if the data file could be read.
@@ -62,62 +78,74 @@ const std::vector<int>* Groups::find(const TablePlace& table, const char* key, c
 }
 
 void Groups::add(const GroupTable& table) {
-  const std::vector<int>* from = table.place.broken ? nullptr : find(table.place, "of", table.of);
-  std::optional<std::vector<int>> particles;
-  if (from) particles = chosen(table, *from);
-  if (particles)
-    put(table.name, std::move(*particles));
+  const Members* from = table.place.broken ? nullptr : find(table.place, "of", table.of);
+  std::optional<Members> members;
+  if (from) members = chosen(table, *from);
+  if (members)
+    put(table.name, std::move(*members));
   else if (!sets_.count(table.name))
     add_unknown(table.name);
 }
 
-std::optional<std::vector<int>> Groups::chosen(const GroupTable& table, const std::vector<int>& from) {
-  const int size = static_cast<int>(from.size());
+std::optional<Members> Groups::chosen(const GroupTable& table, const Members& from) {
+  const int size = from.count();
   for (const auto& [key, count] : {std::pair("first", table.first), {"last", table.last}, {"middle", table.middle}}) {
     if (!count) continue;
     if (*count > size) {
       mistakes_.add(table.place, key,
-                    fmt::format("must be at most {}, the particles of \"{}\", is {}", size, table.of, *count));
+                    fmt::format("must be at most {}, the {} of \"{}\", is {}", size, kinds(from), table.of, *count));
       return std::nullopt;
     }
     // The middle n of N; where one side must have one more left over, it is the end: the lower ones are taken.
     const int skip = key == std::string("first") ? 0 : key == std::string("last") ? size - *count : (size - *count) / 2;
-    return std::vector<int>(from.begin() + skip, from.begin() + skip + *count);
+    return part_of(from, skip, *count);
   }
   if (table.ids) return with_ids(table, from);
   if (!table.inside && !table.outside) return from;
 
-  std::vector<int> particles;
+  Members members;
   const Region region = with_unit_normal((table.inside ? table.inside : table.outside)->region);
-  for (const int i : from)
-    if (region.contains(model_.start.at(i)) == table.inside.has_value()) particles.push_back(i);
-  if (particles.empty()) {
-    mistakes_.add(table.place, table.inside ? "inside" : "outside",
-                  fmt::format("holds no particle of \"{}\"; a group has at least one", table.of));
+  const bool inside = table.inside.has_value();
+  for (const int i : from.particles)
+    if (region.contains(model_.start.at(i)) == inside) members.particles.push_back(i);
+  for (const int b : from.bodies)
+    if (region.contains(model_.start.bodies[b].position) == inside) members.bodies.push_back(b);
+  if (members.count() == 0) {
+    const std::string what = from.bodies.empty() ? "no particle" : from.particles.empty() ? "no body" : "no particle and no body";
+    mistakes_.add(table.place, inside ? "inside" : "outside",
+                  fmt::format("holds {} of \"{}\"; a group has at least one", what, table.of));
     return std::nullopt;
   }
-  return particles;
+  return members;
 }
 
-std::optional<std::vector<int>> Groups::with_ids(const GroupTable& table, const std::vector<int>& from) {
-  // Ids ascend with the index.
-  const auto below = [&](int particle, int id) { return model_.id[particle] < id; };
-  std::vector<int> particles, absent;
+std::optional<Members> Groups::with_ids(const GroupTable& table, const Members& from) {
+  // Ids ascend with the index, of particles and of bodies.
+  const auto find = [&](const std::vector<int>& list, int id, const auto& id_of) {
+    const auto found = std::lower_bound(list.begin(), list.end(), id, [&](int k, int wanted) { return id_of(k) < wanted; });
+    return found != list.end() && id_of(*found) == id ? *found : -1;
+  };
+  const auto particle = [&](int i) { return model_.id[i]; };
+  const auto body = [&](int b) { return model_.bodies[b].id; };
+  Members members;
+  std::vector<int> absent;
   for (const int id : *table.ids) {
-    const auto found = std::lower_bound(from.begin(), from.end(), id, below);
-    if (found != from.end() && model_.id[*found] == id)
-      particles.push_back(*found);
-    else
-      absent.push_back(id);
+    if (const int i = find(from.particles, id, particle); i >= 0) members.particles.push_back(i);
+    else if (const int b = find(from.bodies, id, body); b >= 0) members.bodies.push_back(b);
+    else absent.push_back(id);
   }
   if (absent.empty()) {
-    std::sort(particles.begin(), particles.end());
-    return particles;
+    for (std::vector<int>* list : {&members.particles, &members.bodies}) std::sort(list->begin(), list->end());
+    return members;
   }
+  std::vector<int> ends;
+  for (const int i : from.particles) ends.push_back(particle(i));
+  for (const int b : from.bodies) ends.push_back(body(b));
+  const auto [lowest, highest] = std::minmax_element(ends.begin(), ends.end());
   mistakes_.add(table.place, "ids",
                 fmt::format("{}{} not in \"{}\", whose ids lie from {} to {}", absent[0],
                             absent.size() > 1 ? fmt::format(" and {} more are", absent.size() - 1) : " is", table.of,
-                            model_.id[from.front()], model_.id[from.back()]));
+                            *lowest, *highest));
   return std::nullopt;
 }
 

@@ -1,3 +1,5 @@
+#include "energy/kinematics.hpp"
+#include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "problem/build_checks.hpp"
 #include "problem/build_structures.hpp"
@@ -11,15 +13,25 @@
 namespace elamin {
 namespace {
 
-/// Index of the structure of each particle.
+/// Index of the structure of each entity.
 std::vector<int> structure_of(const Model& model) {
-  std::vector<int> of(model.particles());
-  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s)
-    std::fill_n(of.begin() + model.structures[s].first, model.structures[s].count, s);
+  std::vector<int> of(entities(model));
+  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s) {
+    const Structure& t = model.structures[s];
+    std::fill_n(of.begin() + t.first, t.count, s);
+    std::fill_n(of.begin() + model.particles() + t.first_body, t.bodies, s);
+  }
   return of;
 }
 
+/// Those of a group.
+template <class Each> void for_entities(const Model& model, const std::vector<int>& particles, const std::vector<int>& bodies, const Each& each) {
+  for (const int i : particles) each(i);
+  for (const int b : bodies) each(model.particles() + b);
+}
+
 bool acts(const PairContact& c) { return c.hard || c.effective_modulus > 0 || c.epsilon > 0; }
+bool acts(const RoundedPair& r) { return r.kernel.normal > 0 || r.kernel.attraction > 0; }
 
 /// The glued parts, and which of them may touch each other.
 class Parts {
@@ -31,34 +43,45 @@ class Parts {
     std::iota(root_.begin(), root_.end(), 0);
     held_.resize(count), touched_.resize(count), size_.resize(count), kept_.resize(count);
     for (const int p : part_) ++size_[p];
-    for (const Support& s : model.supports)
-      for (const int i : s.particles) held_[part_[i]] = true;
+    for (const Support& s : model.supports) for_entities(model, s.particles, s.bodies, [&](int i) { held_[part_[i]] = true; });
     for (const PairContact& c : model.contacts)
-      if (acts(c)) touch(c);
+      if (acts(c)) touch(c.particles);
+    for (const RoundedPair& r : model.rounded) {
+      std::array<std::vector<int>, 2> sides;
+      for (int side = 0; side < 2; ++side)
+        for_entities(model, r.particles[side], r.bodies[side], [&](int i) { sides[side].push_back(i); });
+      if (acts(r)) touch(sides);
+    }
     std::vector<bool> walled(count);
     for (const Wall& w : model.walls)
       if (w.hard || w.effective_modulus > 0)
         for (const int i : w.particles) touched_[part_[i]] = walled[part_[i]] = true;
+    for (const Wall& w : model.walls)
+      if (w.kernel.normal > 0 || w.kernel.attraction > 0)
+        for (const int b : w.bodies) {
+          const int part = part_[model.particles() + b];
+          touched_[part] = walled[part] = true;
+        }
     for (int p = 0; p < count; ++p)
       if (held_[p] || walled[p]) kept_[find(p)] = true;
   }
 
-  bool held(int particle) const { return held_[part_[particle]]; }          // a support holds it
-  bool touched(int particle) const { return touched_[part_[particle]]; }    // a wall or another part may hold it
-  bool alone(int particle) const { return size_[part_[particle]] == 1; }
+  bool held(int entity) const { return held_[part_[entity]]; }          // a support holds it
+  bool touched(int entity) const { return touched_[part_[entity]]; }    // a wall or another part may hold it
+  bool alone(int entity) const { return size_[part_[entity]] == 1; }
   /// All that may touch each other, by number, and whether a support or a wall may hold it.
-  int cluster(int particle) const { return find(part_[particle]); }
-  bool kept(int particle) const { return kept_[cluster(particle)]; }
+  int cluster(int entity) const { return find(part_[entity]); }
+  bool kept(int entity) const { return kept_[cluster(entity)]; }
 
  private:
-  /// Any particle of one side may touch any of the other, so that all of them belong together.
-  void touch(const PairContact& c) {
-    const int first = part_[c.particles[0].front()];
+  /// Any entity of one side may touch any of the other, so that all of them belong together.
+  void touch(const std::array<std::vector<int>, 2>& sides) {
+    const int first = part_[sides[0].front()];
     bool others = false;
-    for (const auto& side : c.particles)
+    for (const auto& side : sides)
       for (const int i : side) others = others || part_[i] != first;
     if (!others) return;
-    for (const auto& side : c.particles)
+    for (const auto& side : sides)
       for (const int i : side) {
         touched_[part_[i]] = true;
         root_[find(part_[i])] = find(first);
@@ -76,16 +99,20 @@ class Parts {
 /// Of every cluster: whether dead loads and weights leave a force on it, which only a support or a wall could bear.
 std::vector<bool> driven(const Model& model, const Parts& parts) {
   struct Forces { std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()}; double size = 0; };   // scaled, constant
-  std::vector<Forces> forces(model.particles());
+  std::vector<Forces> forces(entities(model));
   const auto add = [&](int i, const Vec3& force, const Scaling& scaling) {
     Forces& f = forces[parts.cluster(i)];
     f.sum[0] += scaling.rate * force, f.sum[1] += scaling.fixed * force, f.size += force.cwiseAbs().maxCoeff();
   };
-  for (const Load& l : model.loads)
+  for (const Load& l : model.loads) {
     for (std::size_t k = 0; k < l.particles.size(); ++k) add(l.particles[k], l.on(k), l.scaling);
-  for (const Gravity& g : model.gravity)
+    for (const int b : l.bodies) add(model.particles() + b, l.force, l.scaling);
+  }
+  for (const Gravity& g : model.gravity) {
     for (const int i : g.particles) add(i, model.mass(i) * g.acceleration, g.scaling);
-  std::vector<bool> left(model.particles());
+    for (const int b : g.bodies) add(model.particles() + b, model.bodies[b].mass * g.acceleration, g.scaling);
+  }
+  std::vector<bool> left(entities(model));
   for (std::size_t k = 0; k < forces.size(); ++k)
     for (const Vec3& sum : forces[k].sum) left[k] = left[k] || sum.cwiseAbs().maxCoeff() > 1e-9 * forces[k].size;
   return left;
@@ -104,20 +131,20 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
     if (!told[structure[i]]) mistakes.add(place_of(problem, model.structures[structure[i]]), what);
     told[structure[i]] = true;
   };
-  for (int i = 0; i < model.particles(); ++i) {
+  for (int i = 0; i < entities(model); ++i) {
     if (parts.held(i)) continue;
     const Structure& s = model.structures[structure[i]];
     if (parts.touched(i)) {
       if (!parts.kept(i) && force[parts.cluster(i)])
-        tell(i, fmt::format("particle {} and all that it may touch are held by no [[support]] and no [[wall]], and the "
-                            "forces on them do not cancel", model.id[i]));
+        tell(i, fmt::format("{} and all that it may touch are held by no [[support]] and no [[wall]], and the "
+                            "forces on them do not cancel", called(model, i)));
     } else if (parts.alone(i)) {
       if (force[parts.cluster(i)])
-        tell(i, fmt::format("a force acts on particle {}, which nothing holds; an equilibrium needs a [[support]], a "
-                            "[[wall]] or a [[contact]]", model.id[i]));
+        tell(i, fmt::format("a force acts on {}, which nothing holds; an equilibrium needs a [[support]], a "
+                            "[[wall]] or a [[contact]]", called(model, i)));
     } else {
       const std::string of_file =
-          fmt::format("particle {} is connected to no particle that a support holds", model.id[i]);
+          fmt::format("{} is connected to {} that a support holds", called(model, i), model.bodies.empty() ? "no particle" : "nothing");
       tell(i, (s.kind == "lammps" ? of_file : "none of its particles is held by a support") +
                   "; an equilibrium needs a [[support]]");
     }
@@ -128,7 +155,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
   const bool loaded = !problem.loads.empty() || !problem.gravity.empty() || !problem.path.start.empty();
   std::vector<std::string> names(model.structures.size());
   for (const RigidMotion& m : free_rigid_motions(model, model.start)) {
-    if (!parts.held(m.particle) || parts.touched(m.particle)) continue;
+    if (m.particle >= model.particles() || !parts.held(m.particle) || parts.touched(m.particle)) continue;
     const int s = structure[m.particle];
     const bool allowed = !m.translation && (loaded || model.structures[s].kind == "lammps");
     if (!allowed && names[s].size() < 500) names[s] += (names[s].empty() ? "" : ", ") + m.name;
@@ -142,13 +169,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes) {
   const bool modes = problem.study == StudyType::modes;
   if (!modes && !(problem.study == StudyType::path && problem.stages.empty())) return;     // what stages let go is free
-  using Flags = Eigen::Matrix<bool, 3, Eigen::Dynamic>;
-  Flags held = Flags::Constant(3, model.particles(), false);
-  if (model.plane_normal) held.row(*model.plane_normal).setConstant(true);
-  for (const Support& s : model.supports)
-    for (const int i : s.particles)
-      for (int c = 0; c < 3; ++c) held(c, i) = held(c, i) || s.held[c];
-  const auto free = held.size() - held.count();
+  const int free = Kinematics(model).dofs();
   const auto limit = [&](const TablePlace& place, const char* key, int count, const char* what) {
     if (free < count) mistakes.add(place, key, fmt::format("asks for {} {}; only {} coordinates are free", count, what, free));
   };

@@ -221,6 +221,11 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
   return true;
 }
 
+const Structure& structure_with(const Model& model, int particle) {
+  return *std::find_if(model.structures.begin(), model.structures.end(),
+                       [&](const Structure& s) { return particle < s.first + s.count; });
+}
+
 const TablePlace& place_of(const Problem& problem, const Structure& s) {
   const auto find = [&](const char* kind, const auto& tables) -> const TablePlace* {
     for (const auto& table : tables)
@@ -228,7 +233,8 @@ const TablePlace& place_of(const Problem& problem, const Structure& s) {
     return nullptr;
   };
   for (const TablePlace* place : {find("beam", problem.beams), find("loop", problem.loops),
-                                  find("sheet", problem.sheets), find("grains", problem.grains)})
+                                  find("sheet", problem.sheets), find("grains", problem.grains),
+                                  find("body", problem.bodies)})
     if (place) return *place;
   return problem.lammps->place;
 }

@@ -62,11 +62,16 @@ void Names::refer(TablePlace& place, const char* key, const std::array<std::stri
 namespace {
 
 void check_support(const Problem& problem, SupportTable& s, Mistakes& mistakes) {
-  const std::string& d = s.directions;
-  std::set<char> letters(d.begin(), d.end());
-  if (d.empty() || letters.size() != d.size() || d.find_first_not_of("xyz") != std::string::npos)
-    return mistakes.add(s.place, "directions",
-                        "must be one, two or three of the letters x, y and z, is " + quoted(d));
+  for (const auto& [key, words] : {std::pair("directions", &s.directions), {"turns", &s.turns}}) {
+    if (!*words) continue;
+    const std::string& d = **words;
+    if (d.empty() || std::set<char>(d.begin(), d.end()).size() != d.size() || d.find_first_not_of("xyz") != std::string::npos)
+      return mistakes.add(s.place, key, "must be one, two or three of the letters x, y and z, is " + quoted(d));
+  }
+  const std::string d = s.directions.value_or(s.turns ? "" : "xyz");
+  const std::set<char> letters(d.begin(), d.end());
+  if (s.rotation && (s.directions || s.turns) && s.turns.value_or("").size() != 3)
+    mistakes.add(s.place, "rotation", "needs all turns held; write turns = \"xyz\"");
   for (int c = 0; c < 3; ++c)
     if (s.displacement[c] != 0 && !letters.count("xyz"[c]))
       mistakes.add(s.place, "displacement", fmt::format("moves along {}, which is not among the directions \"{}\"; "
@@ -123,6 +128,7 @@ void check_solving(Problem& problem, Mistakes& mistakes) {
 void check_problem(Problem& problem, const std::vector<std::string>& other_names, Mistakes& mistakes) {
   Names names(problem, other_names, mistakes);
   check_structures(problem, names, mistakes);
+  check_bodies(problem, names, mistakes);
   check_groups(problem, names, mistakes);
   for (SupportTable& s : problem.supports) {
     names.refer(s.place, "group", s.group);
@@ -132,11 +138,15 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
   for (ViscosityTable& v : problem.viscosity) names.refer(v.place, "group", v.group);
   for (VelocityTable& v : problem.velocities) {
     names.refer(v.place, "group", v.group);
-    if (!problem.in_time()) mistakes.add(v.place, "velocity", "belongs to dynamics, study.type = \"dynamics\" without relax");
+    if (!v.velocity && !v.spin && !v.place.broken)
+      mistakes.add(v.place, "velocity", "is missing; it must be a list of three numbers [x, y, z], or give spin");
+    else if (!problem.in_time())
+      mistakes.add(v.place, v.velocity || !v.spin ? "velocity" : "spin", "belongs to dynamics, study.type = \"dynamics\" without relax");
   }
   check_path(problem, mistakes);
   check_solving(problem, mistakes);
   check_interactions(problem, names, mistakes);
+  check_rounded(problem, names, mistakes);
   check_results(problem, names, mistakes);
 }
 

@@ -87,8 +87,8 @@ class CheckInteractions {
                nu = written(w, "poissons_ratio");
     if (effective)
       only_one(w.place, E, nu);
-    else if (!E)
-      mistakes_.add(w.place, "youngs_modulus", "is missing; it must be a positive number, or give effective_modulus");
+    else if (!E && !w.k_n)
+      mistakes_.add(w.place, "youngs_modulus", "is missing; it must be a positive number, or give effective_modulus, or k_n for bodies");
   }
 
  private:

@@ -19,9 +19,11 @@ void check_load(const Problem& problem, LoadTable& l, Mistakes& mistakes) {
     if (first.empty()) first = key;
     else mistakes.add(l.place, key, first + " is there too; give one of them");
   }
-  if (first.empty())
+  if (written("point") && (first.empty() || written("radial")))
+    mistakes.add(l.place, "point", "is of no use without force or total_force, which act there");
+  if (first.empty() && !written("torque"))
     mistakes.add(l.place, "force, total_force or radial is missing; give one of them: a list of three numbers [x, y, z], "
-                          "or for radial a number");
+                          "or for radial a number; on bodies also torque");
   if (!written("radial")) {
     for (const char* key : {"center", "axis"})
       if (written(key)) mistakes.add(l.place, key, "is of no use without radial, the force away from an axis");

@@ -41,6 +41,12 @@ class Names {
 /// Beams, loops, sheets, grains: what goes together, their names, how many they are together.
 void check_structures(Problem& problem, Names& names, Mistakes& mistakes);
 
+/// Rigid bodies.
+void check_bodies(Problem& problem, Names& names, Mistakes& mistakes);
+
+/// What particles bodies carry, and the laws and walls of bodies.
+void check_rounded(Problem& problem, Names& names, Mistakes& mistakes);
+
 /// Groups and how they choose, in the order of the file.
 void check_groups(Problem& problem, Names& names, Mistakes& mistakes);
 

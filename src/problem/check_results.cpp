@@ -13,13 +13,13 @@ namespace elamin {
 
 const std::vector<std::string>& trajectory_standing_columns() {
   static const std::vector<std::string> columns{"step", "label", "time", "energy", "bond", "angle", "contact", "wall", "cohesion",
-                                                "external", "kinetic", "work", "dissipation", "balance", "status"};
+                                                "body", "external", "kinetic", "work", "dissipation", "balance", "status"};
   return columns;
 }
 
 const std::vector<std::string>& standing_columns() {
   static const std::vector<std::string> columns{"step",     "label",    "branch",     "lambda",   "energy", "bond",
-                                                "angle",    "contact",  "wall",       "cohesion", "external",
+                                                "angle",    "contact",  "wall",       "cohesion", "body",   "external",
                                                 "residual", "iterations", "negative", "stable",   "multiplicity",
                                                 "status",   "parent",   "negative_rigid", "negative_before",
                                                 "negative_after", "what", "stage"};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace elamin {
@@ -14,6 +15,21 @@ namespace {
 int index_of(const std::vector<int>& ids, int id) {
   const auto it = std::lower_bound(ids.begin(), ids.end(), id);
   return it != ids.end() && *it == id ? static_cast<int>(it - ids.begin()) : -1;
+}
+
+/// Index of the body with that id, or −1.
+int body_of(const LammpsData& data, int id) {
+  const auto it = std::lower_bound(data.bodies.begin(), data.bodies.end(), id, [](const Body& b, int i) { return b.id < i; });
+  return it != data.bodies.end() && it->id == id ? static_cast<int>(it - data.bodies.begin()) : -1;
+}
+
+/// Two forms have one shape if these are equal.
+std::vector<double> key_of(const BodyForm& form) {
+  std::vector<double> key{form.diameter, static_cast<double>(form.core.vertices.size()), static_cast<double>(form.core.edges.size())};
+  for (const Vec3& x : form.core.vertices) key.insert(key.end(), x.begin(), x.end());
+  for (const auto& e : form.core.edges) key.insert(key.end(), e.begin(), e.end());
+  for (const auto& f : form.core.faces) key.push_back(static_cast<double>(f.size())), key.insert(key.end(), f.begin(), f.end());
+  return key;
 }
 
 /// Rows by type from 0, each type once; a type's row is -1 if it is missing.
@@ -39,18 +55,24 @@ bool take_atoms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rows.atoms[a].id < rows.atoms[b].id; });
-  data.position.resize(3, static_cast<Eigen::Index>(n));
+  const auto bodies = std::count_if(rows.atoms.begin(), rows.atoms.end(), [](const AtomRow& a) { return a.is_body; });
+  data.position.resize(3, static_cast<Eigen::Index>(n) - bodies), data.body_position.resize(3, bodies);
+  Eigen::Index particle = 0, body = 0;
   bool tilted = false, unique = true;
   for (std::size_t i = 0; i < n; ++i) {
     const AtomRow& a = rows.atoms[order[i]];
     const auto& image = rows.images[order[i]];
-    if (i > 0 && data.id.back() == a.id) {
+    if (i > 0 && rows.atoms[order[i - 1]].id == a.id) {
       unique = false;
       lines.mistake(a.line, 1, "Atoms: id",
                     fmt::format("{} stands twice; the first is on line {}", a.id, rows.atoms[order[i - 1]].line));
     }
-    data.id.push_back(a.id), data.type.push_back(a.type), data.molecule.push_back(a.molecule);
-    data.diameter.push_back(a.diameter), data.density.push_back(a.density);
+    if (a.is_body) {
+      data.bodies.push_back({-1, a.id, a.type, a.mass, Mat3::Zero()});
+    } else {
+      data.id.push_back(a.id), data.type.push_back(a.type), data.molecule.push_back(a.molecule);
+      data.diameter.push_back(a.diameter), data.density.push_back(a.density);
+    }
     Vec3 x = a.position;
     for (int c = 0; c < 3; ++c)
       if (image[c] != 0) x[c] += image[c] * (rows.hi[c] - rows.lo[c]);
@@ -60,22 +82,55 @@ bool take_atoms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
       lines.mistake(a.line, 1, "Atoms: image flag",
                     "a tilted box (xy xz yz) is not available with image flags other than 0");
     }
-    data.position.col(static_cast<Eigen::Index>(i)) = x;
+    if (a.is_body) data.body_position.col(body++) = x;
+    else data.position.col(particle++) = x;
   }
   return unique;
 }
 
 void take_velocities(LammpsLines& lines, const LammpsRows& rows, LammpsData& data) {
-  std::vector<int> from(data.id.size(), 0);         // line that gave it
+  std::map<int, int> from;                          // line that gave it
   data.velocity = data.spin = Field::Zero(3, data.position.cols());
+  data.body_velocity = data.angular_momentum = Field::Zero(3, data.body_position.cols());
   for (const VelocityRow& v : rows.velocities) {
-    const int i = index_of(data.id, v.id);
-    if (i < 0) lines.mistake(v.line, 1, "Velocities: id", fmt::format("there is no atom {}", v.id));
-    else if (from[i] > 0)
-      lines.mistake(v.line, 1, "Velocities: id",
-                    fmt::format("{} stands twice; the first is on line {}", v.id, from[i]));
-    else from[i] = v.line, data.velocity.col(i) = v.velocity, data.spin.col(i) = v.spin;
+    const int i = index_of(data.id, v.id), b = body_of(data, v.id);
+    const auto tell = [&](const std::string& what) { lines.mistake(v.line, 1, "Velocities: id", what); };
+    if (i < 0 && b < 0) {
+      tell(fmt::format("there is no atom {}", v.id));
+    } else if (const auto [first, fresh] = from.emplace(v.id, v.line); !fresh) {
+      tell(fmt::format("{} stands twice; the first is on line {}", v.id, first->second));
+    } else if (i >= 0) {
+      data.velocity.col(i) = v.velocity, data.spin.col(i) = v.spin;
+    } else {
+      if (!v.long_row) tell(fmt::format("{} is a body; expected are 7 columns: id, velocity and angular momentum", v.id));
+      data.body_velocity.col(b) = v.velocity, data.angular_momentum.col(b) = v.spin;
+    }
   }
+}
+
+/// Gives every body its form; equal ones share a shape.
+void take_forms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
+  std::map<std::vector<double>, int> known;
+  std::vector<int> from(data.bodies.size(), 0);     // line that gave it
+  for (BodyRow& row : rows.bodies) {
+    const int b = body_of(data, row.id);
+    const auto tell = [&](const std::string& what) { lines.mistake(row.line, 1, "Bodies: id", what); };
+    if (b < 0) {
+      tell(index_of(data.id, row.id) < 0 ? fmt::format("there is no atom {}", row.id)
+                                         : fmt::format("atom {} is a particle", row.id));
+    } else if (from[b] > 0) {
+      tell(fmt::format("{} stands twice; the first is on line {}", row.id, from[b]));
+    } else {
+      from[b] = row.line;
+      data.bodies[b].inertia = row.form.inertia;
+      const auto [place, fresh] = known.emplace(key_of(row.form), static_cast<int>(data.shapes.size()));
+      if (fresh) data.shapes.push_back(rounded_shape(row.form.core, row.form.diameter / 2));
+      data.bodies[b].shape = place->second;
+    }
+  }
+  for (const AtomRow& a : rows.atoms)
+    if (a.is_body && from[body_of(data, a.id)] == 0)
+      lines.mistake(a.line, 1, "Atoms: id", fmt::format("body {} is missing in the section Bodies", a.id));
 }
 
 /// Bonds (2 sites) or angles (3): ids to indices, types from 0, every one with coefficients.
@@ -91,7 +146,9 @@ void take_topology(LammpsLines& lines, const LammpsRows& rows, const std::vector
     for (int k = 0; k < sites; ++k) {
       e.particles[k] = index_of(data.id, r.id[k]);
       if (e.particles[k] < 0)
-        lines.mistake(r.line, r.column[k], section + ": id", fmt::format("there is no atom {}", r.id[k]));
+        lines.mistake(r.line, r.column[k], section + ": id",
+                      body_of(data, r.id[k]) < 0 ? fmt::format("there is no atom {}", r.id[k])
+                                                 : fmt::format("atom {} is a body, which has no bonds and angles", r.id[k]));
       for (int l = 0; l < k; ++l)
         if (r.id[l] == r.id[k])
           lines.mistake(r.line, r.column[k], section + ": id", fmt::format("atom {} stands twice in it", r.id[k]));
@@ -129,6 +186,7 @@ LammpsData read_lammps_data(const std::string& file, const std::string& atom_sty
       take_topology<2>(lines, rows, rows.bonds, "Bond", data.bond_types.size(), data, data.bonds);
       take_topology<3>(lines, rows, rows.angles, "Angle", data.angle_types.size(), data, data.angles);
       if (rows.sound("Velocities")) take_velocities(lines, rows, data);
+      if (rows.sound("Bodies") || (rows.count("bodies") == 0 && !data.bodies.empty())) take_forms(lines, rows, data);
     }
   }
   data.mass.assign(data.id.size(), 0.0);

@@ -1,6 +1,6 @@
 #pragma once
 // Reader of LAMMPS data files (the file of `read_data` and `write_data`): particles, bonds, angles and their
-// coefficients.
+// coefficients, bodies.
 #include "core/types.hpp"
 #include "model/model.hpp"
 
@@ -22,21 +22,27 @@ struct LammpsData {
   std::vector<AngleType> angle_types;
   std::vector<Bond> bonds;
   std::vector<Angle> angles;
+  std::vector<RoundedShape> shapes;        // of the bodies, along the axes of the file; equal ones once
+  std::vector<Body> bodies;                // sorted by id
+  Field body_position;                     // 3 × bodies, unwrapped [length]
+  Field body_velocity, angular_momentum;   // 3 × bodies, or 3 × 0: none
 };
 
 /// Reads `file`. atom_style is LAMMPS's, such as "sphere" or "hybrid sphere angle"; "": what the comment of the section
 /// says, as in `Atoms # sphere`. The argument wins where both are there.
 ///
-/// Atom styles: atomic, sphere, bond, angle, molecular, full, and hybrids of them, whose columns are id type x y z and
-/// then every sub-style's own in their order. `Atoms # hybrid` without sub-styles is taken for `hybrid sphere angle` if
+/// Atom styles: atomic, sphere, bond, angle, molecular, full, body, and hybrids of them (sphere and body exclude each other),
+/// whose columns are id type x y z and then every sub-style's own in their order. A file that announces bodies and names no
+/// style has style body. `Atoms # hybrid` without sub-styles is taken for `hybrid sphere angle` if
 /// it has that many columns (8, or 11 with image flags). Image flags n move a particle by n box lengths.
 ///
-/// Sections: Atoms, Velocities, Masses, Bonds, Angles, Bond Coeffs (harmonic), Angle Coeffs, in any order. Angle
+/// Sections: Atoms, Velocities, Masses, Bodies (style rounded/polyhedron: see body_form), Bonds, Angles, Bond Coeffs
+/// (harmonic), Angle Coeffs, in any order. Angle
 /// styles: cosine, K with U = K (1 + cos θ); cosine/shift, Umin and θ₀ in degrees with U = −Umin/2 (1 + cos(θ − θ₀)),
 /// of which the constant −Umin is left out: B = Umin/2. Without a comment behind the section's name it is cosine; lines
 /// may name their style, as those of a hybrid do. A sphere's mass follows from its diameter and density; the Masses
-/// then serve for nothing, as in LAMMPS. Angular velocities and charges are read and dropped: nothing here depends on
-/// them.
+/// then serve for nothing, as in LAMMPS. Charges are read and dropped: nothing here depends on them. Every atom of a file of
+/// bodies is a body (flag 1), at its centre of mass; its velocities are v and the angular momentum L.
 ///
 /// Throws InputError with file, line and column of up to 20 mistakes; memory never grows beyond what the file holds.
 LammpsData read_lammps_data(const std::string& file, const std::string& atom_style = "");

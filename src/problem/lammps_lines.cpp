@@ -27,8 +27,8 @@ std::string joined(const DataLine& line, std::size_t first) {
   return all;
 }
 
-LammpsLines::LammpsLines(std::string file)
-    : file_(std::move(file)), text_(read_data(file_, "LAMMPS data file", " (write_data, not write_restart)")) {
+LammpsLines::LammpsLines(std::string file, const std::string& kind, const std::string& hint)
+    : file_(std::move(file)), text_(read_data(file_, kind, hint)) {
   position_ = text_.find('\n');
   position_ = position_ == std::string::npos ? text_.size() : position_ + 1;
   number_ = 1;

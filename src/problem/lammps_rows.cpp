@@ -18,20 +18,21 @@ constexpr int largest = std::numeric_limits<int>::max();
 /// The section whose number of lines is a count of the header.
 const std::map<std::string, std::string> counted{
     {"Atoms", "atoms"},           {"Velocities", "atoms"},       {"Masses", "atom types"},        {"Bonds", "bonds"},
-    {"Angles", "angles"},         {"Bond Coeffs", "bond types"}, {"Angle Coeffs", "angle types"}};
-const std::set<std::string> absent{"dihedrals", "impropers", "ellipsoids", "lines", "triangles", "bodies"};
+    {"Angles", "angles"},         {"Bond Coeffs", "bond types"}, {"Angle Coeffs", "angle types"}, {"Bodies", "bodies"}};
+const std::set<std::string> absent{"dihedrals", "impropers", "ellipsoids", "lines", "triangles"};
 const std::set<std::string> unused{"dihedral types",        "improper types",           "extra bond per atom",
                                    "extra angle per atom",  "extra dihedral per atom",  "extra improper per atom",
                                    "extra special per atom"};
 
 /// A section's name is made of words only; a row has numbers.
 bool is_keyword(const DataLine& line) {
-  return std::all_of(line.words.begin(), line.words.end(), [](const auto& w) { return is_word(w.text); });
+  return std::all_of(line.words.begin(), line.words.end(),
+                     [](const auto& w) { return is_word(w.text) && w.text != "nan" && w.text != "inf"; });
 }
 
 class Reader {
  public:
-  Reader(LammpsLines& lines, std::string atom_style) : lines_(lines), style_(std::move(atom_style)) {}
+  Reader(LammpsLines& lines, std::string atom_style) : lines_(lines), style_(std::move(atom_style)), bodies_(lines) {}
 
   LammpsRows read() {
     DataLine line;
@@ -40,6 +41,7 @@ class Reader {
       else if (section_.empty()) header(line);
       else row(line);
     }
+    end_section();
     check_counts();
     return std::move(rows_);
   }
@@ -71,11 +73,20 @@ class Reader {
           line, 0, "header",
           quoted(joined(line)) +
               " is not known; known are counts such as \"12 atoms\" (of "
-              "atoms, bonds, angles and their types), \"xlo xhi\", \"ylo yhi\", \"zlo zhi\" and \"xy xz yz\"");
+              "atoms, bodies, bonds, angles and their types), \"xlo xhi\", \"ylo yhi\", \"zlo zhi\" and \"xy xz yz\"");
     }
   }
 
+  void end_section() {
+    if (section_ != "Bodies" || !known_) return;
+    if (!skip_) bodies_.end();
+    rows_.bodies = std::move(bodies_.rows);
+    rows_.sections[section_].rows = skip_ ? rows_.count("bodies") : bodies_.begun();   // skipped: not known
+    rows_.sections[section_].sound = bodies_.sound();
+  }
+
   void begin_section(const DataLine& line) {
+    end_section();
     section_ = joined(line);
     known_ = counted.count(section_) > 0;
     skip_ = false;
@@ -86,7 +97,7 @@ class Reader {
           std::string(pair ? "coefficients of pairs are not taken from a data file; contacts are given in the "
                              "problem file"
                            : "this section is not available in this version") +
-              "; supported are Atoms, Velocities, Masses, Bonds, Angles, Bond Coeffs and Angle Coeffs");
+              "; supported are Atoms, Velocities, Masses, Bodies, Bonds, Angles, Bond Coeffs and Angle Coeffs");
       return;
     }
     const auto [it, fresh] = rows_.sections.emplace(section_, LammpsRows::Section{line.number});
@@ -104,6 +115,7 @@ class Reader {
 
   void begin_atoms(const DataLine& line) {
     if (style_.empty()) style_ = line.comment;
+    if (style_.empty() && rows_.count("bodies") > 0) style_ = "body";
     if (style_ == "hybrid") return;                       // the first row tells
     std::string why = "the atom style is not given; write it behind the section's name, as in \"Atoms # hybrid sphere "
                       "angle\", or as atom_style";
@@ -134,6 +146,7 @@ class Reader {
     if (section_ == "Atoms") return atom(line);
     if (section_ == "Velocities") return velocity(line);
     if (section_ == "Masses") return mass(line);
+    if (section_ == "Bodies") return skip_ = !bodies_.take(line), true;   // whether it is sound is told at its end
     if (section_ == "Bonds") return topology(line, 2, "bond types", rows_.bonds);
     if (section_ == "Angles") return topology(line, 3, "angle types", rows_.angles);
     if (section_ == "Bond Coeffs") return coefficients(line, "bond", rows_.bond_coefficients);
@@ -181,6 +194,8 @@ class Reader {
       case AtomColumn::molecule: take(lines_.integer(line, i, "Atoms: molecule", 0, largest), a.molecule); break;
       case AtomColumn::diameter: take(amount(line, i, "diameter"), a.diameter); break;
       case AtomColumn::density: take(amount(line, i, "density"), a.density); break;
+      case AtomColumn::bodyflag: take(body_flag(lines_, line, i), a.is_body); break;
+      case AtomColumn::mass: take(body_mass(lines_, line, i), a.mass); break;
       case AtomColumn::charge: {
         double unused_charge;
         take(lines_.number(line, i, "Atoms: charge"), unused_charge);
@@ -197,8 +212,8 @@ class Reader {
   }
 
   bool velocity(const DataLine& line) {
-    if (!has_size(line, {4, 7}, "id, velocity, and of spheres the angular velocity")) return false;
-    VelocityRow v{line.number, 0, Vec3::Zero(), Vec3::Zero()};
+    if (!has_size(line, {4, 7}, "id, velocity, and of spheres the angular velocity, of bodies the angular momentum")) return false;
+    VelocityRow v{line.number, 0, Vec3::Zero(), Vec3::Zero(), line.size() == 7};
     const auto id = lines_.integer(line, 0, "Velocities: id", 1, largest);
     bool good = id.has_value();
     for (std::size_t c = 1; c < line.size(); ++c) {
@@ -250,9 +265,10 @@ class Reader {
         it->second.sound = false;
         if (expected >= 0)                                // else that count is a mistake already
           lines_.mistake(it->second.line, 1, name,
-                         fmt::format("{} lines, but the header announces {} {}", it->second.rows, expected, what));
+                         fmt::format("{} {}, but the header announces {} {}", it->second.rows, name == "Bodies" ? "bodies" : "lines",
+                                     expected, what));
       } else if (it == rows_.sections.end() && expected > 0 &&
-                 (name == "Atoms" || name == "Bonds" || name == "Angles")) {
+                 (name == "Atoms" || name == "Bodies" || name == "Bonds" || name == "Angles")) {
         lines_.mistake(end, 1, name,
                        fmt::format("the file ends without this section; its header announces {} {}", expected, what));
       }
@@ -263,6 +279,7 @@ class Reader {
   std::string style_, section_, coefficient_style_;
   bool known_ = false, skip_ = false;   // a section that is read; whose rows are only counted
   std::optional<std::vector<AtomColumn>> columns_;
+  LammpsBodiesSection bodies_;
   LammpsRows rows_;
 };
 

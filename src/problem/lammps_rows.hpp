@@ -1,6 +1,7 @@
 #pragma once
 // The sections of a LAMMPS data file as rows, before they are held against each other.
 #include "core/types.hpp"
+#include "problem/lammps_bodies_section.hpp"
 #include "problem/lammps_lines.hpp"
 #include "problem/lammps_style.hpp"
 
@@ -11,8 +12,14 @@
 
 namespace elamin {
 
-struct AtomRow { int line, id, type, molecule; double diameter, density; Vec3 position; };
-struct VelocityRow { int line, id; Vec3 velocity, spin; };
+struct AtomRow {
+  int line, id, type, molecule;
+  double diameter, density;
+  Vec3 position;
+  bool is_body = false;
+  double mass = 0;                                                 // of a body
+};
+struct VelocityRow { int line, id; Vec3 velocity, spin; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
 struct CoefficientRow { int line, type; double stiffness, rest; };   // rest length, or rest angle [rad]
 struct MassRow { int line, type; double mass; };
 struct TopologyRow { int line, type; std::array<int, 3> id, column; };   // of a bond the third is not used
@@ -29,6 +36,7 @@ struct LammpsRows {
   std::vector<CoefficientRow> bond_coefficients, angle_coefficients;
   std::vector<MassRow> masses;
   std::vector<TopologyRow> bonds, angles;
+  std::vector<BodyRow> bodies;
 
   int count(const std::string& what) const {
     const auto it = counts.find(what);

@@ -11,7 +11,7 @@ namespace {
 using enum AtomColumn;
 using Columns = std::vector<AtomColumn>;
 
-const char* const known = "known are atomic, sphere, bond, angle, molecular, full and hybrids of them, "
+const char* const known = "known are atomic, sphere, bond, angle, molecular, full, body and hybrids of them, "
                           "such as \"hybrid sphere angle\"";
 
 /// What a style has between the type and the position, in the order of the file.
@@ -20,6 +20,7 @@ std::optional<Columns> own_columns(const std::string& style) {
   if (style == "sphere") return Columns{diameter, density};
   if (style == "bond" || style == "angle" || style == "molecular") return Columns{molecule};
   if (style == "full") return Columns{molecule, charge};
+  if (style == "body") return Columns{bodyflag, mass};
   return std::nullopt;
 }
 
@@ -57,6 +58,10 @@ std::optional<Columns> atom_columns(const std::string& style, std::string* why) 
       columns.push_back(c);
     }
   }
+  const auto has = [&](AtomColumn c) { return std::find(columns.begin(), columns.end(), c) != columns.end(); };
+  if (has(bodyflag) && has(diameter))
+    return refuse(quoted(style) + " is not available: one column would be a density here and a mass there; put the particles "
+                                  "into one file and the bodies into another");
   if (!any)
     return refuse(
         "\"hybrid\" alone does not say which columns there are; give the styles, such as \"hybrid sphere angle\"");

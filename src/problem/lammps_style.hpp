@@ -6,7 +6,7 @@
 
 namespace elamin {
 
-enum class AtomColumn { id, type, molecule, diameter, density, charge, x, y, z };
+enum class AtomColumn { id, type, molecule, diameter, density, charge, bodyflag, mass, x, y, z };
 
 /// Columns of an atom style, image flags left out. Nothing: not known; why not is written to *why (a sentence's end).
 /// Source: LAMMPS manual, read_data; a hybrid has id type x y z, then every sub-style's own columns in order.

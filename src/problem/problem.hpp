@@ -22,16 +22,29 @@ struct DampingKeys {
   bool operator==(const DampingKeys&) const = default;
 };
 
+/// Of the law "rounded", between bodies, and between bodies and particles; its cutoff is that of the table.
+struct RoundedKeys {
+  double k_n = 0, k_na = 0;                     // [force/length]
+  RoundedFormulation formulation = RoundedFormulation::multi;
+  RoundedKernel::Form kernel = RoundedKernel::Form::coded;
+  std::optional<double> delta_ua;               // of LAMMPS's rules; default 1
+  double mu = 0, c_n = 0, c_t = 0;              // friction; damping [force·time/length]
+  double slip = 0;                              // η of the friction of the potentials [force·time/length]
+  bool apart = false;                           // damping = "printed": within the cutoff; else on overlap
+  bool operator==(const RoundedKeys&) const = default;
+};
+
 struct ContactTable {
   TablePlace place;
   std::array<std::string, 2> between;
-  std::string law = "hertz";                    // or "lj"
+  std::string law = "hertz";                    // or "lj", "rounded"
   std::vector<double> youngs_modulus, poissons_ratio;   // one number, or of unlike materials two
   std::optional<double> effective_modulus;
   std::optional<int> exclude_bonds;
   std::optional<double> epsilon, sigma, cutoff;
   bool hard = false;                            // hertz: impenetrable instead of elastic
   DampingKeys damping;
+  RoundedKeys rounded;
   std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const ContactTable&) const = default;
 };
@@ -42,6 +55,9 @@ struct WallTable {
   Region region;
   bool inside = true;
   std::optional<double> youngs_modulus, poissons_ratio, effective_modulus;
+  std::optional<double> k_n, c_t;               // of bodies: [force/length]; default of c_t: c_n/2
+  double k_na = 0, cutoff = 0, c_n = 0;
+  bool lammps = false;                          // formulation = "lammps"
   bool curved = false;                          // effective_radius = "curved"
   Vec3 displacement = Vec3::Zero();
   double radius_change = 0;
@@ -54,6 +70,7 @@ struct WallTable {
 struct LammpsTable {
   TablePlace place;
   std::string data;                             // made absolute from the folder of the problem file
+  std::string bodies;                           // a data file of bodies beside it, likewise; "": none
   std::string atom_style;                       // "": what the file's "Atoms # …" says
   bool operator==(const LammpsTable&) const = default;
 };
@@ -75,11 +92,13 @@ struct GroupTable {
 struct SupportTable {
   TablePlace place;
   std::string name;                             // "" here and below: it has none but its number
-  std::string group, directions = "xyz";
+  std::string group;
+  std::optional<std::string> directions, turns; // default: all; where one of them is given, none of the other
   Vec3 displacement = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();                 // in dynamics: x = x(0) + V t
   bool constant = false;
   std::string from_stage;                       // in force from that stage on; "": from the start
+  std::optional<TurnTable> rotation;            // of bodies
   bool operator==(const SupportTable&) const = default;
 };
 
@@ -89,6 +108,7 @@ struct LoadTable {
   std::optional<Vec3> force, total_force;       // one of these …
   std::optional<double> radial;                 // … or this: on every particle away from an axis
   std::optional<Vec3> center, axis;             // of radial; default: the mean of the group, the normal of the plane
+  std::optional<Vec3> point, torque;            // of bodies: where the force acts, in their frame; besides it
   bool constant = false;
   std::string from_stage;                       // in force from that stage on; "": from the start
   bool operator==(const LoadTable&) const = default;
@@ -130,11 +150,11 @@ struct ViscosityTable {
   bool operator==(const ViscosityTable&) const = default;
 };
 
-/// Velocity at the start of a motion, of every particle of a group; what is held moves as its support says.
+/// Velocity at the start of a motion, of every particle and body of a group; what is held moves as its support says.
 struct VelocityTable {
   TablePlace place;
   std::string group = "all";
-  Vec3 velocity = Vec3::Zero();
+  std::optional<Vec3> velocity, spin;           // spin: angular velocity, of bodies
   bool operator==(const VelocityTable&) const = default;
 };
 
@@ -191,7 +211,7 @@ struct DynamicsTable {
   bool operator==(const DynamicsTable&) const = default;
 };
 
-enum class Quantity { position, displacement, reaction, velocity, gap, contacts };
+enum class Quantity { position, displacement, rotation, reaction, torque, velocity, spin, gap, contacts };
 enum class Component { x, y, z, norm };
 enum class Reduce { mean, sum, min, max };
 
@@ -248,6 +268,8 @@ struct Problem {
   std::vector<LoopTable> loops;
   std::vector<SheetTable> sheets;
   std::vector<GrainsTable> grains;
+  std::vector<BodyTable> bodies;
+  std::vector<GlueTable> glue;
   std::vector<ConnectTable> connections;
   std::vector<GroupTable> groups;
   std::vector<SupportTable> supports;

@@ -29,6 +29,10 @@ void complete(Problem& p) {
     if (!s.thickness) s.thickness = s.spacing;
     if (!s.diameter) s.diameter = s.spacing;
   }
+  for (SupportTable& s : p.supports)
+    if (!s.directions && !s.turns && !s.rotation && p.bodies.empty() && !p.lammps) s.directions = "xyz";
+  for (WallTable& w : p.walls)
+    if (w.k_n && !w.c_t) w.c_t = w.c_n / 2;
   if (!p.path.start.empty() && !p.path.start_lambda) {
     p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
     try {
@@ -43,7 +47,7 @@ void complete(Problem& p) {
 std::vector<std::string> names_in_unknown_tables(const Document& document) {
   std::vector<std::string> names;
   for (const Entry& e : document.root) {
-    if (!is_tables(e.node) || unavailable(e.key).empty()) continue;
+    if (!is_tables(e.node) || has_table(e.key)) continue;
     for (const Node& element : std::get<List>(e.node.value))
       if (const Node* name = find(std::get<Entries>(element.value), "name"))
         if (const auto* text = std::get_if<std::string>(&name->value)) names.push_back(*text);
@@ -55,7 +59,8 @@ std::vector<std::string> names_in_unknown_tables(const Document& document) {
 bool structure_refused(const Document& document) {
   return std::any_of(document.root.begin(), document.root.end(), [](const Entry& e) {
     const bool is_table = std::holds_alternative<Entries>(e.node.value) || is_tables(e.node);
-    const bool structure = e.key == "beam" || e.key == "loop" || e.key == "sheet" || e.key == "grains";
+    const bool structure = e.key == "beam" || e.key == "loop" || e.key == "sheet" || e.key == "grains" ||
+                           e.key == "body";
     return (structure && !is_tables(e.node)) || (is_table && !has_table(e.key));
   });
 }
@@ -72,9 +77,10 @@ ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
   file.problem.sha256 = document.sha256;
   complete(file.problem);
   const Problem& p = file.problem;
-  const bool empty = !p.lammps && p.beams.empty() && p.loops.empty() && p.sheets.empty() && p.grains.empty();
+  const bool empty =
+      !p.lammps && p.beams.empty() && p.loops.empty() && p.sheets.empty() && p.grains.empty() && p.bodies.empty();
   if (empty && !structure_refused(document))
-    mistakes.add("holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]] or a [lammps] data file");
+    mistakes.add("holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
   check_problem(file.problem, names_in_unknown_tables(document), mistakes);
   return file;
 }

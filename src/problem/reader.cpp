@@ -35,11 +35,8 @@ TablePlace Reader::finish() {
                           (is_tables(e.node) && !std::get<List>(e.node.value).empty());
     const Place at = is_table ? e.node.place : e.place;
     const std::string key = inside(is_name(e.key) ? e.key : elamin::quoted(e.key));
-    if (const std::string refusal = unavailable(kind_of(e.key)); !refusal.empty())
-      mistake(at, key, refusal);
-    else
-      mistake(at, key, (is_table ? "unknown table; allowed: " : "unknown key; allowed: ") + listed(known_) +
-                           did_you_mean(e.key, known_));
+    mistake(at, key, (is_table ? "unknown table; allowed: " : "unknown key; allowed: ") + listed(known_) +
+                         did_you_mean(e.key, known_));
   }
   return place_;
 }
@@ -76,12 +73,8 @@ bool Reader::read(const char* key, const Node& node, bool& value, Range limits) 
 
 bool Reader::read(const char* key, const Node& node, int& value, Range limits) {
   const auto* integer = std::get_if<std::int64_t>(&node.value);
-  if (!integer || static_cast<double>(*integer) < limits.lo || static_cast<double>(*integer) > limits.hi) {
-    const bool more = integer && static_cast<double>(*integer) > limits.hi;
-    const std::string refusal = more ? unavailable(kind_of(key), shown(node)) : "";
-    if (!refusal.empty()) return mistake(node.place, inside(key), refusal), false;
+  if (!integer || static_cast<double>(*integer) < limits.lo || static_cast<double>(*integer) > limits.hi)
     return wrong(key, node, wanted(value, limits)), false;
-  }
   value = static_cast<int>(*integer);
   return true;
 }
@@ -134,6 +127,14 @@ bool Reader::read(const char* key, const Node& node, std::vector<double>& value,
 bool Reader::read(const char* key, const Node& node, std::vector<Vec3>& value, Range limits) {
   const auto* list = std::get_if<List>(&node.value);
   if (!list || list->empty()) return wrong(key, node, "a list of points [[x, y, z], …], at least one"), false;
+  bool good = true;
+  for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
+  return good;
+}
+
+bool Reader::read(const char* key, const Node& node, std::vector<std::vector<int>>& value, Range limits) {
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || list->empty()) return wrong(key, node, "a list of lists of integers, at least one"), false;
   bool good = true;
   for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
   return good;
@@ -243,11 +244,8 @@ int Reader::one_of(const char* key, const Node& node, const std::vector<std::str
   const auto* text = std::get_if<std::string>(&node.value);
   const auto found = text ? std::find(known.begin(), known.end(), *text) : known.end();
   if (found != known.end()) return static_cast<int>(found - known.begin());
-  const std::string refusal = text ? unavailable(kind_of(key), *text) : "";
   mistake(node.place, inside(key),
-          !refusal.empty() ? refusal
-                           : "must be " + quoted_choice(known) + ", is " + shown(node) +
-                                 (text ? did_you_mean(*text, known) : ""));
+          "must be " + quoted_choice(known) + ", is " + shown(node) + (text ? did_you_mean(*text, known) : ""));
   return -1;
 }
 

@@ -4,7 +4,6 @@
 #include "problem/mistakes.hpp"
 #include "problem/schema.hpp"
 #include "problem/suggest.hpp"
-#include "problem/unavailable.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -123,6 +122,7 @@ class Reader {
   bool read(const char* key, const Node&, std::vector<int>&, Range);
   bool read(const char* key, const Node&, std::vector<double>&, Range);
   bool read(const char* key, const Node&, std::vector<Vec3>&, Range);
+  bool read(const char* key, const Node&, std::vector<std::vector<int>>&, Range);
   bool read(const char* key, const Node&, std::array<double, 2>&, Range);
   bool read(const char* key, const Node&, std::array<std::string, 2>&, Range);
   bool read(const char* key, const Node&, Rest&, Range);
@@ -131,6 +131,7 @@ class Reader {
   static std::string wanted(double, Range);
   static std::string wanted(const std::string&, Range) { return "a string"; }
   static std::string wanted(const Vec3&, Range) { return "a list of three numbers [x, y, z]"; }
+  static std::string wanted(const std::vector<Vec3>&, Range) { return "a list of points [[x, y, z], …], at least one"; }
   static std::string wanted(const std::array<double, 2>&, Range) { return "a list of two positive numbers"; }
   static std::string wanted(const std::array<std::string, 2>&, Range) { return "a list of the names of two groups"; }
 

@@ -149,8 +149,10 @@ template <class IO> void describe(IO& io, ProblemFile& f) {
   io.tables("loop", p.loops);
   io.tables("sheet", p.sheets);
   io.tables("grains", p.grains);
+  io.tables("body", p.bodies);
   io.tables("group", p.groups);
   io.tables("connect", p.connections);
+  io.tables("glue", p.glue);
   io.tables("support", p.supports);
   io.tables("load", p.loads);
   io.tables("gravity", p.gravity);

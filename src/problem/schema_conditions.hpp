@@ -87,10 +87,12 @@ template <class IO> void describe(IO& io, SupportTable& t) {
   io.may_name("name", t.name);
   io.must("group", t.group);
   io.may("directions", t.directions);
+  io.may("turns", t.turns);
   io.may("displacement", t.displacement);
   io.may("velocity", t.velocity);
   io.may("constant", t.constant);
   io.may("from_stage", t.from_stage);
+  io.table("rotation", t.rotation);
 }
 
 template <class IO> void describe(IO& io, LoadTable& t) {
@@ -101,6 +103,8 @@ template <class IO> void describe(IO& io, LoadTable& t) {
   io.may("radial", t.radial);
   io.may("center", t.center);
   io.may("axis", t.axis);
+  io.may("point", t.point);
+  io.may("torque", t.torque);
   io.may("constant", t.constant);
   io.may("from_stage", t.from_stage);
 }
@@ -140,25 +144,56 @@ template <class IO> void describe_damping(IO& io, DampingKeys& d) {
   io.may("friction_damping", d.friction_damping, range::not_negative);
 }
 
+/// The keys of rounded bodies; those that only LAMMPS's rules or only the potentials have belong to these.
+template <class IO> void describe_rounded(IO& io, ContactTable& t) {
+  RoundedKeys& r = t.rounded;
+  io.must("k_n", r.k_n, range::not_negative);
+  io.may("k_na", r.k_na, range::not_negative);
+  io.may("cutoff", t.cutoff, range::not_negative);
+  io.word("formulation", r.formulation, formulation_words);
+  io.may("mu", r.mu, range::not_negative);
+  io.may("c_n", r.c_n, range::not_negative);
+  io.may("c_t", r.c_t, range::not_negative);
+  if (r.formulation == RoundedFormulation::lammps) {
+    for (const char* key : {"kernel", "slip", "damping"}) io.foreign(key, "formulation \"lammps\", whose rules are LAMMPS's own");
+    io.may("delta_ua", r.delta_ua, range::positive);
+    return;
+  }
+  io.word("kernel", r.kernel, kernel_words);
+  io.may("slip", r.slip, range::not_negative);
+  io.word("damping", r.apart, rounded_damping_words);
+  io.foreign("delta_ua", "the potentials; it is for formulation \"lammps\"");
+}
+
 template <class IO> void describe(IO& io, ContactTable& t) {
   io.must("between", t.between);
   io.may("from_stage", t.from_stage);
   if (!io.word("law", t.law, law_words)) return io.skip_the_rest();   // other keys belong to other laws
+  const auto foreign = [&](std::initializer_list<const char*> keys, const std::string& what) {
+    for (const char* key : keys) io.foreign(key, what);
+  };
+  const auto hertz = {"youngs_modulus", "poissons_ratio", "effective_modulus", "hard", "damping_coefficient", "restitution", "friction",
+                      "friction_damping"};
+  const auto rounded = {"k_n", "k_na", "formulation", "kernel", "delta_ua", "mu", "c_n", "c_t", "slip"};
+  if (t.law == "rounded") {
+    const std::string has = "law \"rounded\", which has k_n, k_na, cutoff, formulation, kernel, delta_ua, mu, c_n, c_t, slip and damping";
+    foreign(hertz, has), foreign({"epsilon", "sigma", "exclude_bonds"}, has);
+    return describe_rounded(io, t);
+  }
   if (t.law == "hertz") {
     io.one_or_two("youngs_modulus", t.youngs_modulus, range::positive);
     io.one_or_two("poissons_ratio", t.poissons_ratio, range::poissons_ratio);
     io.may("effective_modulus", t.effective_modulus, range::not_negative);
-    for (const char* key : {"epsilon", "sigma", "cutoff"})
-      io.foreign(key, "law \"hertz\", which has youngs_modulus, poissons_ratio, effective_modulus, hard, damping and exclude_bonds");
+    const std::string has = "law \"hertz\", which has youngs_modulus, poissons_ratio, effective_modulus, hard, damping and exclude_bonds";
+    foreign({"epsilon", "sigma", "cutoff"}, has), foreign(rounded, has);
     io.may("hard", t.hard);
     describe_damping(io, t.damping);
   } else {
     io.must("epsilon", t.epsilon, range::not_negative);
     io.must("sigma", t.sigma, range::positive);
     io.must("cutoff", t.cutoff, range::positive);
-    for (const char* key : {"youngs_modulus", "poissons_ratio", "effective_modulus", "hard", "damping",
-                            "damping_coefficient", "restitution", "friction", "friction_damping"})
-      io.foreign(key, "law \"lj\", which has epsilon, sigma, cutoff and exclude_bonds");
+    const std::string has = "law \"lj\", which has epsilon, sigma, cutoff and exclude_bonds";
+    foreign(hertz, has), foreign({"damping"}, has), foreign(rounded, has);
   }
   io.may("exclude_bonds", t.exclude_bonds, Range{0, 1000});
 }
@@ -175,6 +210,12 @@ template <class IO> void describe(IO& io, WallTable& t) {
   io.may("radius_change", t.radius_change);
   io.may("hard", t.hard);
   describe_damping(io, t.damping);
+  io.may("k_n", t.k_n, range::not_negative);
+  io.may("k_na", t.k_na, range::not_negative);
+  io.may("cutoff", t.cutoff, range::not_negative);
+  io.may("c_n", t.c_n, range::not_negative);
+  io.may("c_t", t.c_t, range::not_negative);
+  io.word("formulation", t.lammps, wall_formulation_words);
   io.may("from_stage", t.from_stage);
   describe_region(io, t.region);
 }
@@ -186,7 +227,8 @@ template <class IO> void describe(IO& io, ViscosityTable& t) {
 
 template <class IO> void describe(IO& io, VelocityTable& t) {
   io.may("group", t.group);
-  io.must("velocity", t.velocity);
+  io.may("velocity", t.velocity);
+  io.may("spin", t.spin);
 }
 
 }  // namespace elamin

@@ -2,10 +2,15 @@
 // Keys of what is made of particles.
 #include "problem/schema_words.hpp"
 
+#include <vector>
+
 namespace elamin {
 
 template <class IO> void describe(IO& io, LammpsTable& t) {
-  io.file("data", t.data);
+  bool beside = true;
+  if constexpr (IO::reading) beside = io.has("bodies");
+  beside ? io.may_file("data", t.data) : io.file("data", t.data);
+  io.may_file("bodies", t.bodies);
   io.may("atom_style", t.atom_style);
 }
 
@@ -89,6 +94,61 @@ template <class IO> void describe(IO& io, GrainsTable& t) {
   io.may_file("file", t.file);
   io.may("diameter", t.diameter, range::positive);
   io.may("density", t.density, range::positive);
+}
+
+template <class IO> void describe(IO& io, TurnTable& t) {
+  io.must("axis", t.axis);
+  io.must("angle", t.angle);
+}
+
+template <class IO> void describe(IO& io, BodyTable& t) {
+  io.name("name", t.name);
+  if (!io.must_word("shape", t.shape, body_words)) return io.skip_the_rest();   // other keys belong to other shapes
+  std::vector<const char*> others{"length", "edge", "size", "vertices", "faces", "edges", "molecule"};
+  const auto has = [&](std::initializer_list<const char*> keys, const std::string& what) {
+    for (const std::string key : keys) std::erase_if(others, [&](const char* other) { return key == other; });
+    for (const char* other : others) io.foreign(other, what);
+  };
+  switch (t.shape) {
+    case BodyShape::sphere: has({}, "a sphere, which has rounding_diameter"); break;
+    case BodyShape::rod:
+      io.must("length", t.length, range::positive);
+      has({"length"}, "a rod, which has length");
+      break;
+    case BodyShape::tetrahedron:
+    case BodyShape::cube:
+      io.must("edge", t.edge, range::positive);
+      has({"edge"}, t.shape == BodyShape::cube ? "a cube, which has edge" : "a tetrahedron, which has edge");
+      break;
+    case BodyShape::box:
+      io.must("size", t.size, range::positive);
+      has({"size"}, "a box, which has size");
+      break;
+    case BodyShape::mesh:
+      io.must("vertices", t.vertices);
+      io.may("faces", t.faces, range::id);
+      io.may("edges", t.edges, range::id);
+      has({"vertices", "faces", "edges"}, "a mesh, which has vertices, faces and edges");
+      break;
+    case BodyShape::molecule:
+      io.file("molecule", t.molecule);
+      has({"molecule"}, "a molecule, whose file has them");
+  }
+  io.may("mass", t.mass, range::positive);
+  if (t.shape == BodyShape::molecule)
+    for (const char* key : {"rounding_diameter", "density", "inertia"}) io.foreign(key, "a molecule, whose file has it");
+  else {
+    io.must("rounding_diameter", t.rounding_diameter, range::positive);
+    io.may("density", t.density, range::positive);
+    io.may("inertia", t.inertia);
+  }
+  io.may("position", t.position);
+  io.table("rotation", t.rotation);
+}
+
+template <class IO> void describe(IO& io, GlueTable& t) {
+  io.must("group", t.group);
+  io.must("body", t.body);
 }
 
 template <class IO> void describe(IO& io, ConnectTable& t) {

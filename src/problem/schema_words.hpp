@@ -30,6 +30,13 @@ inline constexpr Word<ClampedEnds> clamped_words[]{
     {"from", ClampedEnds::from}, {"to", ClampedEnds::to}, {"both", ClampedEnds::both}};
 inline constexpr Word<SheetShape> sheet_words[]{
     {"rectangle", SheetShape::rectangle}, {"circle", SheetShape::circle}, {"cylinder", SheetShape::cylinder}};
+inline constexpr Word<BodyShape> body_words[]{{"sphere", BodyShape::sphere},
+                                              {"rod", BodyShape::rod},
+                                              {"tetrahedron", BodyShape::tetrahedron},
+                                              {"cube", BodyShape::cube},
+                                              {"box", BodyShape::box},
+                                              {"mesh", BodyShape::mesh},
+                                              {"molecule", BodyShape::molecule}};
 inline constexpr Word<const char*> plane_words[]{{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}};
 inline constexpr Word<Shape> shape_words[]{{"plane", Shape::plane},
                                            {"block", Shape::block},
@@ -42,7 +49,14 @@ inline constexpr Word<const char*> block_faces[]{{"xlo", "xlo"}, {"xhi", "xhi"},
 inline constexpr Word<const char*> round_faces[]{{"lo", "lo"}, {"hi", "hi"}, {"side", "side"}};   // cylinder, cone
 inline constexpr Word<bool> side_words[]{{"inside", true}, {"outside", false}};
 inline constexpr Word<bool> effective_radius_words[]{{"particle", false}, {"curved", true}};
-inline constexpr Word<const char*> law_words[]{{"hertz", "hertz"}, {"lj", "lj"}};
+inline constexpr Word<const char*> law_words[]{{"hertz", "hertz"}, {"lj", "lj"}, {"rounded", "rounded"}};
+inline constexpr Word<RoundedFormulation> formulation_words[]{{"multi", RoundedFormulation::multi},
+                                                              {"closest", RoundedFormulation::closest},
+                                                              {"lammps", RoundedFormulation::lammps}};
+inline constexpr Word<bool> wall_formulation_words[]{{"potential", false}, {"lammps", true}};
+inline constexpr Word<RoundedKernel::Form> kernel_words[]{{"lammps", RoundedKernel::Form::coded},
+                                                          {"printed", RoundedKernel::Form::printed}};
+inline constexpr Word<bool> rounded_damping_words[]{{"coded", false}, {"printed", true}};
 inline constexpr Word<StudyType> study_words[]{{"energy", StudyType::energy},
                                                {"equilibrium", StudyType::equilibrium},
                                                {"path", StudyType::path},
@@ -103,21 +117,33 @@ inline constexpr Word<Observed> observed_words[]{
     {"displacement.y", {Quantity::displacement, Component::y}},
     {"displacement.z", {Quantity::displacement, Component::z}},
     {"displacement.norm", {Quantity::displacement, Component::norm}},
+    {"rotation.x", {Quantity::rotation, Component::x}},
+    {"rotation.y", {Quantity::rotation, Component::y}},
+    {"rotation.z", {Quantity::rotation, Component::z}},
+    {"rotation.norm", {Quantity::rotation, Component::norm}},
     {"reaction.x", {Quantity::reaction, Component::x}},
     {"reaction.y", {Quantity::reaction, Component::y}},
     {"reaction.z", {Quantity::reaction, Component::z}},
     {"reaction.norm", {Quantity::reaction, Component::norm}},
+    {"torque.x", {Quantity::torque, Component::x}},
+    {"torque.y", {Quantity::torque, Component::y}},
+    {"torque.z", {Quantity::torque, Component::z}},
+    {"torque.norm", {Quantity::torque, Component::norm}},
     {"velocity.x", {Quantity::velocity, Component::x}},
     {"velocity.y", {Quantity::velocity, Component::y}},
     {"velocity.z", {Quantity::velocity, Component::z}},
     {"velocity.norm", {Quantity::velocity, Component::norm}},
+    {"spin.x", {Quantity::spin, Component::x}},
+    {"spin.y", {Quantity::spin, Component::y}},
+    {"spin.z", {Quantity::spin, Component::z}},
+    {"spin.norm", {Quantity::spin, Component::norm}},
     {"gap", {Quantity::gap, Component::x}},
     {"contacts", {Quantity::contacts, Component::x}}};
 
 /// How the values of a group's particles become one where the file does not say it.
 constexpr Reduce default_reduce(Quantity q) {
   if (q == Quantity::gap) return Reduce::min;
-  return q == Quantity::reaction || q == Quantity::contacts ? Reduce::sum : Reduce::mean;
+  return q == Quantity::reaction || q == Quantity::torque || q == Quantity::contacts ? Reduce::sum : Reduce::mean;
 }
 
 }  // namespace elamin

@@ -4,7 +4,6 @@
 #include "problem/keys.hpp"
 #include "problem/suggest.hpp"
 #include "problem/text.hpp"
-#include "problem/unavailable.hpp"
 
 #include <fmt/format.h>
 
@@ -60,7 +59,7 @@ class Walk {
       const std::string part = parts_[at_];
       const KeyTree* child = tree_->find(part);
       if (!child) return unknown(part);
-      for (std::string* path : {&canonical_, &kind_}) *path += fmt::format("{}{}", at_ ? "." : "", part);
+      canonical_ += fmt::format("{}{}", at_ ? "." : "", part);
       ++at_;
       if (child->kind == KeyTree::Kind::value) return value(part);
       if (at_ == parts_.size()) return refuse("is a table; name one of its keys: " + listed(child->names()));
@@ -78,8 +77,6 @@ class Walk {
     return nullptr;
   }
   Node* unknown(const std::string& part) {
-    const std::string refusal = unavailable(kind_.empty() ? part : kind_ + "." + part);
-    if (!refusal.empty()) return refuse(refusal);
     return refuse(fmt::format("{} is no key; allowed: {}{}", quoted(part), listed(tree_->names()),
                               did_you_mean(part, tree_->names())));
   }
@@ -128,7 +125,7 @@ class Walk {
   std::size_t at_ = 0;
   Entries* entries_;
   const KeyTree* tree_ = &key_tree();
-  std::string why_, canonical_, kind_;
+  std::string why_, canonical_;
 };
 
 }  // namespace

@@ -11,11 +11,13 @@
 namespace elamin {
 namespace {
 
-/// Everything that a stage may switch: the conditions, then the contacts.
+/// Everything that a stage may switch: the conditions, then the contacts of particles, then those of rounded bodies.
 std::vector<Condition> tables_of(const Problem& problem) {
   std::vector<Condition> all = conditions_of(problem);
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i)
-    all.push_back({problem.contacts[i].place, "contact", "", static_cast<int>(i) + 1, false});
+  for (const bool rounded : {false, true})
+    for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+      if ((problem.contacts[i].law == "rounded") == rounded)
+        all.push_back({problem.contacts[i].place, "contact", "", static_cast<int>(i) + 1, false});
   return all;
 }
 
@@ -24,7 +26,10 @@ template <class Call> void for_tables(Problem& p, const Call& call) {
   const auto all = [&](auto& tables) {
     for (auto& t : tables) call(t.place, t.from_stage);
   };
-  all(p.supports), all(p.loads), all(p.gravity), all(p.pressures), all(p.changes), all(p.walls), all(p.contacts);
+  all(p.supports), all(p.loads), all(p.gravity), all(p.pressures), all(p.changes), all(p.walls);
+  for (const bool rounded : {false, true})
+    for (ContactTable& c : p.contacts)
+      if ((c.law == "rounded") == rounded) call(c.place, c.from_stage);
 }
 
 std::vector<std::string> from_stages(const Problem& problem) {
@@ -49,7 +54,7 @@ bool in_force(const Problem& problem, const Condition& table, const std::string&
 
 bool moves(const Problem& p, const Condition& c) {
   const std::size_t i = c.number - 1;
-  if (c.kind == "support") return p.supports[i].displacement != Vec3::Zero();
+  if (c.kind == "support") return p.supports[i].displacement != Vec3::Zero() || (p.supports[i].rotation && p.supports[i].rotation->angle != 0);
   if (c.kind == "wall") return p.walls[i].displacement != Vec3::Zero() || p.walls[i].radius_change != 0;
   return true;
 }
@@ -146,15 +151,18 @@ Model model_in(const Stage& stage, Model& all, const State& now) {
   for (std::size_t s = 0; s < all.supports.size(); ++s) {
     if (!stage.entering[s]) continue;
     const double factor = stage.scaling[s].at(stage.path.start_lambda.value_or(stage.path.from));
-    all.supports[s].reference.clear();
-    for (const int p : all.supports[s].particles) {
-      ExactVector at = now.at(p);
+    Support& support = all.supports[s];
+    support.reference.clear(), support.body_reference.clear();
+    const auto before = [&](ExactVector at) {
       for (int c = 0; c < 3; ++c) {
-        const Exact x = Exact{at.hi[c], at.lo[c]} + two_product(-factor, all.supports[s].displacement[c]);
+        const Exact x = Exact{at.hi[c], at.lo[c]} + two_product(-factor, support.displacement[c]);
         at.hi[c] = x.hi, at.lo[c] = x.lo;
       }
-      all.supports[s].reference.push_back(at);
-    }
+      return at;
+    };
+    for (const int p : support.particles) support.reference.push_back(before(now.at(p)));
+    for (const int b : support.bodies)
+      support.body_reference.push_back({before(now.bodies[b].position), turn(-factor * support.rotation) * now.bodies[b].rotation});
   }
   Model model = all;
   const auto keep = [&](auto& list, std::size_t begin) {
@@ -164,9 +172,10 @@ Model model_in(const Stage& stage, Model& all, const State& now) {
       if (stage.in_force[begin + i]) list.push_back(std::move(from[i]));
   };
   const std::size_t conditions = stage.scaling.size(), walls = conditions - model.walls.size();
-  keep(model.contacts, conditions);
+  const std::size_t contacts = conditions + model.contacts.size();
+  keep(model.contacts, conditions), keep(model.rounded, contacts);
   for (std::size_t w = 0; w < model.walls.size(); ++w)
-    if (!stage.in_force[walls + w]) model.walls[w].particles.clear();
+    if (!stage.in_force[walls + w]) model.walls[w].particles.clear(), model.walls[w].bodies.clear();
   keep(model.supports, 0);
   return model;
 }

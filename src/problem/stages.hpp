@@ -9,7 +9,8 @@
 
 namespace elamin {
 
-/// One stage as it holds. Of conditions_of(problem), and for in_force and entering the contacts behind them:
+/// One stage as it holds. Of conditions_of(problem), and for in_force and entering the contacts behind them, those of rounded
+/// bodies last:
 struct Stage {
   std::string name;                     // "": the path has no stages
   PathTable path;                       // the keys of [path] in this stage, its `from` and `to` among them
@@ -51,7 +52,7 @@ class Stages {
 /// The model in a stage: what is not in force is left out (walls stay, without particles, so that they keep their
 /// numbers), and supports that enter hold their particles where they are `now`. `all` has everything in force; the
 /// places of such supports are kept in it for the stages to come. A support that entered before a state was stored holds
-/// its particles where they are less its displacement so far.
+/// its particles where they are less its displacement so far, bodies less its rotation too.
 Model model_in(const Stage& stage, Model& all, const State& now);
 
 /// Labels of the conditions that the load factor of a stage scales.

@@ -55,6 +55,7 @@ std::string path_text(const StoredPath& path) {
       add(key, fmt::format("{:.17g}", value));
   }
   if (!r.closed.empty()) add("closed", Json(r.closed).dump());
+  if (!r.closed_bodies.empty()) add("closed_bodies", Json(r.closed_bodies).dump());
   return text + "}}";
 }
 
@@ -69,6 +70,7 @@ class TailReader {
       wrong("must hold {\"lambda\": number, \"tail\": [[x, y, z], …]}, as beside every stored state; without this file "
             "the state is taken from its data file alone");
     StateTail stored{json_["lambda"].get<double>(), Field(3, static_cast<Eigen::Index>(json_["tail"].size())), {}, {}};
+    if (json_.contains("bodies")) stored.bodies = bodies(json_["bodies"]);
     for (std::size_t i = 0; i < json_["tail"].size(); ++i) {
       const Json& t = json_["tail"][i];
       if (!t.is_array() || t.size() != 3 || !number(t[0]) || !number(t[1]) || !number(t[2]))
@@ -76,7 +78,8 @@ class TailReader {
       stored.tail.col(static_cast<Eigen::Index>(i)) = Vec3(t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
     }
     if (json_.contains("stage")) stored.stage = stage(json_["stage"]);
-    if (json_.contains("path")) stored.path = path(json_["path"], static_cast<int>(stored.tail.cols()));
+    const auto sites = stored.tail.cols() + 2 * static_cast<Eigen::Index>(stored.bodies.size());
+    if (json_.contains("path")) stored.path = path(json_["path"], static_cast<int>(sites));
     return stored;
   }
 
@@ -101,14 +104,28 @@ class TailReader {
     return stored;
   }
 
-  StoredPath path(const Json& j, int particles) const {
+  std::vector<Pose> bodies(const Json& j) const {
+    const auto row = [](const Json& r) { return all(r, number) && r.size() == 7; };
+    if (!all(j, row)) wrong("bodies must be [[x, y, z, qw, qx, qy, qz], …], finite numbers");
+    std::vector<Pose> poses;
+    for (const Json& r : j) {
+      std::array<double, 7> v;
+      for (std::size_t k = 0; k < 7; ++k) v[k] = r[k].get<double>();
+      poses.push_back({{Vec3::Zero(), {v[0], v[1], v[2]}}, {v[3], v[4], v[5], v[6]}});
+      if (std::abs(poses.back().rotation.norm() - 1) > 1e-12)
+        wrong(fmt::format("the rotation of body {} must be a unit quaternion [qw, qx, qy, qz]", poses.size()));
+    }
+    return poses;
+  }
+
+  StoredPath path(const Json& j, int sites) const {
     if (!j.is_object() || !j.contains("varied") || !all(j["varied"], [](const Json& w) { return w.is_string(); }) ||
         !j.contains("rising") || !j["rising"].is_boolean() || !j.contains("resume") || !j["resume"].is_object())
       wrong("path must be {\"varied\": [text, …], \"rising\": true or false, \"resume\": {…}}");
-    return {j["varied"].get<std::vector<std::string>>(), j["rising"].get<bool>(), resume(j["resume"], particles)};
+    return {j["varied"].get<std::vector<std::string>>(), j["rising"].get<bool>(), resume(j["resume"], sites)};
   }
 
-  Resume resume(const Json& j, int particles) const {
+  Resume resume(const Json& j, int sites) const {
     Resume r;
     if (j.contains("label")) {
       if (!j["label"].is_string()) wrong("path.resume.label must be a text");
@@ -116,7 +133,7 @@ class TailReader {
     }
     for (const auto& [key, index] : {std::pair("before", &r.before), {"after", &r.after}})
       if (j.contains(key)) {
-        if (!integer(j[key], 0, 3 * particles)) wrong(fmt::format("path.resume.{} must be a number of eigenvalues", key));
+        if (!integer(j[key], 0, 3 * sites)) wrong(fmt::format("path.resume.{} must be a number of eigenvalues", key));
         *index = j[key].get<int>();
       }
     std::size_t dofs = 0;
@@ -151,12 +168,22 @@ class TailReader {
     if (j.contains("closed")) {
       constexpr int most = std::numeric_limits<int>::max();
       const auto contact = [&](const Json& c) {
-        return c.is_array() && c.size() == 3 && integer(c[0], 0, particles - 1) && integer(c[1], -1, particles - 1) &&
+        return c.is_array() && c.size() == 3 && integer(c[0], 0, sites - 1) && integer(c[1], -1, sites - 1) &&
                integer(c[2], -1, most);
       };
       if (!all(j["closed"], contact))
         wrong("path.resume.closed must be contacts [particle, other or -1, wall or -1], particles counted from 0");
       r.closed = j["closed"].get<std::vector<std::array<int, 3>>>();
+    }
+    if (j.contains("closed_bodies")) {
+      constexpr int most = std::numeric_limits<int>::max();
+      const auto contact = [&](const Json& c) {
+        return c.is_array() && c.size() == 5 && integer(c[0], 0, sites - 1) && integer(c[1], -1, sites - 1) && integer(c[2], -1, most) &&
+               integer(c[3], 0, most) && integer(c[4], 0, 1);
+      };
+      if (!all(j["closed_bodies"], contact))
+        wrong("path.resume.closed_bodies must be contacts [body or particle, other or -1, wall or -1, feature, 1 if within reach]");
+      r.closed_bodies = j["closed_bodies"].get<std::vector<std::array<int, 5>>>();
     }
     return r;
   }
@@ -171,6 +198,16 @@ std::string tail_file(const std::string& data_file) {
   return std::filesystem::path(data_file).replace_extension(".json").string();
 }
 
+std::string bodies_file(const std::string& data_file) {
+  return std::filesystem::path(data_file).replace_extension(".bodies.data").string();
+}
+
+std::vector<Pose> stored_poses(const State& state) {
+  std::vector<Pose> poses = state.bodies;
+  for (Pose& p : poses) p.position.hi = Vec3::Zero();
+  return poses;
+}
+
 std::string tail_text(const StateTail& stored) {
   std::string text = fmt::format("{{\"lambda\": {:.17g},\n", stored.load_factor);
   if (stored.stage) text += "\"stage\": " + stage_text(*stored.stage) + ",\n";
@@ -180,7 +217,14 @@ std::string tail_text(const StateTail& stored) {
     const Vec3 t = stored.tail.col(i).array() + 0.0;                 // no negative zeros
     fmt::format_to(std::back_inserter(text), "{}\n[{:.17g}, {:.17g}, {:.17g}]", i ? "," : "", t[0], t[1], t[2]);
   }
-  return text + "]}\n";
+  text += "]";
+  if (!stored.bodies.empty()) text += ",\n\"bodies\": [";
+  for (std::size_t b = 0; b < stored.bodies.size(); ++b) {
+    const Vec3 t = stored.bodies[b].position.lo.array() + 0.0;
+    const Eigen::Quaterniond& q = stored.bodies[b].rotation;
+    text += (b ? ",\n" : "\n") + list(std::array{t[0], t[1], t[2], q.w(), q.x(), q.y(), q.z()});
+  }
+  return text + (stored.bodies.empty() ? "}\n" : "]}\n");
 }
 
 std::optional<StateTail> read_tail(const std::string& data_file) {

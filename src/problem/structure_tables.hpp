@@ -100,6 +100,44 @@ struct GrainsTable {
   bool operator==(const GrainsTable&) const = default;
 };
 
+/// A turn by an angle about an axis.
+struct TurnTable {
+  TablePlace place;
+  Vec3 axis = Vec3::UnitZ();                    // of any length but zero
+  double angle = 0;                             // degrees
+  /// The rotation vector [rad].
+  Vec3 vector() const { return angle * pi / 180 * (axis / axis.cwiseAbs().maxCoeff()).normalized(); }
+  bool operator==(const TurnTable&) const = default;
+};
+
+enum class BodyShape { sphere, rod, tetrahedron, cube, box, mesh, molecule };
+
+/// A rigid body with rounded corners. Lengths are of the core, without the rounding.
+struct BodyTable {
+  TablePlace place;
+  std::string name;
+  BodyShape shape = BodyShape::sphere;
+  double length = 0, edge = 0;                  // of a rod; of a tetrahedron and a cube
+  Vec3 size = Vec3::Zero();                     // of a box
+  std::vector<Vec3> vertices;                   // of a mesh
+  std::vector<std::vector<int>> faces;          // indices of vertices from 1, counter-clockwise seen from outside
+  std::optional<std::vector<std::vector<int>>> edges;   // default: those of the faces
+  std::string molecule;                         // LAMMPS's molecule file
+  std::optional<double> rounding_diameter;      // of the ball that rounds the core
+  Vec3 position = Vec3::Zero();                 // of the origin of the core's frame
+  std::optional<double> mass, density;          // one of these, or none
+  std::optional<std::vector<double>> inertia;   // with mass, about the centre of mass: ixx, iyy, izz, ixy, ixz, iyz
+  std::optional<TurnTable> rotation;
+  bool operator==(const BodyTable&) const = default;
+};
+
+/// Particles that a body carries.
+struct GlueTable {
+  TablePlace place;
+  std::string group, body;                      // body: a [[body]], or a group of one
+  bool operator==(const GlueTable&) const = default;
+};
+
 /// Bonds between the particles of two groups that are near each other, and angles over these bonds.
 struct ConnectTable {
   TablePlace place;

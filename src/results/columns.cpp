@@ -13,14 +13,14 @@ Cell known(int index) { return index < 0 ? Cell{} : Cell(index); }
 
 /// What path.csv and events.csv have in common behind their first columns.
 void append_rest(Row& row, const PathPoint& p, const std::vector<double>& observables) {
-  row.insert(row.end(), {p.energy.total(), p.energy.bond, p.energy.angle, p.energy.contact, p.energy.wall, p.energy.cohesion,
+  row.insert(row.end(), {p.energy.total(), p.energy.bond, p.energy.angle, p.energy.contact, p.energy.wall, p.energy.cohesion, p.energy.body,
                          p.energy.external, p.report.residual, p.report.iterations, p.stability.negative,
                          p.stability.stable});
   row.insert(row.end(), observables.begin(), observables.end());
   row.insert(row.end(), {p.parent, known(p.stability.negative_rigid)});
 }
 
-const std::vector<std::string> rest{"energy",   "bond",     "angle",      "contact",  "wall",  "cohesion",
+const std::vector<std::string> rest{"energy",   "bond",     "angle",      "contact",  "wall",  "cohesion", "body",
                                     "external", "residual", "iterations", "negative", "stable"};
 const std::vector<std::string> last{"parent", "negative_rigid"}, last_of_event{"negative_before", "negative_after", "what"};
 

@@ -16,7 +16,7 @@ std::vector<std::string> observable_columns(const Problem& problem);
 /// The columns of the table of a run: of path.csv, or of trajectory.csv.
 std::vector<std::string> run_columns(const Problem& problem);
 
-/// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, external, residual, iterations, negative,
+/// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, body, external, residual, iterations, negative,
 /// stable, then the observables, parent, negative_rigid, and `stage` of a path in stages.
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged = false);
 /// stage: of a path in stages, the name of the point's.

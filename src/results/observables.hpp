@@ -1,5 +1,6 @@
 #pragma once
-// What [[observe]] asks for: numbers taken from the particles of a group, or from a wall.
+// What [[observe]] asks for: numbers taken from the particles and bodies of a group, or from a wall.
+#include "dynamics/motion.hpp"
 #include "energy/touch.hpp"
 #include "model/model.hpp"
 #include "problem/problem.hpp"
@@ -9,31 +10,34 @@
 
 namespace elamin {
 
-/// Quantities of a particle [length, force, length/time]:
+/// Quantities of a particle or body [length, rad, force, force·length, length/time, rad/time]; x of a body: its centre of mass
 ///   position      x
 ///   displacement  x − x_start, from positions and tails: it keeps its digits however small it is
+///   rotation      of a body: the rotation vector from where it was at the start, up to 2π
 ///   reaction      −f at the coordinates that a support holds, 0 elsewhere: the force of the support on the structure,
 ///                 f = −∂U/∂x with all loads; what a plane holds is not counted
+///   torque        of a body: the same of its turns, the torque of the support about its centre
 ///   velocity      of a motion; where nothing moves, of the model (a state has none)
+///   spin          of a body: its angular velocity, as velocity
 ///   gap           the smallest distance of its surface from any particle (in the group or not) or wall that it has a
 ///                 contact law with; negative: overlap. Pairs left out as glued, and E_eff = 0, do not count; nothing where
 ///                 there is none
 ///   contacts      how many contacts of it are closed (gap < 0 by more than rounding); a pair within the group counts for both, a block's wall
-///                 once for each of its faces
-/// Component x, y, z or norm = √(x² + y² + z²), over the particles of the group: mean, sum, min, max.
+///                 once for each of its faces; bodies may touch at several places
+/// Component x, y, z or norm = √(x² + y² + z²), over the particles and bodies of the group: mean, sum, min, max.
 /// sum and norm: the norm of the summed vector (of a reaction: of the resultant). mean, min, max and norm: of the norms
 /// of the particles.
 ///
 /// Quantities of a wall, which a group may be the name of:
-///   reaction      the force of the wall on each particle that touches it; sum: on the structure
+///   reaction      the force of the wall on each particle or body that it touches or attracts; sum: on the structure
 ///   contacts      how many closed contacts each of these has with it; sum: all of them
 ///   gap           of every particle of the wall's group to the wall
 /// reaction and contacts are reduced over the particles that touch the wall: mean, min and max are nothing where none
 /// does, sums are 0.
 class Observables {
  public:
-  /// Both must outlive this. Throws InputError for a group that is not there or has no particle, and for a quantity
-  /// that a wall has not.
+  /// Both must outlive this. Throws InputError for a group that is not there or has nothing in it, for a quantity
+  /// that a wall has not, and for one of bodies where there are none.
   Observables(const Problem& problem, const Model& model);
 
   std::vector<std::string> names() const;
@@ -42,26 +46,29 @@ class Observables {
   /// of its particles in the list, the other reductions all of them. True where no gap is observed.
   bool sufficient(const std::vector<Touch>& touches) const;
 
-  /// One number for every [[observe]], in their order, not finite where there is nothing; forces: −∂U/∂x of all particles
-  /// with the loads, 3 × particles; touches: all closed contacts, and open ones where a gap is observed.
-  /// velocity: of all particles, 3 × particles; null: the model's.
+  /// One number for every [[observe]], in their order, not finite where there is nothing; forces: −∂U/∂x of all sites
+  /// with the loads, 3 × sites, see Energy::forces; touches: all closed contacts, and open ones where a gap is observed.
+  /// moving: its velocities count; null: the model's.
   std::vector<double> evaluate(const State& state, const Field& forces, const std::vector<Touch>& touches,
-                               const Field* velocity = nullptr) const;
+                               const Motion* moving = nullptr) const;
 
  private:
   struct Subject {
-    const std::vector<int>* particles = nullptr;      // of the group, or of the wall's group
+    std::vector<int> entities = {};                   // of the group, or of the wall's group: see model/entities.hpp
+    bool known = false;
     int wall = -1;                                    // of Model::walls; −1: it is a group
   };
   std::vector<Vec3> of_group(const ObserveTable& o, const Subject& subject, const State& state, const Field& forces,
-                             const std::vector<Touch>& touches, const Field& velocity) const;
+                             const std::vector<Touch>& touches, const Motion* moving) const;
+  Vec3 of_particle(Quantity q, int particle, const State& state, const Field& forces, const Motion* moving) const;
+  Vec3 of_body(Quantity q, int body, const State& state, const Field& forces, const Motion* moving) const;
   std::vector<Vec3> of_wall(const ObserveTable& o, const Subject& subject, const std::vector<Touch>& touches) const;
   std::vector<double> gaps(int wall, const std::vector<Touch>& touches) const;
 
   const Problem& problem_;
   const Model& model_;
   std::vector<Subject> subjects_;                     // of every [[observe]]
-  Eigen::Matrix<bool, 3, Eigen::Dynamic> held_;       // by supports: 3 × particles
+  Eigen::Matrix<bool, 3, Eigen::Dynamic> held_;       // by supports: 3 × sites
 };
 
 }  // namespace elamin

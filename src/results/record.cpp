@@ -1,10 +1,26 @@
 #include "results/record.hpp"
 
+#include "model/entities.hpp"
 #include "results/columns.hpp"
 
 #include <limits>
 
 namespace elamin {
+
+namespace {
+
+/// Of all sites, as Energy::forces has them: torques over the levers of the bodies.
+Field site_forces(const Model& model, const Motion& m) {
+  Field all = Field::Zero(3, model.particles() + 2 * static_cast<int>(model.bodies.size()));
+  all.leftCols(m.force.cols()) = m.force;
+  for (Eigen::Index b = 0; b < m.body_force.cols(); ++b) {
+    all.col(model.particles() + 2 * b) = m.body_force.col(b);
+    all.col(model.particles() + 2 * b + 1) = m.torque.col(b) / (size_of(model, model.particles() + static_cast<int>(b)) / 2);
+  }
+  return all;
+}
+
+}  // namespace
 
 Record::Record(const Problem& problem, const Model& model)
     : problem_(problem),
@@ -16,6 +32,7 @@ Record::Record(const Problem& problem, const Model& model)
 
 void Record::enter(const Stage& stage, const Model& model) {
   observables_.emplace(problem_, model);
+  model_ = &model;
   if (!problem_.stages.empty()) stage_ = stage.name;
 }
 
@@ -30,7 +47,7 @@ void Record::add(const PathPoint& point, const Field& forces, const std::vector<
 
 void Record::add(const Moment& moment, const std::vector<Touch>& touches) {
   const Motion& m = moment.motion;
-  path_.rows.push_back(trajectory_row(moment, observables_->evaluate(m.state, m.force, touches, &m.velocity)));
+  path_.rows.push_back(trajectory_row(moment, observables_->evaluate(m.state, site_forces(*model_, m), touches, &m)));
 }
 
 }  // namespace elamin

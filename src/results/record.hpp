@@ -19,7 +19,7 @@ class Record {
   /// The points that come belong to this stage of the path, in which this model is in force (it must outlive this).
   void enter(const Stage& stage, const Model& model);
 
-  /// A point of the path; forces: −∂U/∂x of all particles with the loads, 3 × particles; touches: see
+  /// A point of the path; forces: −∂U/∂x of all sites with the loads, 3 × sites; touches: see
   /// Observables::evaluate; eigenvalues: the lowest, where the study has them. An event (a label such as "branch:1") stands in both tables.
   void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
            const std::vector<double>& eigenvalues = {});
@@ -36,6 +36,7 @@ class Record {
 
  private:
   const Problem& problem_;
+  const Model* model_ = nullptr;                                 // of the stage
   std::optional<Observables> observables_;                       // of the stage
   std::optional<std::string> stage_;                             // of a path in stages, its name
   std::vector<std::string> names_;

@@ -1,7 +1,9 @@
 #include "results/run_directory.hpp"
 
 #include "core/error.hpp"
+#include "model/entities.hpp"
 #include "problem/state_tail.hpp"
+#include "results/body_picture.hpp"
 #include "results/columns.hpp"
 #include "results/lammps_state.hpp"
 #include "results/text_file.hpp"
@@ -20,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double at_touch = 1e-9;   // of the diameter: a gap that an event has located, whichever sign rounding gave it
+constexpr double at_touch = 1e-9;   // of the size: a gap that an event has located, whichever sign rounding gave it
 
 std::string place(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
@@ -47,7 +49,7 @@ std::string prepared(const std::string& directory, const std::string& resolved_t
   if (fs::exists(place(directory, "resolved.toml"))) {
     std::error_code error;
     for (const char* file : {"summary.json", "modes.csv", "path.csv", "events.csv", "trajectory.csv"}) fs::remove(place(directory, file), error);
-    for (const char* extension : {".data", ".json", ".csv"}) remove_all_with(extension, states);
+    for (const char* extension : {".data", ".json", ".csv", ".vtk"}) remove_all_with(extension, states);
     for (const char* folder : {"modes", "frames"}) {
       remove_all_with(".csv", place(directory, folder));
       fs::remove(place(directory, folder), error);                 // where nothing else is in it
@@ -55,6 +57,10 @@ std::string prepared(const std::string& directory, const std::string& resolved_t
   }
   write_text(place(directory, "resolved.toml"), resolved_toml);
   return directory;
+}
+
+void append(Row& row, const Eigen::Ref<const Eigen::VectorXd>& numbers) {
+  for (const double x : numbers) row.emplace_back(x);
 }
 
 }  // namespace
@@ -91,9 +97,10 @@ void RunDirectory::add_state(const std::string& label, const PathPoint& point, c
   const State& state = point.state;
   write_state(state_file(label), model_, state,
               fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
-  StateTail stored{state.load_factor, state.tail, stage_, {}};
+  StateTail stored{state.load_factor, state.tail, stage_, {}, stored_poses(state)};
   if (point.resume) stored.path = StoredPath{varied_, rising_, *point.resume};
   write_text(state_file(label, ".json"), tail_text(stored));
+  add_picture(label, state);
   add_contacts(label, state, touches);
 }
 
@@ -104,9 +111,11 @@ void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) 
   const State& state = moment.motion.state;
   Model moving = model_;
   moving.velocity = moment.motion.velocity, moving.spin = moment.motion.spin;
+  moving.body_velocity = moment.motion.body_velocity, moving.angular_momentum = moment.motion.angular_momentum;
   write_state(state_file(moment.label), moving, state,
               fmt::format("{}; {}; time {:.17g}", title_.empty() ? "elamin" : title_, moment.label, moment.motion.time));
-  write_text(state_file(moment.label, ".json"), tail_text({state.load_factor, state.tail, {}, {}}));
+  write_text(state_file(moment.label, ".json"), tail_text({state.load_factor, state.tail, {}, {}, stored_poses(state)}));
+  add_picture(moment.label, state);
   add_contacts(moment.label, state, touches);
 }
 
@@ -118,23 +127,41 @@ void RunDirectory::add_frame(const Motion& motion) {
 
 void RunDirectory::add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches) {
   for (const Touch& t : touches) {
-    if (!(t.bears || t.gap < 0 || (is_event(label) && t.gap <= at_touch * model_.diameter[t.particle]))) continue;
-    const Cell second = t.other >= 0 ? Cell(model_.id[t.other]) : Cell(model_.walls[t.wall].name);
+    if (!(t.bears || t.attracts || t.gap < 0 || (is_event(label) && t.gap <= at_touch * size_of(model_, t.particle)))) continue;
+    const Cell second = t.other >= 0 ? Cell(id_of(model_, t.other)) : Cell(model_.walls[t.wall].name);
     const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
-    contacts_.add({label, state.load_factor, model_.id[t.particle], second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
+    contacts_.add({label, state.load_factor, id_of(model_, t.particle), second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
   }
 }
 
+void RunDirectory::add_picture(const std::string& label, const State& state) {
+  if (!model_.bodies.empty()) write_picture(state_file(label, ".vtk"), model_, state, (title_.empty() ? "elamin" : title_) + "; " + label);
+}
+
 void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
-  std::vector<std::string> columns{"id"};
-  for (std::size_t k = 1; k <= vectors.size(); ++k)
-    for (const char c : {'x', 'y', 'z'}) columns.push_back(fmt::format("u{}{}", c, k));
-  CsvFile file(state_file(label, ".modes.csv"), columns);
+  const auto columns = [&](const char* of) {
+    std::vector<std::string> all;
+    for (std::size_t k = 1; k <= vectors.size(); ++k)
+      for (const char c : {'x', 'y', 'z'}) all.push_back(fmt::format("{}{}{}", of, c, k));
+    return all;
+  };
+  std::vector<std::string> names{"id"};
+  for (const std::string& c : columns("u")) names.push_back(c);
+  CsvFile file(state_file(label, ".modes.csv"), names);
   for (int i = 0; i < model_.particles(); ++i) {
     Row row{model_.id[i]};
     for (const Field& v : vectors)
       for (int c = 0; c < 3; ++c) row.emplace_back(v(c, i));
     file.add(row);
+  }
+  if (model_.bodies.empty()) return;
+  for (const std::string& c : columns("t")) names.push_back(c);
+  CsvFile bodies(state_file(label, ".bodies.modes.csv"), names);
+  for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
+    Row row{model_.bodies[b].id};
+    for (const Field& v : vectors) append(row, body_motion(model_, v, b).head<3>());
+    for (const Field& v : vectors) append(row, body_motion(model_, v, b).tail<3>());
+    bodies.add(row);
   }
 }
 
@@ -148,7 +175,17 @@ void RunDirectory::add_mode(const Mode& mode, const State& state) {
   CsvFile shape(place(directory, name + ".csv"), {"id", "ux", "uy", "uz"});
   for (int i = 0; i < model_.particles(); ++i)
     shape.add({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
-  write_state(state_file(name), model_, moved_along(mode, model_, state),
+  const State moved = moved_along(mode, model_, state);
+  if (!model_.bodies.empty()) {
+    CsvFile bodies(place(directory, name + ".bodies.csv"), {"id", "ux", "uy", "uz", "tx", "ty", "tz"});
+    for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
+      Row row{model_.bodies[b].id};
+      append(row, body_motion(model_, mode.shape, b));
+      bodies.add(row);
+    }
+  }
+  add_picture(name, moved);
+  write_state(state_file(name), model_, moved,
               fmt::format("{}; {}, eigenvalue {:.17g}; load factor {:.17g}", title_.empty() ? "elamin" : title_, name,
                           mode.eigenvalue, state.load_factor));
 }

@@ -32,16 +32,18 @@ class RunDirectory {
   /// frames/STEP.csv.
   void add_frame(const Motion& motion);
 
-  /// states/LABEL.data with LABEL.json (see problem/state_tail.hpp), and every closed contact (gap < 0; at an event also what
-  /// just touches) as a row of contacts.csv: label, lambda, first (id of the particle), second (id of the other one, or the
-  /// wall's name), gap, force (its magnitude), fx, fy, fz (on the first), x, y, z (of contact). The label stands for the
+  /// states/LABEL.data with LABEL.json (see problem/state_tail.hpp), of bodies a picture LABEL.vtk, and every closed contact
+  /// (gap < 0, or it attracts; at an event also what just touches) as a row of contacts.csv: label, lambda, first (id of the
+  /// particle or body), second (id of the other one, or the wall's name), gap, force (its magnitude), fx, fy, fz (on the first), x, y, z (of contact). The label stands for the
   /// point's own.
   void add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches);
 
-  /// states/LABEL.modes.csv of an event: id, then ux1, uy1, uz1, ux2, … of every null vector (3 × particles each).
+  /// states/LABEL.modes.csv of an event: id, then ux1, uy1, uz1, ux2, … of every null vector (3 × sites each); of bodies
+  /// LABEL.bodies.modes.csv, behind these tx1, …: turns [rad].
   void add_null_vectors(const std::string& label, const std::vector<Field>& vectors);
 
-  /// A row of modes.csv (mode, eigenvalue, zero_mode), modes/mode-K.csv (id, ux, uy, uz) and states/mode-K.data, the state
+  /// A row of modes.csv (mode, eigenvalue, zero_mode), modes/mode-K.csv (id, ux, uy, uz), of bodies modes/mode-K.bodies.csv
+  /// (besides tx, ty, tz: turns [rad]) and states/mode-K.data, the state
   /// moved along the mode so that its largest displacement is a tenth of the smallest diameter. Modes count from 1.
   void add_mode(const Mode& mode, const State& state);
 
@@ -58,6 +60,7 @@ class RunDirectory {
   std::string state_file(const std::string& label, const std::string& extension = ".data") const;
 
  private:
+  void add_picture(const std::string& label, const State& state);
   void add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches);
 
   Record record_;

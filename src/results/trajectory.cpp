@@ -1,10 +1,12 @@
 #include "results/trajectory.hpp"
 
+#include <filesystem>
+
 namespace elamin {
 
 std::vector<std::string> trajectory_columns(const std::vector<std::string>& observables) {
   std::vector<std::string> columns{"step", "label",    "time",     "energy",  "bond", "angle",       "contact",
-                                   "wall", "cohesion", "external", "kinetic", "work", "dissipation", "balance"};
+                                   "wall", "cohesion", "body",     "external", "kinetic", "work", "dissipation", "balance"};
   columns.insert(columns.end(), observables.begin(), observables.end());
   return columns;
 }
@@ -12,7 +14,7 @@ std::vector<std::string> trajectory_columns(const std::vector<std::string>& obse
 Row trajectory_row(const Moment& m, const std::vector<double>& observables) {
   const double energy = m.energy.total();
   Row row{static_cast<int>(m.motion.step), m.label, m.motion.time, energy, m.energy.bond, m.energy.angle, m.energy.contact, m.energy.wall,
-          m.energy.cohesion, m.energy.external, m.kinetic, m.motion.work, m.motion.dissipation,
+          m.energy.cohesion, m.energy.body, m.energy.external, m.kinetic, m.motion.work, m.motion.dissipation,
           energy + m.kinetic + m.motion.dissipation - m.motion.work};
   row.insert(row.end(), observables.begin(), observables.end());
   return row;
@@ -25,6 +27,19 @@ void write_frame(const std::string& file, const Model& model, const Motion& moti
     for (const Field* field : {&motion.state.position, &motion.velocity, &motion.force})
       for (int c = 0; c < 3; ++c) row.emplace_back((*field)(c, i));
     csv.add(row);
+  }
+  if (model.bodies.empty()) return;
+  CsvFile bodies(std::filesystem::path(file).replace_extension(".bodies.csv").string(),
+                 {"id", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "Lx", "Ly", "Lz", "fx", "fy", "fz", "tx", "ty", "tz"});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Pose& pose = motion.state.bodies[b];
+    const Eigen::Vector4d q = (pose.rotation.w() < 0 ? -1 : 1) * pose.rotation.coeffs();   // x, y, z, w
+    Row row{model.bodies[b].id};
+    for (const double x : pose.position.hi) row.emplace_back(x);
+    for (const int k : {3, 0, 1, 2}) row.emplace_back(q[k]);
+    for (const Field* field : {&motion.body_velocity, &motion.angular_momentum, &motion.body_force, &motion.torque})
+      for (int c = 0; c < 3; ++c) row.emplace_back((*field)(c, static_cast<Eigen::Index>(b)));
+    bodies.add(row);
   }
 }
 

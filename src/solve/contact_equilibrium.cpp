@@ -41,7 +41,7 @@ void ContactEquilibrium::linearise(const State& state, const State* from) {
   scale_ = 0;
   for (Eigen::Index k = 0; k < h.nonZeros(); ++k) scale_ = std::max(scale_, std::abs(h.valuePtr()[k]));
   double thinnest = std::numeric_limits<double>::infinity();
-  for (const double d : energy_.model().diameter) thinnest = std::min(thinnest, d);
+  thinnest = energy_.kinematics().smallest_size();
   scale_ = std::max(scale_, energy_.force_scale() / thinnest);
   if (!(scale_ > 0 && std::isfinite(scale_))) scale_ = 1;
 
@@ -131,7 +131,7 @@ Report ContactEquilibrium::settle(State& state, double tolerance, const State* f
     previous = state, from = &previous;
     energy_.kinematics().retract(state, step.p, part);
     moved = part * infinity_norm(step.p);
-    if (displacement(start, state).cwiseAbs().maxCoeff() > reach) return end(Status::not_converged, too_far);
+    if (energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > reach) return end(Status::not_converged, too_far);
     for (std::size_t k = 0; k < gaps_.size(); ++k) state.hard[k].force += part * step.force[static_cast<Eigen::Index>(k)];
   }
 }
@@ -146,7 +146,7 @@ Report ContactEquilibrium::correct(State& state, double tolerance, const State* 
     total.history.insert(total.history.end(), report.history.begin(), report.history.end());
     total.status = report.status, total.why = report.why, total.energy = report.energy, total.residual = report.residual;
     total.seconds = watch.seconds();
-    if (report.converged() && displacement(start, state).cwiseAbs().maxCoeff() > reach)
+    if (report.converged() && energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > reach)
       total.status = Status::not_converged, total.why = too_far;
     if (!total.converged()) return total;
     const double slightest = std::max(tolerance, 64 * epsilon) * energy_.force_scale();

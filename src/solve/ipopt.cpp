@@ -109,7 +109,7 @@ bool is_equilibrium(Energy& energy, ContactEquilibrium& equilibrium, State& stat
   energy.evaluate(state, false);
   if (!(energy.relative(energy.gradient()) <= tolerance)) return false;
   State near = state;
-  const double thinnest = *std::min_element(energy.model().diameter.begin(), energy.model().diameter.end());
+  const double thinnest = energy.kinematics().smallest_size();
   if (!equilibrium.correct(near, tolerance, nullptr, 1e-3 * thinnest).converged()) return false;
   state = near;
   return true;

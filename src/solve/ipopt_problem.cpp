@@ -24,18 +24,12 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 
 const Ipopt::Number* values(const Ipopt::Vector& v) { return dynamic_cast<const Ipopt::DenseVector&>(v).ExpandedValues(); }
 
-double mean_diameter(const Model& model) {
-  double sum = 0;
-  for (const double d : model.diameter) sum += d;
-  return sum > 0 ? sum / model.particles() : 1.0;
-}
-
 }  // namespace
 
 IpoptProblem::IpoptProblem(Energy& energy, ContactEquilibrium& equilibrium, const State& start, const IpoptOptions& options,
                            IpoptMemory& memory, Report& report)
     : energy_(energy), equilibrium_(equilibrium), options_(options), memory_(memory), report_(report), origin_(start), at_(start), state_(start),
-      before_(start), trail_{start}, length_(mean_diameter(energy.model())), extent_(extent(energy.model())) {
+      before_(start), trail_{start}, length_(energy.kinematics().mean_size()), extent_(extent(energy.model())) {
   const bool hard = any_hard(energy.model());
   freedom_ = hard ? std::min(energy_.freedom(), wide * length_) : std::numeric_limits<double>::infinity();
   energy_.look_around(start);
@@ -88,7 +82,7 @@ bool IpoptProblem::eval_f(Index, const Number* y, bool renewed, Number& f) {
 
 bool IpoptProblem::eval_grad_f(Index n, const Number* y, bool renewed, Number* g) {
   if (!differentiate(y, renewed)) return false;
-  Eigen::Map<Vector>(g, n) = length_ / unit_ * energy_.gradient();
+  Eigen::Map<Vector>(g, n) = length_ / unit_ * gradient_;
   return true;
 }
 
@@ -153,7 +147,7 @@ bool IpoptProblem::intermediate_callback(Ipopt::AlgorithmMode mode, Index iterat
   }
   if (!differentiate(values(*data->curr()->x()), true)) return true;
   memory_.barrier = mu;
-  const double moved = infinity_norm(energy_.kinematics().restrict(displacement(state_, at_)));
+  const double moved = infinity_norm(energy_.kinematics().difference(state_, at_));
   before_ = state_, state_ = at_;
   remember(at_);
   state_.hard = contacts_;
@@ -164,7 +158,7 @@ bool IpoptProblem::intermediate_callback(Ipopt::AlgorithmMode mode, Index iterat
   look(moved);
   report_.history.back().shift = shift * unit_ / (length_ * length_);
   if (!escaped_.empty() || reached_) return false;
-  stale_ = stale_ || displacement(origin_, state_).colwise().norm().maxCoeff() > freedom_ / 2;
+  stale_ = stale_ || energy_.kinematics().displacement(origin_, state_).colwise().norm().maxCoeff() > freedom_ / 2;
   return !stale_;
 }
 
@@ -235,9 +229,9 @@ bool IpoptProblem::move(const Number* y, bool renewed) {
   arrived_ = to.allFinite();
   if (!arrived_) return free_ = false;
   step_ = to;
-  at_.position = origin_.position, at_.tail = origin_.tail;
+  at_.position = origin_.position, at_.tail = origin_.tail, at_.bodies = origin_.bodies;
   energy_.kinematics().retract(at_, step_, length_);
-  return free_ = displacement(origin_, at_).colwise().norm().maxCoeff() <= freedom_ && passes();
+  return free_ = energy_.kinematics().displacement(origin_, at_).colwise().norm().maxCoeff() <= freedom_ && passes();
 }
 
 // Whether nothing is in the way from a state that was accepted: the last one, or one that Ipopt has gone back to.
@@ -252,6 +246,9 @@ bool IpoptProblem::differentiate(const Number* y, bool renewed) {
     ++report_.evaluations;
     energy_.evaluate(at_, true, &state_);
     stale_ = stale_ || energy_.pattern_version() != version_;
+    gradient_ = energy_.gradient();
+    const Vector way = length_ * step_;
+    energy_.kinematics().pull_back(energy_.hessian(), gradient_, way), energy_.kinematics().pull_back(gradient_, way);
     differentiated_ = true;
   }
   return std::isfinite(energy_.last_terms().total());

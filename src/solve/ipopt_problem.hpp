@@ -75,6 +75,7 @@ class IpoptProblem final : public Ipopt::TNLP {
   std::vector<HardForce> contacts_;              // whose gaps are looked at …
   std::vector<HardGap> gaps_;                    // … and these, at at_
   Vector step_;                                  // y
+  Vector gradient_;                              // by y, as the Hessian of energy_ when differentiated_
   bool arrived_ = false, free_ = true;           // at_ is at step_; the way there is free
   bool differentiated_ = false, measured_ = false;   // the last evaluation of energy_ was at at_; gaps_ are those of at_
   bool stale_ = false, reached_ = false;

@@ -1,6 +1,7 @@
 #include "solve/nlopt.hpp"
 
 #include "core/timing.hpp"
+#include "model/entities.hpp"
 #include "solve/nlopt_search.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +15,8 @@ namespace {
 constexpr int most_samples = 10'000;          // MLSL compares each with all others
 
 // Half of the diagonal of what there is: a chain may fold anywhere, a truss snap through.
-double box_of(const Model& model, const State& state) {
-  const Vec3 diagonal = state.position.rowwise().maxCoeff() - state.position.rowwise().minCoeff();
-  double largest = 0;
-  for (const double d : model.diameter) largest = std::max(largest, d);
-  return (diagonal.norm() + largest) / 2;
+double half_width(const Model& model, const State& state) {
+  return (sides_of(state).norm() + largest_size(model)) / 2;
 }
 
 }  // namespace
@@ -37,7 +35,7 @@ Report minimise_by_nlopt(Newton& newton, State& state, const NloptOptions& optio
   if (algorithm.local()) {
     search.local(algorithm);
   } else {
-    const double half = options.bounds.value_or(box_of(energy.model(), state));
+    const double half = options.bounds.value_or(half_width(energy.model(), state));
     const int most = options.max_evaluations / 4 * 3;
     search.global(algorithm, half, algorithm.random_starts() ? std::min(most, most_samples) : most);
     const int looked = report.evaluations;

@@ -25,12 +25,6 @@ struct Destroy {
 };
 using Optimiser = std::unique_ptr<nlopt_opt_s, Destroy>;
 
-double mean_diameter(const Model& model) {
-  double sum = 0;
-  for (const double d : model.diameter) sum += d;
-  return sum > 0 ? sum / model.particles() : 1;
-}
-
 }  // namespace
 
 NloptSearch::NloptSearch(Newton& newton, const State& start, const NloptOptions& options, Report& report)
@@ -85,7 +79,7 @@ void NloptSearch::begin_round(bool from_forces) {
     const SparseMatrix& h = energy_.hessian();
     double stiffest = 0;
     for (int j = 0; j < h.outerSize(); ++j) stiffest = std::max(stiffest, std::abs(h.coeff(j, j)));
-    if (space_ == Space::scaled) length_ = stiffest > 0 ? g.norm() / stiffest : mean_diameter(energy_.model());
+    if (space_ == Space::scaled) length_ = stiffest > 0 ? g.norm() / stiffest : energy_.kinematics().mean_size();
     unit_ = stiffest > 0 ? stiffest * length_ * length_ : infinity_norm(g) * length_;
     predicted = stiffest > 0 ? g.squaredNorm() / stiffest : unit_;
   }
@@ -100,7 +94,7 @@ void NloptSearch::keep(const State& state, double f, double residual) {
   ++report_.iterations;
   report_.energy = energy_.last_terms().total(), report_.residual = residual;
   if (report_.history.size() < most_entries)
-    report_.history.push_back({report_.energy, residual, infinity_norm(energy_.kinematics().restrict(displacement(base_, state))), shift_});
+    report_.history.push_back({report_.energy, residual, infinity_norm(energy_.kinematics().difference(base_, state)), shift_});
 }
 
 bool NloptSearch::must_stop() {
@@ -130,10 +124,12 @@ double NloptSearch::value(const Vector& z, double* gradient) {
   ++report_.evaluations;
   const double total = energy_.last_terms().total();
   if (!std::isfinite(total)) return barred(z, gradient);
-  const Vector g = energy_.gradient(), gamma = slope(g);
+  const double residual = energy_.relative(energy_.gradient());
+  Vector g = energy_.gradient();
+  energy_.kinematics().pull_back(g, move);
+  const Vector gamma = slope(g);
   if (gradient) Eigen::Map<Vector>(gradient, z.size()) = gamma;
   const double f = from_forces_ ? (base_slope_ + gamma).dot(z) / 2 : (total - base_energy_) / unit_;
-  const double residual = energy_.relative(g);
   worst_ = std::max(worst_, f);
   const bool reached = residual <= options_.tolerance && !whole_space_;
   if (reached || (from_forces_ ? residual < best_residual_ : f < best_value_)) keep(next, f, residual);

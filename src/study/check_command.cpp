@@ -32,14 +32,18 @@ void describe_stages(const Problem& problem) {
 void print_model(const Problem& problem, const Model& model) {
   Energy energy(model);
   fmt::print("{}: {}\n", problem.file, problem.title.empty() ? "(no title)" : problem.title);
-  fmt::print("{} particles, {} bonds, {} angles, {} free dofs{}\n", model.particles(), model.bonds.size(), model.angles.size(), energy.dofs(),
+  fmt::print("{} particles, {}{} bonds, {} angles, {} free dofs{}\n", model.particles(),
+             model.bodies.empty() ? "" : fmt::format("{} bodies, ", model.bodies.size()), model.bonds.size(), model.angles.size(), energy.dofs(),
              problem.plane.empty() ? "" : ", plane " + problem.plane);
   fmt::print("{}", describe_structures(problem, model, energy.kinematics()));
   fmt::print("{}", describe_conditions(problem, model));
   // An equilibrium is sought from the state as built; supports and walls move from there.
   const bool built = problem.study == StudyType::equilibrium && !model.restart;
-  fmt::print("{}", describe_contacts(model, energy, built ? model.start : starting_state(problem, energy)));
-  for (const Group& g : model.groups) fmt::print("group '{}': {} particles\n", g.name, g.particles.size());
+  const State start = built ? model.start : starting_state(problem, energy);
+  fmt::print("{}", describe_contacts(model, energy, start));
+  for (const std::string& warning : core_overlaps(model, energy, start)) fmt::print("{}\n", warning);
+  for (const Group& g : model.groups)
+    fmt::print("group '{}': {} particles{}\n", g.name, g.particles.size(), g.bodies.empty() ? "" : fmt::format(", {} bodies", g.bodies.size()));
   fmt::print("{}", describe_motions(model));
   if (problem.in_time()) fmt::print("{}", describe_timestep(energy, starting_state(problem, energy), *problem.dynamics.timestep));
   describe_stages(problem);

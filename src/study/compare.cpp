@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
 #include "energy/hard_gaps.hpp"
+#include "model/entities.hpp"
 #include "problem/build.hpp"
 #include "problem/read.hpp"
 #include "results/summary.hpp"
@@ -65,10 +66,10 @@ std::string refusal_of(const Problem& problem, const Model& model) {
   return refusal(solver_method(problem), energy);
 }
 
-// The largest coordinate of the difference, relative to the extent.
-double difference(const State& a, const State& b) {
-  const Vec3 extent = b.position.rowwise().maxCoeff() - b.position.rowwise().minCoeff();
-  const double size = extent.norm(), most = displacement(a, b).cwiseAbs().maxCoeff();
+// The largest coordinate of the difference, turns in units of length, relative to the extent.
+double difference(const Model& model, const State& a, const State& b) {
+  const Field u = Kinematics(model).displacement(a, b);
+  const double size = sides_of(b).norm() + (model.particles() > 0 ? 0 : largest_size(model)), most = u.size() ? u.cwiseAbs().maxCoeff() : 0.0;
   return size > 0 ? most / size : most;
 }
 
@@ -158,7 +159,7 @@ std::vector<Compared> compare(const Problem& problem, const std::vector<std::str
     if (first && row.points > 0 && row.status == Status::converged) {
       const double scale = std::abs(first->row.energy);
       row.energy_difference = (row.energy - first->row.energy) / (scale > 0 ? scale : 1);
-      row.state_difference = difference(ran.state, first->state);
+      row.state_difference = difference(model, ran.state, first->state);
     }
     rows.push_back(row);
     if (!first && row.refused.empty() && row.status == Status::converged) first = std::move(ran);

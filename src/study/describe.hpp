@@ -4,6 +4,7 @@
 #include "problem/problem.hpp"
 
 #include <string>
+#include <vector>
 
 namespace elamin {
 
@@ -12,7 +13,14 @@ namespace elamin {
 ///   loop   EA, EI, radius
 ///   sheet  Y = 4K/√3 and ν = 1/3 in its plane, D = 3√3/4 B, spacing and size
 ///   grains diameters and mass
+///   body   see describe_bodies
 std::string describe_structures(const Problem& problem, const Model& model, const Kinematics& kinematics);
+
+/// Shape, size, volume, mass, inertia and place of the bodies of a structure; of many, a few lines a shape.
+std::string describe_bodies(const Model& model, const Structure& structure);
+
+/// Warnings of pairs whose cores overlap at a state that the energy has been evaluated at, or starts from.
+std::vector<std::string> core_overlaps(const Model& model, const Energy& energy, const State& state);
 
 /// One or two lines for each contact law and each wall: its numbers, and who overlaps or is on the wrong side at `state`.
 std::string describe_contacts(const Model& model, Energy& energy, const State& state);

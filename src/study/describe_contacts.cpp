@@ -1,6 +1,7 @@
 #include "study/describe.hpp"
 
 #include "energy/wall_group.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,34 @@ std::string shape_of(const Region& r) {
   return "";
 }
 
+// k_n, k_na and the rest of a rounded contact or of a wall of bodies.
+std::string describe_kernel(const RoundedKernel& k) {
+  std::string text = fmt::format("k_n = {:.10g}", k.normal);
+  if (k.attraction > 0) text += fmt::format(", k_na = {:.10g}, cutoff {:.10g}", k.attraction, k.cutoff);
+  return text + (k.form == RoundedKernel::Form::printed ? ", as printed" : "");
+}
+
+std::string describe_damping(const RoundedDamping& d) {
+  std::string text;
+  if (d.normal > 0 || d.tangential > 0)
+    text += fmt::format("\n  in dynamics damping c_n = {:.10g}{}, c_t = {:.10g}", d.normal, d.apart ? " within the cutoff" : "", d.tangential);
+  if (d.friction > 0) text += fmt::format("\n  in dynamics mu = {:.10g}{}", d.friction, d.slip > 0 ? fmt::format(", slip {:.10g}", d.slip) : "");
+  return text;
+}
+
+std::string describe_body_wall(const Wall& wall) {
+  return fmt::format("bodies {} {}{}", wall.lammps ? "by LAMMPS's rules," : "by a potential,", describe_kernel(wall.kernel),
+                     describe_damping(wall.body_damping));
+}
+
+std::string describe_rounded(const RoundedPair& r, const Overlaps& overlaps) {
+  const bool lammps = r.formulation == RoundedFormulation::lammps;
+  std::string text = fmt::format("contact of '{}' and '{}': rounded, formulation {}, {}", r.between[0], r.between[1],
+                                 lammps ? "lammps" : r.formulation == RoundedFormulation::multi ? "multi" : "closest", describe_kernel(r.kernel));
+  if (lammps) return text + fmt::format(", delta_ua = {:.10g}{}\n", r.unit_area, describe_damping(r.damping));
+  return text + fmt::format("{}\n  {}\n", describe_damping(r.damping), overlaps.text("overlap"));
+}
+
 std::string describe_wall(const Wall& wall, const State& state, const Overlaps& overlaps) {
   const Region region = wall_at(wall, state.load_factor).region;
   int wrong = 0;
@@ -87,9 +116,10 @@ std::string describe_wall(const Wall& wall, const State& state, const Overlaps& 
   const int open = static_cast<int>(std::count(region.open.begin(), region.open.end(), true));
   std::string text = fmt::format("wall '{}' of '{}': {} of {}, ", wall.name, wall.group,
                                  wall.inside ? "inside" : "outside", shape_of(region));
-  text += wall.hard ? std::string("hard, gap >= 0")
-                    : fmt::format("E_eff = {:.10g}, effective radius {}", wall.effective_modulus,
-                                  wall.curved ? "with the wall's curvature" : "the particle's");
+  if (wall.hard) text += "hard, gap >= 0";
+  else if (!wall.particles.empty() || wall.bodies.empty())
+    text += fmt::format("E_eff = {:.10g}, effective radius {}", wall.effective_modulus, wall.curved ? "with the wall's curvature" : "the particle's");
+  if (!wall.bodies.empty()) text += (wall.particles.empty() ? "" : "; ") + describe_body_wall(wall);
   if (open > 0) text += fmt::format(", {} open face{}: both sides act", open, open == 1 ? "" : "s");
   text += describe_damping(wall.damping) + fmt::format("\n  {}", overlaps.text("overlap"));
   if (wrong > 0 && open == 0)
@@ -100,14 +130,16 @@ std::string describe_wall(const Wall& wall, const State& state, const Overlaps& 
 }  // namespace
 
 std::string describe_contacts(const Model& model, Energy& energy, const State& state) {
-  std::vector<Overlaps> pairs(model.contacts.size()), walls(model.walls.size());
+  std::vector<Overlaps> pairs(model.contacts.size()), rounded(model.rounded.size()), walls(model.walls.size());
   for (const Touch& t : energy.touches(state)) {
     if (t.wall >= 0) walls[t.wall].add(t);
+    else if (is_body(model, std::max(t.particle, t.other))) rounded[energy.body_rules().table(t.particle, t.other)].add(t);
     else pairs[energy.contact_rules().hertz(t.particle, t.other)].add(t);
   }
   std::string text;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     text += describe_pair(model, model.contacts[k], energy.contact_rules().excluded_bonds(static_cast<int>(k)), pairs[k]);
+  for (std::size_t k = 0; k < rounded.size(); ++k) text += describe_rounded(model.rounded[k], rounded[k]);
   for (std::size_t k = 0; k < walls.size(); ++k) text += describe_wall(model.walls[k], state, walls[k]);
   return text;
 }

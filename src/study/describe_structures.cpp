@@ -188,7 +188,9 @@ std::string describe_connection(const ConnectTable& t, const Model& model) {
 std::string describe_structures(const Problem& problem, const Model& model, const Kinematics& kinematics) {
   std::string text;
   for (const Structure& s : model.structures) {
-    text += fmt::format("{} '{}': {} particles\n", s.kind, s.name, s.count);
+    if (s.kind == "body") text += fmt::format("body '{}': id {}\n", s.name, model.bodies[s.first_body].id);
+    else text += fmt::format("{} '{}': {} particles{}\n", s.kind, s.name, s.count, s.bodies > 0 ? fmt::format(", {} bodies", s.bodies) : "");
+    if (s.bodies > 0) text += describe_bodies(model, s);
     if (s.kind == "grains") text += describe_grains(model, s);
     else if (s.bond_type < 0) continue;
     else if (s.kind == "loop") text += describe_loop(problem, model, s);
@@ -196,6 +198,9 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     else text += describe_beam(problem, model, s, kinematics);
   }
   for (const ConnectTable& t : problem.connections) text += describe_connection(t, model);
+  for (const GlueTable& t : problem.glue)
+    for (const Group& g : model.groups)
+      if (g.name == t.group) text += fmt::format("glue: '{}' carries {} particles of '{}'\n", t.body, g.particles.size(), t.group);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
+#include "dynamics/lammps_bodies.hpp"
 #include "dynamics/verlet.hpp"
 #include "problem/check.hpp"
 
@@ -42,7 +43,17 @@ Motion beginning(const Problem& problem, const Model& model, const Energy& energ
   return m;
 }
 
-bool finite(const Motion& m) { return m.state.position.allFinite() && m.velocity.allFinite() && m.force.allFinite(); }
+bool finite(const Motion& m) {
+  return m.state.position.allFinite() && m.velocity.allFinite() && m.force.allFinite() && m.body_velocity.allFinite() && m.body_force.allFinite() &&
+         m.torque.allFinite();
+}
+
+// Of bodies that follow LAMMPS's rules the energy that LAMMPS reports, which their forces need not be the gradient of.
+EnergyTerms terms(Energy& energy, const Motion& m) {
+  EnergyTerms t = energy.terms(m.state);
+  if (follows_lammps(energy.model())) t.body += lammps_body_forces(energy.model(), m.state).energy;
+  return t;
+}
 
 }  // namespace
 
@@ -54,7 +65,7 @@ Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& s
   Moment held;                                 // told only when there is a next one: the last is labelled
   const auto look = [&] {
     held.motion = verlet.motion();
-    held.energy = energy.terms(held.motion.state), held.kinetic = verlet.kinetic();
+    held.energy = terms(energy, held.motion), held.kinetic = verlet.kinetic();
   };
   const auto tell = [&](const char* label) {
     held.label = label;

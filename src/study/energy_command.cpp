@@ -1,5 +1,6 @@
 #include "study/energy_command.hpp"
 
+#include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
 #include "problem/build.hpp"
 #include "problem/read.hpp"
@@ -10,23 +11,70 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 
 namespace elamin {
 
 namespace {
 
-// Drag acts on a moving state; it has no energy.
-void add_drag(const Model& model, Field& forces) {
-  if (model.velocity.cols() == 0) return;
-  for (const Viscosity& v : model.viscosity)
-    for (const int p : v.particles) forces.col(p) -= v.coefficient * model.velocity.col(p);
+/// Forces on everything, held or not; torques about the bodies' places.
+struct Forces {
+  Field particles, bodies, torques;
+};
+
+Forces forces_of(Energy& energy, const State& state) {
+  const Model& model = energy.model();
+  const Kinematics& kinematics = energy.kinematics();
+  const Field all = energy.forces(state);
+  const auto n = static_cast<Eigen::Index>(model.bodies.size());
+  Forces forces{all.leftCols(model.particles()), Field(3, n), Field(3, n)};
+  for (int b = 0; b < n; ++b) {
+    forces.bodies.col(b) = all.col(kinematics.place_of(b));
+    forces.torques.col(b) = kinematics.lever(b) * all.col(kinematics.turn_of(b));   // of a turn ℓθ the force is the torque over ℓ
+  }
+  return forces;
 }
 
-void write_forces(const std::string& file, const Model& model, const Field& forces) {
-  CsvFile csv(file, {"id", "fx", "fy", "fz"});
-  for (int p = 0; p < model.particles(); ++p)
-    csv.add({model.id[p], forces(0, p), forces(1, p), forces(2, p)});
+// Drag acts on a moving state; it has no energy.
+void add_drag(const Model& model, Forces& forces) {
+  for (const Viscosity& v : model.viscosity) {
+    if (model.velocity.cols() > 0)
+      for (const int p : v.particles) forces.particles.col(p) -= v.coefficient * model.velocity.col(p);
+    if (model.body_velocity.cols() > 0)
+      for (const int b : v.bodies) forces.bodies.col(b) -= v.coefficient * model.body_velocity.col(b);
+  }
 }
+
+/// Bodies that follow LAMMPS's rules: the energy that LAMMPS reports; forces with the damping of a moving state.
+void add_lammps(const Model& model, const State& state, EnergyTerms& terms, Forces& forces) {
+  if (!follows_lammps(model)) return;
+  const LammpsBodyForces lammps = lammps_body_forces(model, state, {model.velocity, model.body_velocity, model.angular_momentum});
+  terms.body += lammps.energy;
+  forces.particles += lammps.on_particles;
+  for (std::size_t b = 0; b < lammps.on.size(); ++b) {
+    forces.bodies.col(static_cast<Eigen::Index>(b)) += lammps.on[b].force;
+    forces.torques.col(static_cast<Eigen::Index>(b)) += lammps.on[b].torque;
+  }
+}
+
+void write_forces(const std::string& file, const Model& model, const Forces& forces) {
+  const auto row = [](int id, const std::vector<Vec3>& vectors) {
+    Row cells{id};
+    for (const Vec3& v : vectors)
+      for (const double x : v) cells.emplace_back(x + 0.0);        // no negative zeros
+    return cells;
+  };
+  CsvFile csv(file, {"id", "fx", "fy", "fz"});
+  for (int p = 0; p < model.particles(); ++p) csv.add(row(model.id[p], {forces.particles.col(p)}));
+  if (model.bodies.empty()) return;
+  std::string name = file;
+  if (name.ends_with(".csv")) name.resize(name.size() - 4);
+  CsvFile bodies(name + ".bodies.csv", {"id", "fx", "fy", "fz", "tx", "ty", "tz"});
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
+    bodies.add(row(model.bodies[b].id, {forces.bodies.col(b), forces.torques.col(b)}));
+}
+
+double largest_column(const Field& f) { return f.cols() ? f.colwise().norm().maxCoeff() : 0.0; }
 
 }  // namespace
 
@@ -36,29 +84,32 @@ void energy_command(const EnergyOptions& options) {
   Energy energy(model);
   State state = starting_state(problem, energy);
   if (options.load_factor) energy.kinematics().prescribe(state, *options.load_factor);
-  const EnergyTerms terms = energy.terms(state);
-  Field forces = energy.forces(state);
+  EnergyTerms terms = energy.terms(state);
+  Forces forces = forces_of(energy, state);
   add_drag(model, forces);
-  const double max_force = forces.cols() ? forces.colwise().norm().maxCoeff() : 0.0;
+  add_lammps(model, state, terms, forces);
+  const double max_force = std::max(largest_column(forces.particles), largest_column(forces.bodies));
   if (!options.forces_file.empty()) write_forces(options.forces_file, model, forces);
 
   const auto finite = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); };
+  const std::pair<const char*, double> all[]{{"bond", terms.bond},         {"angle", terms.angle}, {"contact", terms.contact}, {"wall", terms.wall},
+                                             {"cohesion", terms.cohesion}, {"body", terms.body},   {"external", terms.external}};
   if (options.json) {
     nlohmann::ordered_json out;
-    out["energy"] = {{"total", finite(terms.total())}, {"bond", finite(terms.bond)}, {"angle", finite(terms.angle)},
-                     {"contact", finite(terms.contact)}, {"wall", finite(terms.wall)}, {"cohesion", finite(terms.cohesion)},
-                     {"external", finite(terms.external)}};
+    out["energy"]["total"] = finite(terms.total());
+    for (const auto& [name, value] : all) out["energy"][name] = finite(value);
     out["max_force"] = finite(max_force);
-    out["particles"] = model.particles(), out["bodies"] = 0, out["dofs"] = energy.dofs();
+    out["particles"] = model.particles(), out["bodies"] = model.bodies.size(), out["dofs"] = energy.dofs();
     fmt::print("{}\n", out.dump());
     return;
   }
   fmt::print("load factor {:.17g}\n", state.load_factor);
   fmt::print("energy      {:24.17g}\n", terms.total());
-  const std::pair<const char*, double> all[]{{"bond", terms.bond}, {"angle", terms.angle}, {"contact", terms.contact},
-                                             {"wall", terms.wall}, {"cohesion", terms.cohesion}, {"external", terms.external}};
   for (const auto& [name, value] : all) fmt::print("  {:<10}{:24.17g}\n", name, value);
-  fmt::print("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
+  if (model.bodies.empty())
+    fmt::print("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
+  else
+    fmt::print("largest force {:.17g}\n{} particles, {} bodies, {} free dofs\n", max_force, model.particles(), model.bodies.size(), energy.dofs());
 }
 
 }  // namespace elamin

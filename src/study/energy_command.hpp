@@ -8,8 +8,10 @@
 namespace elamin {
 
 /// `elamin energy`: energies and forces of the state that the file starts from, nothing solved.
-/// Prints a table, or JSON; writes the forces −∂U/∂x of all particles, held or not, plus the drag −γv of a moving state,
-/// to `forces_file` if that is not empty (id,fx,fy,fz in id order). Throws InputError as reading does.
+/// Prints a table, or JSON; writes the forces −∂U/∂x of everything, held or not, plus the drag −γv of a moving state,
+/// to `forces_file` if that is not empty: particles id,fx,fy,fz in id order; bodies, if there are any, to a second file that ends
+/// in .bodies.csv: id,fx,fy,fz,tx,ty,tz, torques about their places. Bodies that follow LAMMPS's rules have the energy that it
+/// reports, and forces with the damping of a moving state. Throws InputError as reading does.
 struct EnergyOptions {
   std::string file;
   std::vector<Setting> settings;

@@ -1,7 +1,5 @@
 #include "study/modes.hpp"
 
-#include "model/rigid_motion.hpp"
-
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -13,17 +11,6 @@ namespace {
 
 struct NamedMode { Vector v; std::string name; };       // over the dofs
 
-// The rigid motions of glued parts, then of parts in contact together.
-std::vector<RigidMotion> rigid_motions(Energy& energy, const State& state) {
-  std::vector<RigidMotion> motions = free_rigid_motions(energy.model(), state);
-  std::vector<std::array<int, 2>> touching;
-  for (const Touch& t : energy.touches(state))
-    if (t.other >= 0) touching.push_back({t.particle, t.other});
-  if (!touching.empty())
-    for (RigidMotion& m : free_rigid_motions(energy.model(), state, touching)) motions.push_back(std::move(m));
-  return motions;
-}
-
 // The zero modes, turned: first the rigid motions that lie in their span, made orthonormal in this order, then the rest,
 // which has one name or none.
 std::vector<NamedMode> named(Energy& energy, const Equilibrium& e) {
@@ -33,11 +20,11 @@ std::vector<NamedMode> named(Energy& energy, const Equilibrium& e) {
   std::vector<NamedMode> modes;
   Eigen::MatrixXd basis(zero.rows(), 0);
   if (zero.cols() == 0) return modes;
-  for (const RigidMotion& m : rigid_motions(energy, e.point.state)) {
+  for (const RigidMotion& m : e.motions) {
     const auto name = std::find(names.begin(), names.end(), m.name);
     if (name == names.end()) continue;
     names.erase(name);
-    Vector v = energy.kinematics().restrict(m.velocity_field(energy.model().particles())).normalized();
+    Vector v = energy.kinematics().restrict(m.velocity_field(energy.kinematics().sites())).normalized();
     v = zero * (zero.transpose() * v);
     for (int twice = 0; twice < 2; ++twice) v -= basis * (basis.transpose() * v);
     if (v.norm() < independent) continue;
@@ -86,7 +73,7 @@ std::vector<Mode> lowest_modes(Newton& newton, const Equilibrium& e, int count) 
     all.insert(all.end(), more.begin(), more.end());
   all.resize(std::min<std::size_t>(all.size(), count));
   std::vector<Mode> modes;
-  for (const NamedMode& m : all) modes.push_back({energy.quadratic_form(m.v), m.name, energy.kinematics().extend(m.v)});
+  for (const NamedMode& m : all) modes.push_back({energy.quadratic_form(m.v), m.name, energy.kinematics().extend(m.v, e.point.state)});
   return modes;
 }
 

@@ -1,5 +1,7 @@
 #include "study/observed.hpp"
 
+#include "model/entities.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -32,11 +34,10 @@ class Probe {
 }  // namespace
 
 std::vector<Touch> observed_touches(Energy& energy, const State& state, const Observables& observables) {
-  constexpr double at_touch = 1e-9;                             // of the diameter: what an event has located
-  const std::vector<double>& diameter = energy.model().diameter;
-  const double largest = diameter.empty() ? 0.0 : *std::max_element(diameter.begin(), diameter.end());
+  constexpr double at_touch = 1e-9;                             // of the largest size: what an event has located
+  const double largest = largest_size(energy.model());
   std::vector<Touch> touches = energy.touches(state, at_touch * largest);
-  const double extent = (state.position.rowwise().maxCoeff() - state.position.rowwise().minCoeff()).maxCoeff();
+  const double extent = sides_of(state).maxCoeff();
   for (double reach = largest / 4; !observables.sufficient(touches); reach *= 4) {
     const bool all = !(reach > 0 && reach < extent);
     touches = energy.touches(state, all ? std::numeric_limits<double>::infinity() : reach);

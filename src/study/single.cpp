@@ -6,6 +6,7 @@
 #include "study/eigenvalues.hpp"
 #include "study/observed.hpp"
 #include "study/run.hpp"
+#include "study/describe.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ std::string log_line(const PathPoint& p) {
 
 std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics) {
   std::vector<Field> vectors;
-  for (Eigen::Index k = 0; k < p.modes.cols(); ++k) vectors.push_back(kinematics.extend(p.modes.col(k)));
+  for (Eigen::Index k = 0; k < p.modes.cols(); ++k) vectors.push_back(kinematics.extend(p.modes.col(k), p.state));
   return vectors;
 }
 
@@ -65,6 +66,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         results.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
                                 stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), model.bonds.size(),
                                 model.angles.size(), energy->dofs(), energy->hessian().nonZeros()));
+        if (setup == 0)
+          for (const std::string& warning : core_overlaps(model, *energy, model.restart.value_or(model.start))) results.log(warning);
         if (setup == 0) setup = total.seconds();
       },
       .point = [&](const PathPoint& point, bool last) {

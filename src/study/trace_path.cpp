@@ -1,5 +1,6 @@
 #include "study/trace_path.hpp"
 
+#include "model/entities.hpp"
 #include "path/path.hpp"
 #include "problem/check.hpp"
 #include "problem/stages.hpp"
@@ -52,7 +53,8 @@ struct Run {
     for (const Eigen::Index size : {r.modes.rows(), r.tangent.size(), r.direction.size()})
       if (size != 0 && size != energy.dofs()) return false;
     const int walls = static_cast<int>(model.walls.size());
-    return std::all_of(r.closed.begin(), r.closed.end(), [&](const auto& contact) { return contact[2] < walls; });
+    const auto known = [&](const auto& contact) { return contact[2] < walls && std::max(contact[0], contact[1]) < entities(model); };
+    return std::all_of(r.closed.begin(), r.closed.end(), known) && std::all_of(r.closed_bodies.begin(), r.closed_bodies.end(), known);
   }
 
   Stage stage;

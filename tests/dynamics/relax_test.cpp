@@ -93,3 +93,41 @@ TEST_CASE("relax says when it may take no more steps", "[dynamics][relax]") {
   CHECK(report.iterations == 10);
   CHECK(report.why.find("after 10 steps") != std::string::npos);
 }
+
+TEST_CASE("a heap of bodies comes to rest", "[dynamics][bodies]") {
+  Model m;
+  m.start = State(Field(3, 0));
+  const auto add = [&m](const CoreMesh& core, const Vec3& x, const Vec3& turned) {
+    m.shapes.push_back(rounded_shape(core, 0.1));
+    const int b = static_cast<int>(m.bodies.size());
+    m.bodies.push_back({b, b + 1, 1, 1.0, Mat3::Identity()});
+    m.start.bodies.push_back({{x, Vec3::Zero()}, turn(turned)});
+  };
+  add(cube_core(0.8), Vec3(0, 0, 0.55), Vec3(0.05, -0.04, 0.1));
+  add(box_core(Vec3(0.7, 0.7, 0.5)), Vec3(0.05, 0.02, 1.4), Vec3(-0.03, 0.02, 0.5));
+  RoundedPair t;
+  t.bodies = {std::vector{0, 1}, std::vector{0, 1}}, t.kernel.normal = 200;
+  m.rounded = {t};
+  Wall floor;
+  floor.region.shape = Shape::plane, floor.bodies = {0, 1}, floor.kernel.normal = 200;
+  m.walls = {floor};
+  Gravity g;
+  g.bodies = {0, 1}, g.acceleration = Vec3(0, 0, -1);
+  m.gravity = {g};
+  Support above;                                             // nothing rubs: they would slide apart
+  above.bodies = {0, 1}, above.held = {true, true, false};
+  m.supports = {above};
+  Energy energy(m);
+  State state = m.start;
+  RelaxOptions options;
+  options.tolerance = 1e-9, options.max_steps = 200000;
+  const Report report = relax(energy, state, options);
+  INFO(report.why);
+  CHECK(report.status == Status::converged);
+  // The lower one bears both on four corners.
+  CHECK(state.bodies[0].position.hi.z() == Approx(0.5 - 2.0 / (4 * 200)).epsilon(1e-7));
+  CHECK(energy.last_terms().body > 0);
+  // The upper one's weight stands aside by (0.05, 0.02): the lower one tilts by m g d/(k Σ x²).
+  const double tilt = std::hypot(0.05, 0.02) / (4 * 200 * 0.4 * 0.4);
+  CHECK(1 - (state.bodies[0].rotation * Vec3::UnitZ()).z() == Approx(tilt * tilt / 2).epsilon(1e-2));
+}

@@ -65,3 +65,39 @@ TEST_CASE("nothing stiff has no limit", "[dynamics]") {
   CHECK(std::isinf(timestep_limit(energy, m.start).stable));
   CHECK(unstable(timestep_limit(energy, m.start), 1e9).empty());
 }
+
+TEST_CASE("the longest step of bodies: a rod that touches, a ball that a body carries", "[dynamics][bodies]") {
+  // A ball of mass m over a floor of stiffness k: ω = √(k/m). A box held in its place that carries a particle held by a bond of stiffness
+  // 2K at arm a: ω = √(2K a²/I), I with the ball.
+  Model m = chain(2, 40, 1, 1);
+  m.angles.clear();
+  m.shapes = {rounded_shape(box_core(Vec3(0.5, 0.4, 0.3)), 0.1), rounded_shape(point_core(), 0.5)};
+  m.bodies = {{0, 3, 1, 0.7, Vec3(0.05, 0.06, 0.07).asDiagonal()}, {1, 4, 1, 2.0, 0.1 * Mat3::Identity()}};
+  m.start.bodies = {{{Vec3(-1.2, 0, 0), Vec3::Zero()}, Eigen::Quaterniond::Identity()},
+                    {{Vec3(5, 0, 0.45), Vec3::Zero()}, Eigen::Quaterniond::Identity()}};
+  m.glued = {{0, 0, Vec3(1.2, 0, 0)}};
+  hold(m, 1, 1);
+  Support s;
+  s.bodies = {0};
+  m.supports.push_back(s);
+  Wall floor;
+  floor.region.shape = Shape::plane, floor.bodies = {1}, floor.kernel.normal = 30;
+  const bool lammps = GENERATE(false, true);
+  floor.lammps = lammps;
+  m.walls.push_back(floor);
+  const double I = 0.06 + m.mass(0) * 1.44 + 0.1 * m.mass(0), carried = std::sqrt(2 * 40 * 1.44 / I), pressed = std::sqrt(30 / 2.0);
+  CHECK(carried > pressed);
+  Energy energy(m);
+  CHECK(timestep_limit(energy, m.start).frequency == Approx(carried).epsilon(0.01));
+  m.bodies[1].mass = 0.05;
+  Energy light(m);
+  CHECK(timestep_limit(light, m.start).frequency == Approx(std::sqrt(30 / 0.05)).epsilon(0.01));
+  m.walls[0].body_damping.normal = 4;
+  Energy damped(m);
+  const TimestepLimit limit = timestep_limit(damped, m.start);
+  const double yields = 1 / 0.05 + 0.45 * 0.45 / 0.1;                // of the point that touches, across the normal
+  CHECK(limit.drag == Approx(4 * yields).epsilon(1e-9));
+  m.viscosity.push_back({{}, 1, {1}});
+  Energy dragged(m);
+  CHECK(timestep_limit(dragged, m.start).drag == Approx(4 * yields + 1 / 0.05).epsilon(1e-9));
+}

@@ -35,7 +35,7 @@ TEST_CASE("Free grains are named one by one", "[model]") {
                                                    "translation of particle 6 along z",
                                                    "translation of particle 7 along y", "translation of 'one' along x",
                                                    "translation of 'one' along y", "translation of 'one' along z"});
-  for (const RigidMotion& r : motions) CHECK((r.translation && r.particles == std::vector<int>{r.particle}));
+  for (const RigidMotion& r : motions) CHECK((r.translation && r.sites == std::vector<int>{r.particle}));
   CHECK(motions[3].particle == 6);
   const Field v = motions[3].velocity_field(m.particles());
   CHECK((v.cols() == 8 && v.col(6) == Vec3(0, 1, 0) && v.cwiseAbs().sum() == 1));
@@ -76,7 +76,7 @@ TEST_CASE("Contacts in force tie parts together", "[model]") {
   int translations = 0;
   for (const RigidMotion& r : motions) {
     CHECK(r.name.find("of 'chain' and what it touches a") != std::string::npos);
-    CHECK(r.particles == std::vector<int>{0, 1, 2, 3, 4});
+    CHECK(r.sites == std::vector<int>{0, 1, 2, 3, 4});
     translations += r.translation;
   }
   CHECK(translations == 3);

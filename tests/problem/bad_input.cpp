@@ -75,9 +75,9 @@ TEST_CASE("Files that are no text at all") {
   const auto said = [&](const std::string& bytes) { return mistakes_of(scratch.file("bad.toml", bytes)); };
   const std::string file = scratch / "bad.toml";
   CHECK(said("") ==
-        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]] or a [lammps] data file");
+        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
   CHECK(said("\n \n# nothing\n") ==
-        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]] or a [lammps] data file");
+        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
   CHECK(said("\x7f" "ELF\2\1\1\0\0"s) == file + ":1:8: is not a text in UTF-8 from here on");
   CHECK(said("title = \"column\"\ntitle = \"S\xe4ule\"\n") == file + ":2:11: is not a text in UTF-8 from here on");
   CHECK(said("# \xc0\xaf\n") == file + ":1:3: is not a text in UTF-8 from here on");
@@ -131,7 +131,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
   CHECK(
       said("", "1") ==
-      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, group, connect, support, "
+      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, body, group, connect, glue, support, "
       "load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, observe, event, "
       "expect, sweep");
   CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");

@@ -52,10 +52,10 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
   const std::vector<std::string> names{"mid_x", "push"};
   Table path{path_columns(names), {}}, events{event_columns(names), {}};
   CHECK(path.columns == std::vector<std::string>{"step", "label", "branch", "lambda", "energy", "bond", "angle",
-                                                 "contact", "wall", "cohesion", "external", "residual", "iterations",
+                                                 "contact", "wall", "cohesion", "body", "external", "residual", "iterations",
                                                  "negative", "stable", "mid_x", "push", "parent", "negative_rigid"});
   CHECK(events.columns == std::vector<std::string>{"label", "lambda", "multiplicity", "step", "branch", "energy",
-                                                   "bond", "angle", "contact", "wall", "cohesion", "external",
+                                                   "bond", "angle", "contact", "wall", "cohesion", "body", "external",
                                                    "residual", "iterations", "negative", "stable", "mid_x", "push",
                                                    "parent", "negative_rigid", "negative_before", "negative_after",
                                                    "what"});

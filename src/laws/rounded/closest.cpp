@@ -103,6 +103,10 @@ std::optional<ClosestFeatures> find(PairView& view, const RoundedBody& a, const 
   return closest_features(view, view.radii() + reach);
 }
 
+RoundedContact contact_at(const PairView& view, const ClosestFeatures& f) {
+  return f.edges ? view.edge_contact(f.edge_a, f.edge_b, f.lines, 1) : view.vertex_contact(f.first, f.vertex, f.at, 1);
+}
+
 }  // namespace
 
 std::optional<ClosestFeatures> closest_features(const PairView& view, double range) {
@@ -148,12 +152,21 @@ PairLocal RoundedClosest::derivatives(const RoundedBody& a, const RoundedBody& b
   return u;
 }
 
+std::array<Wrench, 2> RoundedClosest::forces(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>* contacts) const {
+  PairView& view = scratch();
+  std::array<Wrench, 2> on;
+  const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff);
+  if (!f) return on;
+  const double slope = kernel.slope(f->distance - view.radii());
+  if (f->edges) view.push_lines(on, f->edge_a, f->lines, (Vec6() << slope * f->lines.normal, Vec3::Zero()).finished());
+  else view.push_vertex(on, f->first, f->vertex, slope * f->at.normal);
+  if (contacts) contacts->push_back(contact_at(view, *f));
+  return on;
+}
+
 void RoundedClosest::contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const {
   PairView& view = scratch();
-  const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff);
-  if (!f) return;
-  out.push_back(f->edges ? view.edge_contact(f->edge_a, f->edge_b, f->lines, 1)
-      : view.vertex_contact(f->first, f->vertex, f->at, 1));
+  if (const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff)) out.push_back(contact_at(view, *f));
 }
 
 double core_separation(const RoundedBody& a, const RoundedBody& b) {

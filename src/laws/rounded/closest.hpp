@@ -32,6 +32,8 @@ struct RoundedClosest {
 
   double value(const RoundedBody& a, const RoundedBody& b) const;
   PairLocal derivatives(const RoundedBody& a, const RoundedBody& b) const;
+  /// The wrenches on A and B, minus the gradient; with `contacts` the contact is appended as below.
+  std::array<Wrench, 2> forces(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>* contacts = nullptr) const;
   /// The contact, if its gap ≤ r_c, appended.
   void contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const;
 };

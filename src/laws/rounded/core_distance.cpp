@@ -78,6 +78,15 @@ LinePair::LinePair(const Vec3& a, const Vec3& u, const Vec3& b, const Vec3& v) {
   distance = std::abs(side) / std::sqrt(D);
 }
 
+LineGradients::LineGradients(const LinePair& lines, const Vec3& u, const Vec3& v) {
+  const double alpha = u.dot(v), U = u.squaredNorm(), V = v.squaredNorm(), D = U * V * lines.sine2;
+  const Vec3 p = lines.distance * lines.normal;
+  distance << lines.normal, Vec3::Zero();
+  ta << (alpha * v - V * u) / D, -V / D * p;
+  tb << (U * v - alpha * u) / D, -alpha / D * p;
+  sine2 << Vec3::Zero(), -2 * alpha / (U * V) * v;
+}
+
 LineDerivatives::LineDerivatives(const LinePair& lines, const Vec3& u, const Vec3& v) {
   const double alpha = u.dot(v), U = u.squaredNorm(), V = v.squaredNorm();
   const Vec3 N = u.cross(v);

@@ -79,7 +79,13 @@ struct LineFunction {
   Mat6 hessian = Mat6::Zero();
 };
 
-/// The derivatives of what a LinePair holds.
+/// The gradients of what a LinePair holds.
+struct LineGradients {
+  Vec6 distance, ta, tb, sine2;
+  LineGradients(const LinePair& lines, const Vec3& u, const Vec3& v);
+};
+
+/// Its derivatives.
 struct LineDerivatives {
   LineFunction distance, ta, tb, sine2;
   LineDerivatives(const LinePair& lines, const Vec3& u, const Vec3& v);

@@ -4,23 +4,11 @@
 #include "laws/rounded/core_distance.hpp"
 #include "laws/rounded/kernel.hpp"
 #include "laws/rounded/pose.hpp"
+#include "laws/rounded/wrench.hpp"
 
 #include <limits>
 
 namespace elamin {
-
-/// How a body moves: velocity of its position and angular velocity.
-struct BodyMotion {
-  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  /// Of the point at `arm` from the position.
-  Vec3 at(const Vec3& arm) const { return velocity + spin.cross(arm); }
-};
-
-/// Force on a body and torque about its position.
-struct Wrench {
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  void add(const Vec3& f, const Vec3& arm) { force += f, torque += arm.cross(f); }
-};
 
 enum class LammpsHow {
   direct,                                      // the kernel's force once

@@ -60,7 +60,13 @@ struct VertexTerm {
   Share share;
   Jet energy;
 
+  double weight() const { return share.value; }
   double value() const { return share.value * energy.value; }
+  RoundedContact contact(const PairView& view) const { return view.vertex_contact(first, vertex, distance, weight()); }
+
+  void push(std::array<Wrench, 2>& on, const PairView& view) const {
+    view.push_vertex(on, first, vertex, share.value * energy.slope * distance.normal + energy.value * (distance.tangent() * share.gradient));
+  }
 
   /// φ = κ(b) U(s):  ∇φ = κ U′ n + U T ∇κ,  ∇²φ = κ (U″ n nᵀ + U′ ∇²s) + U′ (n (T∇κ)ᵀ + (T∇κ) nᵀ) + U T ∇²κ T;
   /// T = ∂b/∂y.
@@ -84,6 +90,13 @@ struct EdgeTerm {
 
   double weight() const { return factor[1].value * factor[2].value * factor[3].value; }
   double value() const { return weight() * factor[0].value; }
+  RoundedContact contact(const PairView& view) const { return view.edge_contact(ea, eb, lines, weight()); }
+
+  void push(std::array<Wrench, 2>& on, const PairView& view) const {
+    const LineGradients d(lines, view.edge_a(ea), view.edge_b(eb));
+    view.push_lines(on, ea, lines, factor[0].slope * others(0, 0) * d.distance + factor[1].slope * others(1, 1) * d.ta +
+                                       factor[2].slope * others(2, 2) * d.tb + factor[3].slope * others(3, 3) * d.sine2);
+  }
 
   /// The product of the values of all factors but i and j.
   double others(std::size_t i, std::size_t j) const {
@@ -168,17 +181,25 @@ PairLocal RoundedMulti::derivatives(const RoundedBody& a, const RoundedBody& b) 
   return u;
 }
 
+std::array<Wrench, 2> RoundedMulti::forces(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>* contacts) const {
+  PairView& view = scratch();
+  std::array<Wrench, 2> on;
+  if (!view.set(a, b, kernel.cutoff)) return on;
+  const auto add = [&](const auto& term) {
+    term.push(on, view);
+    if (contacts && term.weight() > 0) contacts->push_back(term.contact(view));
+  };
+  visit(*this, view, add, add);
+  return on;
+}
+
 void RoundedMulti::contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const {
   PairView& view = scratch();
   if (!view.set(a, b, kernel.cutoff)) return;
-  const auto on_vertex = [&](const VertexTerm& t) {
-    const double weight = t.share.value;
-    if (weight > 0) out.push_back(view.vertex_contact(t.first, t.vertex, t.distance, weight));
+  const auto add = [&](const auto& term) {
+    if (term.weight() > 0) out.push_back(term.contact(view));
   };
-  const auto on_edge = [&](const EdgeTerm& t) {
-    if (t.weight() > 0) out.push_back(view.edge_contact(t.ea, t.eb, t.lines, t.weight()));
-  };
-  visit(*this, view, on_vertex, on_edge);
+  visit(*this, view, add, add);
 }
 
 }  // namespace elamin

@@ -28,6 +28,8 @@ struct RoundedMulti {
 
   double value(const RoundedBody& a, const RoundedBody& b) const;
   PairLocal derivatives(const RoundedBody& a, const RoundedBody& b) const;
+  /// The wrenches on A and B, minus the gradient; with `contacts` those are appended as below.
+  std::array<Wrench, 2> forces(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>* contacts = nullptr) const;
   /// Every term with gap ≤ r_c and weight > 0, appended.
   void contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const;
 };

@@ -48,6 +48,21 @@ void PairView::add_lines(PairLocal& u, int ea, const LinePair& lines, const Vec6
   add_carried<2>(u, true, {point, direction}, Vec6(turn * gradient), Mat6(turn * hessian * turn.transpose()));
 }
 
+void PairView::push_vertex(std::array<Wrench, 2>& on, bool first, int vertex, const Vec3& gradient) const {
+  const CoreView& view = seen(first);
+  const Mat3 &own = first ? rotation_a_ : rotation_b_, &other = first ? rotation_b_ : rotation_a_;
+  const Vec3 g = other * gradient;
+  on[!first].add(-g, own * view.seen->vertices[vertex]);
+  on[first].add(g, other * view.vertices[vertex]);
+}
+
+void PairView::push_lines(std::array<Wrench, 2>& on, int ea, const LinePair& lines, const Vec6& gradient) const {
+  const Vec3 offset = rotation_b_ * lines.foot_a, along = rotation_b_ * edge_a(ea);
+  const Vec3 g = rotation_b_ * gradient.head<3>(), turning = along.cross(Vec3(rotation_b_ * gradient.tail<3>()));
+  on[0].add(-g, offset - a_from_b_), on[1].add(g, offset);
+  on[0].torque -= turning, on[1].torque += turning;
+}
+
 RoundedContact PairView::contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance,
     double weight) const {
   const double gap = distance - radii();

@@ -2,6 +2,7 @@
 // Two bodies as they see each other: what both potentials of rounded bodies are built on.
 #include "laws/rounded/core_distance.hpp"
 #include "laws/rounded/pose.hpp"
+#include "laws/rounded/wrench.hpp"
 
 namespace elamin {
 
@@ -58,6 +59,10 @@ class PairView {
   void add_vertex(PairLocal& u, bool first, int vertex, const Vec3& gradient, const Mat3& hessian) const;
   /// Adds a function of (p, u), the foot and direction of an edge of A in the frame of B.
   void add_lines(PairLocal& u, int ea, const LinePair& lines, const Vec6& gradient, const Mat6& hessian) const;
+
+  /// Adds minus the gradient of the same functions as wrenches on A and B.
+  void push_vertex(std::array<Wrench, 2>& on, bool first, int vertex, const Vec3& gradient) const;
+  void push_lines(std::array<Wrench, 2>& on, int ea, const LinePair& lines, const Vec6& gradient) const;
 
   RoundedContact vertex_contact(bool first, int vertex, const CoreDistance& d, double weight) const;
   RoundedContact edge_contact(int ea, int eb, const LinePair& lines, double weight) const;

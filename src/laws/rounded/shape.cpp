@@ -7,8 +7,8 @@ namespace elamin {
 
 namespace {
 
-// of the size of the core: what counts as planar, and as an edge that is flat
-constexpr double flatness = 1e-8;
+// sine of the angle between two faces: an edge that is flat, for corners written with six digits
+constexpr double flatness = 1e-5;
 
 /// Vector area of a polygon: twice the sum over a fan of triangles, halved.
 Vec3 vector_area(const std::vector<Vec3>& x, const std::vector<int>& corners) {

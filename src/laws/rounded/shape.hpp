@@ -43,7 +43,8 @@ struct RoundedShape {
 /// Everything that is wrong with a core and its radius, one sentence each; empty: nothing. Asked for: finite numbers;
 /// radius > 0; 1, 2, 4 or more vertices, all different; faces of three or more different vertices, planar, convex,
 /// closed (every side met once in each direction), outward; every vertex a corner of the hull; edges, if given, those
-/// of the faces. Tolerances are 1e-8 of the size of the core. The sentences count vertices, edges and faces from
+/// of the faces. Within 3e-6 of the size of the core faces are planar,
+/// so that corners written with six digits will do; other tolerances are 1e-8. The sentences count vertices, edges and faces from
 /// `first`.
 std::vector<std::string> mistakes(const CoreMesh& core, double radius, int first = 0);
 

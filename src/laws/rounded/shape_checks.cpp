@@ -15,6 +15,7 @@ using Sentences = std::vector<std::string>;
 using Side = std::array<int, 2>;
 
 constexpr double tolerance = 1e-8;             // of the size of the core
+constexpr double planar_within = 3e-6;         // of the size of the core: numbers written with six digits will do
 
 Sentences wrong_numbers(const CoreMesh& core, double radius, int first) {
   Sentences wrong;
@@ -120,7 +121,7 @@ Sentences wrong_faces(const CoreMesh& core, int first) {
     }
     const Vec3 n = area.normalized();
     bool planar = true, turned = true;
-    for (const int k : face) planar = planar && std::abs(n.dot(core.vertices[k] - p)) <= tolerance * size;
+    for (const int k : face) planar = planar && std::abs(n.dot(core.vertices[k] - p)) <= planar_within * size;
     if (!planar) {
       wrong.push_back(fmt::format("face {} is not planar", first + f));
       continue;
@@ -133,9 +134,9 @@ Sentences wrong_faces(const CoreMesh& core, int first) {
     if (!turned) wrong.push_back(fmt::format("face {} is not convex", first + f));
     double above = 0, below = 0;
     for (const Vec3& x : core.vertices) above = std::max(above, n.dot(x - p)), below = std::max(below, -n.dot(x - p));
-    thick = thick || above > tolerance * size || below > tolerance * size;
-    if (above <= tolerance * size) continue;
-    wrong.push_back(below <= tolerance * size
+    thick = thick || above > planar_within * size || below > planar_within * size;
+    if (above <= planar_within * size) continue;
+    wrong.push_back(below <= planar_within * size
                         ? fmt::format("face {} looks inward; allowed: vertices counter-clockwise seen from outside", first + f)
                         : fmt::format("the core is not convex: vertices stand on both sides of face {}", first + f));
   }

@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "laws/rounded/bodies.hpp"
+#include "laws/rounded/multi.hpp"
 
 using namespace elamin;
 
@@ -40,4 +41,39 @@ TEST_CASE("damping and friction take energy, and leave momentum and angular mome
       CHECK((creep[0].force + (gap < 0 ? (5 + 1e3) * slow : 0.0) * vt).norm() <= 1e-12);
       CHECK(law.at(contact[0], c.a.pose, c.b.pose, {}, {})[0].force.norm() == 0);
     }
+}
+
+TEST_CASE("forces of bodies are minus the gradient, their contacts those of contacts()", "[laws][rounded]") {
+  std::mt19937 random(11);
+  const RoundedKernel kernel{100, 2, 0.3, RoundedKernel::Form::coded};
+  int met = 0, edges = 0;
+  const auto check = [&](const auto& law, const RoundedBody& a, const RoundedBody& b) {
+    std::vector<RoundedContact> with, listed;
+    const std::array<Wrench, 2> on = law.forces(a, b, &with);
+    const PairLocal u = law.derivatives(a, b);
+    law.contacts(a, b, listed);
+    Eigen::Matrix<double, 12, 1> f;
+    f << on[0].force, on[0].torque, on[1].force, on[1].torque;
+    CHECK((f + u.gradient).norm() <= 1e-12 * std::max(1.0, u.gradient.norm()));
+    CHECK(law.forces(a, b)[0].force == on[0].force);
+    REQUIRE(with.size() == listed.size());
+    for (std::size_t k = 0; k < with.size(); ++k) {
+      CHECK(with[k].gap == listed[k].gap);
+      CHECK(with[k].weight == listed[k].weight);
+      CHECK(with[k].point == listed[k].point);
+      edges += with[k].first.kind == FeatureKind::edge && with[k].second.kind == FeatureKind::edge && with[k].weight < 1;
+    }
+    met += !with.empty();
+  };
+  for (const NamedShape& a : test_shapes())
+    for (const NamedShape& b : test_shapes())
+      for (int k = 0; k < 40; ++k) {
+        const RoundedBody one = placed(a.shape, Vec3::Zero(), random_rotation(random));
+        const double far = std::uniform_real_distribution<double>(0.7, 1)(random) * (a.shape.reach() + b.shape.reach());
+        const RoundedBody two = placed(b.shape, far * random_vector(random).normalized(), random_rotation(random));
+        if (cores_overlap(one, two)) continue;
+        check(RoundedMulti{kernel}, one, two), check(RoundedClosest{kernel}, one, two);
+      }
+  CHECK(met > 300);
+  CHECK(edges > 20);
 }

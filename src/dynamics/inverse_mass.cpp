@@ -1,0 +1,59 @@
+#include "dynamics/inverse_mass.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace elamin {
+
+InverseMass::InverseMass(const Model& model, const Kinematics& kinematics, const State& state)
+    : kinematics_(kinematics), particle_(Vector::Zero(kinematics.dofs())) {
+  for (int d = 0; d < kinematics.dofs(); ++d)
+    if (const int s = kinematics.site_of(d); s < kinematics.particles()) particle_[d] = 1 / std::sqrt(model.mass(s));
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const BodyMass m(model, b);
+    const double lever = kinematics.lever(b);
+    const Mat3 R = state.bodies[b].rotation.toRotationMatrix();
+    Mat6 M;
+    M.topLeftCorner<3, 3>() = m.mass * Mat3::Identity();
+    M.topRightCorner<3, 3>() = -m.mass / lever * cross_matrix(R * m.center);
+    M.bottomLeftCorner<3, 3>() = M.topRightCorner<3, 3>().transpose();
+    M.bottomRightCorner<3, 3>() = R * m.inertia * R.transpose() / (lever * lever);
+    const double least = 1e-7 * M.bottomRightCorner<3, 3>().trace();
+    for (int k = 0; k < 6; ++k)
+      if (kinematics.dof(k < 3 ? kinematics.place_of(b) : kinematics.turn_of(b), k % 3) < 0) M.row(k).setZero(), M.col(k).setZero();
+    const Eigen::SelfAdjointEigenSolver<Mat6> own(M);
+    root_.push_back(Mat6::Zero());
+    for (int k = 0; k < 6; ++k)
+      if (const double value = own.eigenvalues()[k]; value > least && value > 0)
+        root_.back() += own.eigenvectors().col(k) * own.eigenvectors().col(k).transpose() / std::sqrt(value);
+  }
+}
+
+Vector InverseMass::root(const Vector& v) const {
+  Vector out = particle_.cwiseProduct(v);
+  for (int b = 0; b < static_cast<int>(root_.size()); ++b) {
+    Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
+    const auto dof = [&](int k) { return kinematics_.dof(k < 3 ? kinematics_.place_of(b) : kinematics_.turn_of(b), k % 3); };
+    for (int k = 0; k < 6; ++k)
+      if (dof(k) >= 0) own[k] = v[dof(k)];
+    own = root_[b] * own;
+    for (int k = 0; k < 6; ++k)
+      if (dof(k) >= 0) out[dof(k)] = own[k];
+  }
+  return out;
+}
+
+double InverseMass::at(int body, const Vec3& arm) const {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Mat3::Identity(), -cross_matrix(arm) / kinematics_.lever(body);
+  const Eigen::Matrix<double, 3, 6> B = J * root_[body];
+  return Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(B * B.transpose()), Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+double InverseMass::at(int particle) const {
+  double most = 0;
+  for (int c = 0; c < 3; ++c)
+    if (const int d = kinematics_.dof(particle, c); d >= 0) most = std::max(most, particle_[d] * particle_[d]);
+  return most;
+}
+
+}  // namespace elamin

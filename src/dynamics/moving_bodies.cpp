@@ -1,0 +1,184 @@
+#include "dynamics/moving_bodies.hpp"
+
+#include "core/exact.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin {
+
+namespace {
+
+struct Freedom {
+  std::array<bool, 3> place, turns;
+  int axis = -1;                               // the one free turn, if there is one
+  bool held = true, turned = false;            // no free coordinate of the place; any free turn
+
+  Freedom(const Kinematics& k, int body) {
+    for (int c = 0; c < 3; ++c) {
+      place[c] = k.dof(k.place_of(body), c) >= 0, turns[c] = k.dof(k.turn_of(body), c) >= 0;
+      held = held && !place[c];
+      if (turns[c]) axis = turned ? -1 : c, turned = true;
+    }
+  }
+};
+
+// The last support that holds a coordinate has it.
+Vec3 support_velocity(const Model& model, int body) {
+  Vec3 v = Vec3::Zero();
+  for (const Support& s : model.supports)
+    for (const int b : s.bodies)
+      for (int c = 0; c < 3 && b == body; ++c)
+        if (s.held[c]) v[c] = s.velocity[c];
+  return v;
+}
+
+// Whether a held coordinate of the position, when the body turns, moves against the centre of mass.
+bool swings(const Freedom& f, const Vec3& arm) {
+  if (arm.isZero(0) || !f.turned || f.held) return false;
+  for (int c = 0; c < 3; ++c)
+    if (!f.place[c] && (f.axis < 0 || (f.axis != c && Vec3::Unit(f.axis).cross(arm).norm() > 1e-12 * arm.norm()))) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<Mistake> MovingBodies::mistakes(const Model& model, const Kinematics& kinematics) {
+  std::vector<Mistake> list;
+  const auto add = [&](const std::string& key, const std::string& what) { list.push_back({"", 0, 0, key, what}); };
+  int massless = 0, last = 0;
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const Freedom f(kinematics, b);
+    const BodyMass m(model, b);
+    const int id = model.bodies[b].id;
+    if (!(m.mass > 0) && (!f.held || f.turned)) ++massless, last = id;
+    if (swings(f, model.start.bodies[b].rotation * m.center))
+      add("glue", fmt::format("the particles that body {} carries move its centre of mass, and a support holds its place in some "
+                              "directions only while it may turn; "
+                              "in dynamics hold all of them, or none, or its turns, or let the particles have no density", id));
+    else if (f.held && f.turned && m.loaded && !m.center.isZero(0) && support_velocity(model, b) != Vec3::Zero())
+      add("glue", fmt::format("body {} carries particles, turns and is driven by a support at a place that is not its centre of "
+                              "mass; in dynamics hold its turns too, or drive it with the velocity 0", id));
+  }
+  if (massless > 0)
+    add("mass", fmt::format("{} bod{} can move but {} no mass (the last is {}); dynamics needs a mass or a density", massless,
+                            massless > 1 ? "ies" : "y", massless > 1 ? "have" : "has", last));
+  return list;
+}
+
+MovingBodies::MovingBodies(const Model& model, const Kinematics& kinematics, const Motion& start, double timestep) : dt_(timestep) {
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const Body& body = model.bodies[b];
+    const Freedom f(kinematics, b);
+    const BodyMass m(model, b);
+    const Pose& pose = start.state.bodies[b];
+    const bool about_position = f.held || !m.loaded;
+    const Vec3 offset = about_position ? Vec3(Vec3::Zero()) : m.center;
+    const Mat3 inertia = about_position ? m.inertia : m.inertia_about_center(), R = pose.rotation.toRotationMatrix();
+    One one{{pose, start.body_velocity.col(b), start.angular_momentum.col(b)}, RigidMass(m.mass > 0 ? m.mass : 1, inertia), offset, f.place, f.turns,
+            Vec3::Zero(), Vec3::Zero(), true, body.inertia, body.mass, 0};
+    one.plain = !m.loaded && f.axis < 0 && f.turned && f.turns == std::array{true, true, true};
+    if (!one.plain) {
+      Vec3 spin = RigidState(one.state).motion({body.mass > 0 ? body.mass : 1, body.inertia}).spin;
+      if (f.turns != std::array{true, true, true}) one.mass.inverse_inertia.setZero();
+      if (f.axis >= 0) {
+        const Vec3 e = Vec3::Unit(f.axis), own = R.transpose() * e;
+        const double moment = own.dot(inertia * own), alone = own.dot(body.inertia * own);
+        if (moment > 0) one.mass.inverse_inertia = own * own.transpose() / moment;
+        spin = (alone > 0 ? one.state.angular_momentum[f.axis] / alone : 0.0) * e;
+        one.state.angular_momentum = moment * spin;
+      } else if (f.turned) {
+        one.state.angular_momentum = R * (inertia * (R.transpose() * spin));
+      } else {
+        spin.setZero(), one.state.angular_momentum.setZero();
+      }
+      if (!offset.isZero(0)) {
+        const Vec3 arm = R * offset;
+        one.state.pose.position = pose.position + ExactVector{arm, Vec3::Zero()};
+        one.state.velocity += spin.cross(arm);
+      }
+      for (const Glued& g : model.glued)
+        if (g.body == b) one.carried_spin += 0.1 * model.mass(g.particle) * model.diameter[g.particle] * model.diameter[g.particle];
+    }
+    one.velocity = support_velocity(model, b);
+    one.start = one.state.pose.position.hi + one.state.pose.position.lo;
+    for (int c = 0; c < 3; ++c) {
+      if (f.place[c]) one.velocity[c] = 0;
+      else one.state.velocity[c] = one.velocity[c];
+      driven_ = driven_ || one.velocity[c] != 0;
+    }
+    bodies_.push_back(one);
+  }
+}
+
+void MovingBodies::kick(const std::vector<Wrench>& on) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    One& one = bodies_[b];
+    Wrench w = on[b];
+    if (!one.offset.isZero(0)) w.torque -= Vec3(one.state.pose.rotation * one.offset).cross(w.force);
+    for (int c = 0; c < 3; ++c) {
+      if (!one.free[c]) w.force[c] = 0;
+      if (!one.turns[c]) w.torque[c] = 0;
+    }
+    elamin::kick(one.state, one.mass, w, dt_);
+  }
+}
+
+void MovingBodies::drift() {
+  for (One& one : bodies_) elamin::drift(one.state, one.mass, dt_);
+}
+
+void MovingBodies::place_driven(double time) {
+  for (One& one : bodies_)
+    for (int c = 0; c < 3 && driven_; ++c)
+      if (one.velocity[c] != 0) one.state.pose.position.set(c, Exact{one.start[c] + one.velocity[c] * time});
+}
+
+void MovingBodies::show(BodyPlaces& places) const {
+  places.pose.resize(bodies_.size()), places.motion.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const One& one = bodies_[b];
+    places.pose[b] = one.state.pose, places.motion[b] = one.state.motion(one.mass);
+    if (one.offset.isZero(0)) continue;
+    const Vec3 arm = one.state.pose.rotation * one.offset;
+    places.pose[b].position = one.state.pose.position + ExactVector{-arm, Vec3::Zero()};
+    places.motion[b].velocity -= places.motion[b].spin.cross(arm);
+  }
+}
+
+double MovingBodies::work_rate(const std::vector<Wrench>& on) const {
+  double rate = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) rate -= on[b].force.dot(bodies_[b].velocity);
+  return rate;
+}
+
+double MovingBodies::kinetic(const BodyPlaces& now) const {
+  ExactSum sum;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const One& one = bodies_[b];
+    const Vec3& w = now.motion[b].spin;
+    sum.add(one.own_mass / 2 * now.motion[b].velocity.squaredNorm());
+    if (one.plain) {
+      sum.add(w.dot(one.state.angular_momentum) / 2);
+      continue;
+    }
+    const Vec3 own = now.pose[b].rotation.conjugate() * w;
+    sum.add(own.dot(one.own_inertia * own) / 2 + one.carried_spin / 2 * w.squaredNorm());
+  }
+  return sum.value();
+}
+
+void MovingBodies::write(const BodyPlaces& now, Motion& motion) const {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const One& one = bodies_[b];
+    motion.state.bodies[b] = now.pose[b];
+    motion.body_velocity.col(b) = now.motion[b].velocity;
+    if (one.plain) {
+      motion.angular_momentum.col(b) = one.state.angular_momentum;
+      continue;
+    }
+    const Mat3 R = now.pose[b].rotation.toRotationMatrix();
+    motion.angular_momentum.col(b) = R * (one.own_inertia * (R.transpose() * now.motion[b].spin));
+  }
+}
+
+}  // namespace elamin

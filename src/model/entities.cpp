@@ -1,0 +1,50 @@
+#include "model/entities.hpp"
+
+#include <algorithm>
+
+namespace elamin {
+
+int id_of(const Model& model, int entity) {
+  if (is_body(model, entity)) return model.bodies[entity - model.particles()].id;
+  return model.id.empty() ? entity + 1 : model.id[entity];
+}
+
+std::string called(const Model& model, int entity) {
+  return (is_body(model, entity) ? "body " : "particle ") + std::to_string(id_of(model, entity));
+}
+
+double size_of(const Model& model, int entity) {
+  if (is_body(model, entity)) return 2 * model.shapes[model.bodies[entity - model.particles()].shape].reach();
+  return model.diameter[entity];
+}
+
+double largest_size(const Model& model) {
+  double most = 0;
+  for (int e = 0; e < entities(model); ++e) most = std::max(most, size_of(model, e));
+  return most;
+}
+
+double smallest_size(const Model& model) {
+  double least = 0;
+  for (int e = 0; e < entities(model); ++e)
+    if (const double size = size_of(model, e); size > 0 && (least == 0 || size < least)) least = size;
+  return least;
+}
+
+Vec3 sides_of(const State& state) {
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index p = 0; p < state.particles(); ++p) box.extend(Vec3(state.position.col(p)));
+  for (const Pose& b : state.bodies) box.extend(b.position.hi);
+  return box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.sizes());
+}
+
+Eigen::AlignedBox3d box_of(const Model& model, const State& state) {
+  Eigen::AlignedBox3d box;
+  for (int e = 0; e < entities(model); ++e) {
+    const Vec3 x = is_body(model, e) ? state.bodies[e - model.particles()].position.hi : Vec3(state.position.col(e));
+    for (const double r : {-size_of(model, e) / 2, size_of(model, e) / 2}) box.extend(Vec3(x + Vec3::Constant(r)));
+  }
+  return box;
+}
+
+}  // namespace elamin

@@ -1,0 +1,84 @@
+#include "study/describe.hpp"
+
+#include "laws/rounded/closest.hpp"
+#include "model/entities.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+
+std::string counted(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+
+std::string corners_of(const RoundedShape& s) {
+  const std::string rounding = fmt::format(", rounding radius {:.10g}", s.radius);
+  if (s.vertices.size() == 1) return "a sphere" + rounding;
+  if (s.vertices.size() == 2) return fmt::format("a rod of length {:.10g}", s.shortest_edge) + rounding;
+  return fmt::format("{}, {}, {}", counted(s.vertices.size(), "vertex", "vertices"), counted(s.edges.size(), "edge", "edges"),
+                     counted(s.faces.size(), "face", "faces")) + rounding;
+}
+
+// The body's shape and size; extents are along the axes of its frame, the rounding included.
+std::string shape_lines(const RoundedShape& s) {
+  Vec3 lo = s.vertices.front(), hi = lo;
+  for (const Vec3& v : s.vertices) lo = lo.cwiseMin(v), hi = hi.cwiseMax(v);
+  const Vec3 size = hi - lo + Vec3::Constant(2 * s.radius);
+  return fmt::format("  {}; extents [{:.10g}, {:.10g}, {:.10g}], reach {:.10g} from the centre of mass, volume {:.10g}\n", corners_of(s), size[0],
+                     size[1], size[2], s.reach(), mass_properties(s).volume);
+}
+
+std::string mass_line(const Body& b) {
+  if (!(b.mass > 0)) return "  no mass\n";
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(b.inertia).eigenvalues();
+  return fmt::format("  mass {:.10g}, principal moments of inertia {:.10g}, {:.10g}, {:.10g}\n", b.mass, moments[0], moments[1], moments[2]);
+}
+
+std::string place_line(const Pose& pose) {
+  const Vec3 x = pose.position.hi;
+  return fmt::format("  centre of mass at [{:.10g}, {:.10g}, {:.10g}]\n", x[0], x[1], x[2]);
+}
+
+}  // namespace
+
+std::string describe_bodies(const Model& model, const Structure& s) {
+  if (s.bodies == 1) {
+    const Body& b = model.bodies[s.first_body];
+    return shape_lines(model.shapes[b.shape]) + mass_line(b) + place_line(model.start.bodies[s.first_body]);
+  }
+  std::string text;
+  for (std::size_t shape = 0; shape < model.shapes.size(); ++shape) {
+    int count = 0;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (int b = s.first_body; b < s.first_body + s.bodies; ++b)
+      if (model.bodies[b].shape == static_cast<int>(shape))
+        ++count, least = std::min(least, model.bodies[b].mass), most = std::max(most, model.bodies[b].mass);
+    if (count == 0) continue;
+    const std::string mass = most == 0       ? "no mass"
+                             : least == most ? fmt::format("mass {:.10g}", most)
+                                             : fmt::format("masses {:.10g} to {:.10g}", least, most);
+    text += fmt::format("  {} of one shape, {}:\n  {}", counted(count, "body", "bodies"), mass, shape_lines(model.shapes[shape]));
+  }
+  return text;
+}
+
+std::vector<std::string> core_overlaps(const Model& model, const Energy& energy, const State& state) {
+  constexpr int most = 10;
+  std::vector<std::string> lines;
+  int count = 0;
+  const BodyRules& rules = energy.body_rules();
+  for (const auto& [i, j] : energy.body_neighbours().pairs()) {
+    if (!cores_overlap(rules.body(i, state), rules.body(j, state)) || ++count > most) continue;
+    lines.push_back(fmt::format("warning: the cores of {} and {} overlap, deeper than their rounding; no law of rounded bodies means much there",
+                                called(model, i), called(model, j)));
+  }
+  if (count > most) lines.push_back(fmt::format("warning: and the cores of {} more pairs overlap", count - most));
+  return lines;
+}
+
+}  // namespace elamin
