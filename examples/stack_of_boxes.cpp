@@ -15,7 +15,7 @@ int main() {
     RigidBody box;
     box.name = "box " + std::to_string(i + 1);
     box.core = box_core(Vec3(1 - 0.2 * i, 1 - 0.2 * i, height - 2 * rounding)), box.radius = rounding, box.density = 1;
-    box.pose.position.hi = Vec3(0.03 * i, -0.02 * i, (i + 0.5) * height);
+    box.pose.position.hi = Vec3(0, 0, (i + 0.5) * height);
     box.pose.rotation = turn(Vec3(0, 0, 0.1 * i));
     boxes.push_back(box);
   }
@@ -30,6 +30,9 @@ int main() {
   floor.name = "floor", floor.bodies = all, floor.kernel.normal = k;
   floor.region.shape = Shape::plane, floor.region.normal = Vec3::UnitZ();
   model.walls = {floor};
+  Support middles;                                               // without friction a box would slide off the one below
+  middles.bodies = all, middles.held = {true, true, false};
+  model.supports = {middles};
   Gravity gravity;
   gravity.bodies = all, gravity.acceleration = Vec3(0, 0, -1);
   model.gravity = {gravity};

@@ -100,6 +100,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
 
     const Vector g = energy_.gradient();
+    steady_bodies(g);
     bool left;
     shift = make_convex(state, g, shift, settled, left);
     if (left) {

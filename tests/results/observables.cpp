@@ -164,6 +164,6 @@ TEST_CASE("observables of a group that is not there or empty", "[observables]") 
   } catch (const InputError& e) {
     CHECK(std::string(e.what()) ==
           "p.toml:7:1: observe.group: there is no group \"nobody\"; there are all, ends, two, none, floor, side\n"
-          "p.toml:12:1: observe.group: the group \"none\" has no particle; at least one is needed");
+          "p.toml:12:1: observe.group: the group \"none\" has no particle and no body; at least one is needed");
   }
 }

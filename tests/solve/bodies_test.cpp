@@ -49,8 +49,8 @@ State jolted(const Model& model, const Energy& energy, double size) {
 
 TEST_CASE("a stack of boxes sinks into itself by the weight above over the stiffness of its contacts", "[solve][bodies]") {
   const bool turned = GENERATE(false, true);
-  Pile pile(5, turned, GENERATE(-5e-3, 1e-3));
-  hold_bodies(pile.model, all_bodies(pile.model), {true, true, false}, {true, true, true});
+  Pile pile(5, turned, GENERATE(-5e-3, 1e-3, 5e-3, 0.2));
+  hold_bodies(pile.model, all_bodies(pile.model), {true, true, false}, {turned, turned, turned});
   Energy energy(pile.model);
   Newton newton(energy);
   State state = jolted(pile.model, energy, 2e-3);
@@ -66,7 +66,7 @@ TEST_CASE("a stack of boxes sinks into itself by the weight above over the stiff
     z += pile.height;
   }
   const Equilibrium e = assess(newton, state, report);
-  CHECK(e.point.stability.zero == 0);
+  CHECK(e.point.stability.zero == (turned ? 0 : 5));             // each may spin
   CHECK(e.point.stability.stable);
   const std::vector<Touch> touches = energy.touches(state);
   CHECK(touches.size() == 4u + (turned ? 8u : 4u) * (pile.n - 1));
@@ -81,12 +81,12 @@ TEST_CASE("a stack of boxes sinks into itself by the weight above over the stiff
 }
 
 TEST_CASE("all methods find the same stack", "[solve][bodies]") {
-  Pile pile(4, false, 1e-3);
+  const std::string name = GENERATE("newton", "ipopt", "LD_LBFGS", "LD_TNEWTON");
+  Pile pile(4, false, name == "newton" ? 0.1 : 2e-3);           // from afar the others end with boxes that have spun over an edge
   hold_bodies(pile.model, all_bodies(pile.model), {true, true, false}, {false, false, false});   // nothing else keeps a box from sliding
   Energy energy(pile.model);
   Newton newton(energy);
-  const std::string name = GENERATE("ipopt", "LD_LBFGS");
-  const Method method = name == "ipopt" ? Method(IpoptOptions{}) : Method(NloptOptions{.algorithm = name});
+  const Method method = name == "newton" ? Method(NewtonOptions{}) : name == "ipopt" ? Method(IpoptOptions{}) : Method(NloptOptions{.algorithm = name});
   State state = jolted(pile.model, energy, 2e-3);
   const Report report = minimise(newton, state, method);
   INFO(name << ": " << report.why << " after " << report.iterations);
@@ -290,7 +290,6 @@ TEST_CASE("a pile of many kinds of bodies comes to rest in a box", "[solve][bodi
   const bool by_ipopt = GENERATE(false, true);
   const Report report = by_ipopt ? minimise(newton, state, IpoptOptions{}) : newton.minimise(state);
   INFO((by_ipopt ? "ipopt: " : "newton: ") << report.why << " after " << report.iterations);
-
   REQUIRE(report.converged());
   CHECK(report.residual <= 1e-10);
   CHECK(assess(newton, state, report).point.stability.stable);
