@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/steady_bodies.hpp"
 
 #include <IpDenseVector.hpp>
 #include <IpIpoptData.hpp>
@@ -249,6 +250,7 @@ bool IpoptProblem::differentiate(const Number* y, bool renewed) {
     gradient_ = energy_.gradient();
     const Vector way = length_ * step_;
     energy_.kinematics().pull_back(energy_.hessian(), gradient_, way), energy_.kinematics().pull_back(gradient_, way);
+    steady_bodies(energy_, gradient_);
     differentiated_ = true;
   }
   return std::isfinite(energy_.last_terms().total());

@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/steady_bodies.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@ namespace elamin {
 namespace {
 
 constexpr int most_unseen = 12;
+constexpr double shortest_part = 1.0 / 32;    // of a step of rigid bodies
 constexpr double lost = 100;                  // extents of the structure: what is that far away comes back no more
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
@@ -79,6 +81,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   int unseen = 0;                                               // steps whose change of energy rounding hid
   State previous;
   bool linearised = false;                                      // previous holds where the last step came from
+  const bool rigid = !energy_.model().bodies.empty();
   for (double moved = 0; ; ++report.iterations) {
     energy_.evaluate(state, true, linearised ? &previous : nullptr);
     ++report.evaluations;
@@ -100,7 +103,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
 
     const Vector g = energy_.gradient();
-    steady_bodies(g);
+    steady_bodies(energy_, g);
     bool left;
     shift = make_convex(state, g, shift, settled, left);
     if (left) {
@@ -108,9 +111,8 @@ Report Newton::minimise(State& state, Pace pace, int most) {
       continue;
     }
     if (settled) return end(Status::not_converged, "a saddle could not be left along its negative curvature");
-    const Step step = step_within(reach, g, shift);
-    const double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), first = turn * free;
-    double alpha = first;
+    Step step = step_within(reach, g, shift);
+    double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), first = turn * free, alpha = first;
     State next;
     // Where rounding hides the energy's change and the model is convex, Newton's step itself is the best there is.
     const bool hidden = std::abs(step.slope) <= step.energy_rounding && shift <= 100 * factors_.zero_level() && ++unseen <= most_unseen;
@@ -121,6 +123,16 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     while (!hidden && !take(state, step, alpha, pace, next)) {
       ++report.evaluations;
       alpha /= 2;
+      if (rigid && alpha < shortest_part * first && alpha * infinity_norm(step.p) > 1e-12 * extent_) {
+        // Contacts open and close on the way: a shorter step, bent to where they are stiff, instead of a small part of a long one.
+        reach = alpha * infinity_norm(step.p);
+        energy_.evaluate(state, true, linearised ? &previous : nullptr);
+        steady_bodies(energy_, g);
+        factors_.try_cholesky(shift);
+        step = step_within(reach, g, shift);
+        turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), alpha = first = turn * free;
+        continue;
+      }
       if (alpha < 1e-12 * first)
         return end(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
             std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",

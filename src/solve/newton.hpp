@@ -39,9 +39,7 @@ struct Plane {
 /// the number of iterations does not grow with slenderness. At an equilibrium both Hessians are the same.
 /// Source: Magisano, Leonetti, Garcea 2017, Int. J. Numer. Meth. Engng 109; turns of a bond are kept below 0.3 a step.
 ///
-/// Rigid bodies slide and spin where nothing but rounding, or a force that the next step takes away, holds them. Far from an
-/// equilibrium their dofs get the stiffness |g|∞/(size/20) besides: nothing drifts farther than a twentieth of its size a step, and
-/// the method stays quadratic in the end (Levenberg and Marquardt's damping, of the size of the residual).
+/// Rigid bodies that nothing holds are kept from drifting by steady_bodies.
 ///
 /// Hertz contacts open and close within a run: the Hessian is continuous, but no more. Steps end before anything passes
 /// through anything (Energy::passage); what overlaps too deeply is driven out by the same method, whose error in an overlap
@@ -90,7 +88,6 @@ class Newton {
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
   std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
-  void steady_bodies(const Vector& g);
   double part_within_turn(const State& state, const Vector& p, double load_change = 0) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);

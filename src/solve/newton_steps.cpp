@@ -17,24 +17,6 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 
 }  // namespace
 
-// A stiffness that vanishes with the residual, on the diagonal of the bodies' dofs; those that nothing holds have their own.
-void Newton::steady_bodies(const Vector& g) {
-  constexpr double part_of_size = 0.05;
-  const Kinematics& kinematics = energy_.kinematics();
-  if (energy_.model().bodies.empty()) return;
-  SparseMatrix& h = energy_.hessian();
-  const double force = infinity_norm(g);
-  auto idle = energy_.idle().begin();
-  for (int d = 0; d < energy_.dofs(); ++d) {
-    if (idle != energy_.idle().end() && *idle == d) {
-      ++idle;
-      continue;
-    }
-    const int site = kinematics.site_of(d);
-    if (kinematics.body_of(site) >= 0) h.valuePtr()[h.outerIndexPtr()[d]] += force / (part_of_size * kinematics.size(site));
-  }
-}
-
 // The part of p that one step may take: turns within reach, nothing longer than the whole …
 double Newton::part_within_turn(const State& state, const Vector& p, double load_change) const {
   constexpr double tiny = std::numeric_limits<double>::min();

@@ -1,0 +1,22 @@
+#include "solve/steady_bodies.hpp"
+
+namespace elamin {
+
+void steady_bodies(Energy& energy, const Vector& g) {
+  constexpr double part_of_size = 0.2;
+  if (energy.model().bodies.empty() || g.size() == 0) return;
+  const Kinematics& kinematics = energy.kinematics();
+  SparseMatrix& h = energy.hessian();
+  const double force = g.cwiseAbs().maxCoeff();
+  auto idle = energy.idle().begin();
+  for (int d = 0; d < energy.dofs(); ++d) {
+    if (idle != energy.idle().end() && *idle == d) {
+      ++idle;
+      continue;
+    }
+    const int site = kinematics.site_of(d);
+    if (kinematics.body_of(site) >= 0) h.valuePtr()[h.outerIndexPtr()[d]] += force / (part_of_size * kinematics.size(site));
+  }
+}
+
+}  // namespace elamin
