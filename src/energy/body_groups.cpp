@@ -24,9 +24,25 @@ double rounded_value(const RoundedPair& table, const RoundedBody& a, const Round
                                                           : RoundedMulti{table.kernel}.value(a, b);
 }
 
+// Elements with n sites that stand in space.
+template <int n>
+class BodyGroup : public ElementGroup {
+ public:
+  int elements() const override { return static_cast<int>(stencils_.size()); }
+  int sites() const override { return n; }
+  std::span<const int> stencil(int element) const override { return stencils_[element]; }
+  bool anchored() const override { return true; }
+  bool unpredicted(const State&, const State&, double*) const override { return false; }
+
+ protected:
+  std::vector<std::array<int, n>> stencils_;
+};
+
 // n = 4: two bodies; 3: a body and a particle, second.
 template <int n>
-class RoundedGroup final : public ElementGroup {
+class RoundedGroup final : public BodyGroup<n> {
+  using BodyGroup<n>::stencils_;
+
  public:
   RoundedGroup(const Model& model, const Kinematics& kinematics, const BodyNeighbours& neighbours, std::vector<IndexPair> pairs)
       : model_(model), rules_(neighbours.rules()), pairs_(std::move(pairs)) {
@@ -43,20 +59,14 @@ class RoundedGroup final : public ElementGroup {
     }
   }
 
-  int elements() const override { return static_cast<int>(stencils_.size()); }
-  int sites() const override { return n; }
-  std::span<const int> stencil(int element) const override { return stencils_[element]; }
-  bool anchored() const override { return true; }
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
-
   void values(const State& state, double* value) const override {
-    parallel_for(elements(), grain, [&](std::int64_t e) {
+    parallel_for(this->elements(), grain, [&](std::int64_t e) {
       value[e] = rounded_value(model_.rounded[table_[e]], first(e, state), second(e, state));
     });
   }
 
   void derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const override {
-    parallel_for(elements(), grain, [&](std::int64_t e) {
+    parallel_for(this->elements(), grain, [&](std::int64_t e) {
       const PairLocal whole = rounded_derivatives(model_.rounded[table_[e]], first(e, state), second(e, state));
       Local<n> u;
       u.value = whole.value;
@@ -79,11 +89,10 @@ class RoundedGroup final : public ElementGroup {
   const BodyRules& rules_;
   std::vector<IndexPair> pairs_;
   std::vector<int> table_;
-  std::vector<std::array<int, n>> stencils_;
   std::vector<std::array<double, n>> levers_;
 };
 
-class BodyWallGroup final : public ElementGroup {
+class BodyWallGroup final : public BodyGroup<2> {
  public:
   BodyWallGroup(const Model& model, const Kinematics& kinematics) : model_(model), kinematics_(kinematics) {
     for (std::size_t w = 0; w < model.walls.size(); ++w) {
@@ -95,11 +104,6 @@ class BodyWallGroup final : public ElementGroup {
     }
   }
 
-  int elements() const override { return static_cast<int>(stencils_.size()); }
-  int sites() const override { return 2; }
-  std::span<const int> stencil(int element) const override { return stencils_[element]; }
-  bool anchored() const override { return true; }
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
   bool moves() const override { return moves_; }
 
   void values(const State& state, double* value) const override {
@@ -128,13 +132,12 @@ class BodyWallGroup final : public ElementGroup {
 
   const Model& model_;
   const Kinematics& kinematics_;
-  std::vector<std::array<int, 2>> stencils_;
   std::vector<int> wall_;
   bool moves_ = false;
 };
 
 // U = −s(λ) F·(x + R arm), or −s(λ) τ·φ.
-class BodyLoadGroup final : public ElementGroup {
+class BodyLoadGroup final : public BodyGroup<2> {
  public:
   BodyLoadGroup(const Model& model, const Kinematics& kinematics) : kinematics_(kinematics) {
     std::vector<int> glue(model.particles(), -1);
@@ -153,11 +156,6 @@ class BodyLoadGroup final : public ElementGroup {
       for (const int p : g.particles) at_particle(p, model.mass(p) * g.acceleration, g.scaling);
   }
 
-  int elements() const override { return static_cast<int>(stencils_.size()); }
-  int sites() const override { return 2; }
-  std::span<const int> stencil(int element) const override { return stencils_[element]; }
-  bool anchored() const override { return true; }
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
   bool moves() const override { return moves_; }
 
   void values(const State& state, double* value) const override {
@@ -202,7 +200,6 @@ class BodyLoadGroup final : public ElementGroup {
   }
 
   const Kinematics& kinematics_;
-  std::vector<std::array<int, 2>> stencils_;
   std::vector<One> loads_;
   bool moves_ = false;
 };

@@ -48,7 +48,8 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
   most = std::min(most, options_.max_iterations);
   if (report.iterations < most) return {};
   const std::string grain = falling(energy_);
-  return Halt{Status::not_converged, fmt::format("{} iterations were not enough; the residual is {:.2g}{}", most,
+  return Halt{Status::not_converged, fmt::format("{} iterations were not enough{}; the residual is {:.2g}{}", most,
+                                                 most == options_.max_iterations ? ", a larger solver.max_iterations may do" : "",
                                                  report.residual, grain.empty() ? "" : "; " + grain + " flies freely under a force")};
 }
 

@@ -26,7 +26,7 @@ struct Pile {
   int n;
   Pile(int count, bool turned, double gap) : n(count) {
     for (int b = 0; b < n; ++b) {
-      const double edge = turned ? 2 : 3 - 0.2 * b;
+      const double edge = turned ? 2 : 3 * std::pow(0.65, b);    // a box that spins stays within the one below
       add_body(model, box_core(Vec3(edge, edge, 1)), radius, pose(Vec3(0, 0, height / 2 + b * height + (b + 1) * gap), Vec3(0, 0, turned && b % 2 ? pi / 4 : 0)), weight);
     }
     add_contacts(model, {k, 0, 0, RoundedKernel::Form::coded});
@@ -82,7 +82,7 @@ TEST_CASE("a stack of boxes sinks into itself by the weight above over the stiff
 
 TEST_CASE("all methods find the same stack", "[solve][bodies]") {
   const std::string name = GENERATE("newton", "ipopt", "LD_LBFGS", "LD_TNEWTON");
-  Pile pile(4, false, name == "newton" ? 0.1 : 2e-3);           // from afar the others end with boxes that have spun over an edge
+  Pile pile(4, false, GENERATE(2e-3, 0.1));
   hold_bodies(pile.model, all_bodies(pile.model), {true, true, false}, {false, false, false});   // nothing else keeps a box from sliding
   Energy energy(pile.model);
   Newton newton(energy);
