@@ -40,9 +40,7 @@ void ContactEquilibrium::linearise(const State& state, const State* from) {
   const int n = energy_.dofs(), m = static_cast<int>(gaps_.size());
   scale_ = 0;
   for (Eigen::Index k = 0; k < h.nonZeros(); ++k) scale_ = std::max(scale_, std::abs(h.valuePtr()[k]));
-  double thinnest = std::numeric_limits<double>::infinity();
-  thinnest = energy_.kinematics().smallest_size();
-  scale_ = std::max(scale_, energy_.force_scale() / thinnest);
+  scale_ = std::max(scale_, energy_.force_scale() / energy_.kinematics().smallest_size());
   if (!(scale_ > 0 && std::isfinite(scale_))) scale_ = 1;
 
   std::vector<Eigen::Triplet<double>> entries;
