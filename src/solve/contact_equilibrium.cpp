@@ -20,6 +20,7 @@ constexpr double gap_rounding = 1e-13;         // of a diameter
 constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
 
 const char* const too_far = "there is no equilibrium near enough";
+const char* const singular = "nothing holds what can move here: the equations are singular, with any shift";
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -68,6 +69,11 @@ bool ContactEquilibrium::factorize(double shift) {
   if (shift != 0)
     for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] -= shift;
   return done;
+}
+
+// A factor of the system as it is, or with a small shift where that is singular to rounding.
+bool ContactEquilibrium::factorize_near() {
+  return first_shift(0, 16 * factors_.zero_level(), 4, [&](double shift) { return factorize(shift); }).has_value();
 }
 
 // p, Δf of H p − Jᵀ Δf = b, J p = c.
@@ -119,8 +125,7 @@ Report ContactEquilibrium::settle(State& state, double tolerance, const State* f
     }
     Vector gaps(static_cast<Eigen::Index>(gaps_.size()));
     for (std::size_t k = 0; k < gaps_.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value;
-    double shift = 0;
-    while (!factorize(shift)) shift = shift > 0 ? 4 * shift : 16 * factors_.zero_level();
+    if (!factorize_near()) return interrupted() ? end(Status::interrupted, "interrupted") : end(Status::not_converged, singular);
     ++report.factorizations;
     Step step = solve(-energy_.gradient(), -gaps);
     if (!step.p.allFinite()) return end(Status::not_converged, "the equations have no solution");
@@ -176,14 +181,12 @@ Inertia ContactEquilibrium::inertia(const State& state) {
   linearise(state, nullptr);
   const double sigma = factors_.zero_level();
   const int contacts = static_cast<int>(gaps_.size());
-  const auto negative = [&](double shift) {
-    while (!factorize(shift)) shift *= 1.5;
-    return pivoted_.negative() - contacts;
-  };
-  Inertia inertia;
-  inertia.negative = negative(sigma);
-  inertia.zero = std::max(0, negative(-sigma) - inertia.negative);
-  return inertia;
+  const auto factor_at = [&](double shift) { return first_shift(shift, 1.5 * shift, 1.5, [&](double s) { return factorize(s); }).has_value(); };
+  Inertia inertia{0, energy_.dofs()};
+  if (!factor_at(sigma)) return inertia;
+  const int below = pivoted_.negative() - contacts;
+  if (!factor_at(-sigma)) return inertia;
+  return {below, std::max(0, pivoted_.negative() - contacts - below)};
 }
 
 ContactEquilibrium::Tangent ContactEquilibrium::tangent(const State& state) {
@@ -195,8 +198,7 @@ ContactEquilibrium::Tangent ContactEquilibrium::tangent(const State& state) {
       rate += gaps_[k].gradient.segment<3>(3 * i).dot(energy_.kinematics().drive(gaps_[k].site[i]));
     rates[static_cast<Eigen::Index>(k)] = rate;
   }
-  double shift = 0;
-  while (!factorize(shift)) shift = shift > 0 ? 4 * shift : 16 * factors_.zero_level();
+  if (!factorize_near()) return {Vector::Zero(energy_.dofs()), Vector::Zero(rates.size())};
   const Step step = solve(-energy_.load_derivative(), -rates);
   return {step.p, step.force};
 }
@@ -206,13 +208,13 @@ EigenPairs ContactEquilibrium::lowest(const State& state, int count) {
   const int n = energy_.dofs(), contacts = static_cast<int>(gaps_.size());
   const Eigen::Index block = std::min(std::max(1, n - contacts), count + 3);
   count = std::min(count, static_cast<int>(block));
-  double shift = factors_.zero_level();                    // one that leaves nothing negative
-  while (!factorize(shift) || pivoted_.negative() > contacts) shift *= 8;
+  const double sigma = factors_.zero_level();
+  const auto positive = first_shift(sigma, 8 * sigma, 8, [&](double s) { return factorize(s) && pivoted_.negative() <= contacts; });
   Eigen::MatrixXd x(n, block), hx(n, block);
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::sin(1 + 12.9898 * static_cast<double>(i));
   const Vector none = Vector::Zero(contacts);
   Vector values = Vector::Zero(block), before;
-  for (int k = 0; k < 100; ++k) {
+  for (int k = 0; positive && k < 100 && !interrupted(); ++k) {
     for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve(x.col(j).normalized(), none).p;
     x = Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(n, block);
     for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));

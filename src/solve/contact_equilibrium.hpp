@@ -43,6 +43,7 @@ class ContactEquilibrium {
   struct Step { Vector p, force; };
   void linearise(const State& state, const State* from);
   bool factorize(double shift);
+  bool factorize_near();
   Step solve(const Vector& b, const Vector& c);
   double worst_gap(const State& state) const;
 

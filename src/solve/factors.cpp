@@ -1,11 +1,12 @@
 #include "solve/factors.hpp"
 
+#include "core/interrupt.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace elamin {
@@ -55,11 +56,20 @@ bool Factors::try_pivoted(double shift) {
 }
 
 // The pivoted factor of H + shift I, or with a shift a little larger where that is singular to rounding itself.
-void Factors::pivot_near(double shift) {
-  while (!try_pivoted(shift)) shift *= 1.5;
+bool Factors::pivot_near(double first, double next) {
+  return first_shift(first, next, 1.5, [&](double shift) { return try_pivoted(shift); }).has_value();
 }
 
-void Factors::factorize_holding(const Eigen::MatrixXd& held) {
+std::string Factors::why_none() const {
+  const SparseMatrix& h = energy_.hessian();
+  const Eigen::Map<const Vector> entries(h.valuePtr(), h.nonZeros());
+  if (!entries.allFinite()) return "the Hessian has entries that are not finite: the energy has no second derivatives here";
+  if (h.cols() > 0 && (entries.array() == 0).all()) return "the Hessian is zero: nothing here has a stiffness";
+  if (interrupted()) return "interrupted";
+  return "";
+}
+
+bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
   if (held.cols() > 0) {
     ++factorizations_;
     if (!bordered_) bordered_ = std::make_unique<PivotedFactor>();
@@ -67,19 +77,19 @@ void Factors::factorize_holding(const Eigen::MatrixXd& held) {
       bordered_->analyze(energy_.hessian(), static_cast<int>(held.cols()));
       bordered_version_ = energy_.pattern_version(), borders_ = held.cols();
     }
-    double shift = 0;
-    while (!bordered_->factorize(energy_.hessian(), shift, held)) shift = shift > 0 ? 2 * shift : zero_level();
-    holder_ = Holder::bordered;
+    const auto done = first_shift(0, zero_level(), 2, [&](double shift) { return bordered_->factorize(energy_.hessian(), shift, held); });
+    holder_ = done ? Holder::bordered : Holder::none;
   } else if (!indefinite_ && try_cholesky(0)) {
     holder_ = Holder::cholesky;
   } else {
-    if (!try_pivoted(0)) pivot_near(zero_level());
-    holder_ = Holder::pivoted;
+    holder_ = pivot_near(0, zero_level()) ? Holder::pivoted : Holder::none;
   }
+  return holder_ != Holder::none;
 }
 
 Vector Factors::solve_holding(const Vector& b) {
   switch (holder_) {
+    case Holder::none: return Vector::Zero(b.size());
     case Holder::cholesky: return cholesky_.solve(b);
     case Holder::pivoted: return pivoted().solve(b);
     case Holder::bordered: break;
@@ -119,13 +129,15 @@ Inertia Factors::inertia() {
   indefinite_ = false;
   holder_ = Holder::cholesky;
   if (try_cholesky(-sigma)) return {};
-  holder_ = Holder::pivoted;
+  holder_ = Holder::none;
   inertia.negative = 0;
+  const Inertia unknown{0, energy_.dofs()};
   if (!try_cholesky(sigma)) {
-    pivot_near(sigma);
+    if (!pivot_near(sigma, 1.5 * sigma)) return unknown;
     inertia.negative = pivoted().negative();
   }
-  pivot_near(-sigma);
+  if (!pivot_near(-sigma, -1.5 * sigma)) return unknown;
+  holder_ = Holder::pivoted;
   inertia.zero = std::max(0, pivoted().negative() - inertia.negative);
   indefinite_ = inertia.negative > 0;
   return inertia;
@@ -144,25 +156,24 @@ double Factors::smallest() {
   return estimate;
 }
 
-double Factors::make_positive(double guess) {
+std::optional<double> Factors::make_positive(double guess) {
   if (try_cholesky(0)) return 0;
   const double sigma = zero_level();
-  if (try_cholesky(sigma)) return sigma;
-  double shift = std::max(guess, 16 * sigma);
-  while (!try_cholesky(shift)) {
-    shift *= 32;
-    if (!std::isfinite(shift)) throw std::runtime_error("the Hessian has entries that are not finite");
-  }
-  return shift;
+  return first_shift(sigma, std::max(guess, 16 * sigma), 32, [&](double shift) { return try_cholesky(shift); });
+}
+
+std::optional<double> Factors::make_positive_from(double shift, double growth) {
+  const double first = std::max(shift, 0.0);
+  return first_shift(first, first > 0 ? growth * first : zero_level(), growth, [&](double s) { return try_cholesky(s); });
 }
 
 EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held) {
   constexpr int most = 12;
   const Eigen::Index block = start.cols();
-  factorize_holding(held);
+  if (!factorize_holding(held)) return {Vector::Zero(block), start};
   Eigen::MatrixXd x = start, hx(start.rows(), block);
   Vector values = Vector::Zero(block);
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < most && !interrupted(); ++k) {
     for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve_holding(x.col(j).normalized());
     x = orthonormal(x);
     for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));
@@ -185,13 +196,17 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
   const int block = std::min(n, count + 4);
   if (count == 0) return {Vector(0), Eigen::MatrixXd(n, 0)};
 
-  double shift = guess;
-  if (!(guess > 0 && try_cholesky(guess))) shift = make_positive(guess);
   Eigen::MatrixXd x = starting_block(n, block);
+  double shift = guess;
+  if (!(guess > 0 && try_cholesky(guess))) {
+    const std::optional<double> positive = make_positive(guess);
+    if (!positive) return {Vector::Zero(count), orthonormal(x).leftCols(count)};
+    shift = *positive;
+  }
   if (start.rows() == n) x.leftCols(std::min<Eigen::Index>(block, start.cols())) = start.leftCols(std::min<Eigen::Index>(block, start.cols()));
   Vector values = Vector::Zero(block), before;
   const int settle = 3, most = 200;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < most && !interrupted(); ++k) {
     x = orthonormal(cholesky_.solve(x));
     Eigen::MatrixXd hx(n, block);
     for (int j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));
@@ -203,8 +218,9 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
     const double change = (values - before).head(count).cwiseAbs().maxCoeff();
     if (k >= settle && change <= accuracy * std::max(std::abs(values[0]), std::abs(values[count - 1])) + zero_level() / 64) break;
     if (k == settle && values[0] < 0 && shift > -4 * values[0]) {   // the first shift was a guess: come closer
-      shift = -1.5 * values[0];
-      while (!try_cholesky(shift)) shift *= 2;
+      const std::optional<double> closer = make_positive_from(-1.5 * values[0]);
+      if (!closer) break;
+      shift = *closer;
     }
   }
   EigenPairs pairs{values.head(count), x.leftCols(count)};

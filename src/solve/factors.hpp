@@ -3,6 +3,10 @@
 #include "energy/energy.hpp"
 #include "solve/cholesky.hpp"
 #include "solve/pivoted.hpp"
+#include "solve/shifts.hpp"
+
+#include <optional>
+#include <string>
 
 namespace elamin {
 
@@ -31,8 +35,12 @@ class Factors {
   /// within σ for solve_holding, which is of use if no eigenvalue is zero.
   Inertia inertia();
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
-  /// it positive definite; returns τ.  The factor is then in cholesky().
-  double make_positive(double guess);
+  /// it positive definite; returns τ.  The factor is then in cholesky(). None where there is no such thing: see why_none().
+  std::optional<double> make_positive(double guess);
+  /// The same from `shift` on, `growth` times larger each time: first_shift() of try_cholesky().
+  std::optional<double> make_positive_from(double shift, double growth = 2);
+  /// Why no factor of the Hessian can be made, of whatever shift: "" if one can.
+  std::string why_none() const;
   /// The `count` lowest eigenpairs, by block inverse iteration with Rayleigh–Ritz on a few guard vectors more, which
   /// finds multiple eigenvalues as such; values are Rayleigh quotients formed element by element (Energy::quadratic_form).
   /// `guess`: a shift that may make the Hessian positive definite, as of make_positive. `accuracy`: of the eigenvalues,
@@ -46,8 +54,8 @@ class Factors {
   /// Factorises the Hessian as it is, definite or not, for solutions of
   ///   H p + Z μ = b,   Zᵀ p = 0
   /// where the columns of `held` (orthonormal, dofs × m) keep still: zero modes, critical modes. H may be singular along
-  /// them.
-  void factorize_holding(const Eigen::MatrixXd& held);
+  /// them. False if there is no factor (see why_none); all solutions are then zero.
+  bool factorize_holding(const Eigen::MatrixXd& held);
   /// p of the system above; the factors must be those of factorize_holding (or of inertia, then Z is empty).
   Vector solve_holding(const Vector& b);
   /// (p, δ) of the system that has one row and one column more, in the space orthogonal to `held`,
@@ -68,7 +76,7 @@ class Factors {
   bool try_pivoted(double shift);
 
  private:
-  void pivot_near(double shift);
+  bool pivot_near(double first, double next);
   double smallest();
   Energy& energy_;
   double stiffest_ = 0;                          // bond with a free end [force/length]
@@ -78,7 +86,7 @@ class Factors {
   Eigen::Index borders_ = 0;                     // of bordered_
   int factorizations_ = 0;
   bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first
-  enum class Holder { cholesky, pivoted, bordered } holder_ = Holder::cholesky;   // of the factor of factorize_holding
+  enum class Holder { none, cholesky, pivoted, bordered } holder_ = Holder::cholesky;   // of the factor of factorize_holding
 };
 
 }  // namespace elamin

@@ -53,6 +53,13 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
                                                  report.residual, grain.empty() ? "" : "; " + grain + " flies freely under a force")};
 }
 
+// What no shift makes a factor of.
+std::optional<Newton::Halt> Newton::no_factor() const {
+  std::string why = factors_.why_none();
+  if (why.empty()) return {};
+  return Halt{interrupted() ? Status::interrupted : Status::not_converged, std::move(why)};
+}
+
 // The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual.
 void Newton::polish(State& state, Report& report, const std::function<void(State&)>& step) {
   constexpr int most_polishing = 4;
@@ -77,6 +84,10 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
     return finish(state, report, {status, std::move(why)});
   };
+  const auto without_factor = [&] {
+    const auto halt = no_factor();
+    return halt ? end(halt->status, halt->why) : end(Status::not_converged, "no shift makes the Hessian positive definite");
+  };
   double shift = 0;                                             // the last one: a guess for the next
   double reach = extent_;                                       // of a step, as far as the last ones could be taken
   int unseen = 0;                                               // steps whose change of energy rounding hid
@@ -88,6 +99,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     ++report.evaluations;
     record(report, moved, shift);
     const bool settled = report.residual <= options_.tolerance;
+    if (const auto halt = no_factor(); halt && std::isfinite(report.energy)) return end(halt->status, halt->why);
     if (settled) {
       if (linearised) energy_.evaluate(state);
       const Inertia inertia = factors_.inertia();
@@ -106,13 +118,17 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     const Vector g = energy_.gradient();
     steady_bodies(energy_, g);
     bool left;
-    shift = make_convex(state, g, shift, settled, left);
+    const std::optional<double> convex = make_convex(state, g, shift, settled, left);
+    if (!convex) return without_factor();
+    shift = *convex;
     if (left) {
       linearised = false;
       continue;
     }
     if (settled) return end(Status::not_converged, "a saddle could not be left along its negative curvature");
-    Step step = step_within(reach, g, shift);
+    std::optional<Step> within = step_within(reach, g, shift);
+    if (!within) return without_factor();
+    Step step = *within;
     double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), first = turn * free, alpha = first;
     State next;
     // Where rounding hides the energy's change and the model is convex, Newton's step itself is the best there is.
@@ -123,6 +139,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
     }
     while (!hidden && !take(state, step, alpha, pace, next)) {
       ++report.evaluations;
+      if (interrupted()) return end(Status::interrupted, "interrupted");
       alpha /= 2;
       if (rigid && alpha < shortest_part * first && alpha * infinity_norm(step.p) > 1e-12 * extent_) {
         // Contacts open and close on the way: a shorter step, bent to where they are stiff, instead of a small part of a long one.
@@ -130,7 +147,8 @@ Report Newton::minimise(State& state, Pace pace, int most) {
         energy_.evaluate(state, true, linearised ? &previous : nullptr);
         steady_bodies(energy_, g);
         factors_.try_cholesky(shift);
-        step = step_within(reach, g, shift);
+        if (!(within = step_within(reach, g, shift))) return without_factor();
+        step = *within;
         turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), alpha = first = turn * free;
         continue;
       }
@@ -184,7 +202,10 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const bool settled = report.residual <= options_.tolerance;
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
-    factors_.factorize_holding(held);
+    if (!factors_.factorize_holding(held)) {
+      const auto halt = no_factor();
+      return halt ? end(halt->status, halt->why) : end(Status::not_converged, "the Hessian is singular, with any shift");
+    }
     if (plane) column = energy_.load_derivative();
     if (settled) {
       if (!guided) polish(state, report, [&](State& next) { move(next, solve(energy_.gradient()), 1); });

@@ -88,14 +88,15 @@ class Newton {
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
   std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
+  std::optional<Halt> no_factor() const;
   double part_within_turn(const State& state, const Vector& p, double load_change = 0) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
-  Step step_within(double reach, const Vector& g, double& shift);
+  std::optional<Step> step_within(double reach, const Vector& g, double& shift);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
   bool take_downhill(const State& from, const Step& step, double alpha, State& to);
   bool take_long(const State& from, const Step& step, double alpha, State& to);
-  double make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
+  std::optional<double> make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
   void polish(State& state, Report& report, const std::function<void(State&)>& step);
 
   Energy& energy_;

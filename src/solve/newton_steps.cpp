@@ -1,5 +1,6 @@
 #include "solve/newton.hpp"
 
+#include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 
 #include <limits>
@@ -80,10 +81,12 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
 }
 
 // Leaves a factor of H + τI, positive definite, and returns τ. Where H is indefinite τ is of the size of its lowest
-// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`).
-double Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool& left) {
+// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`). None: there is no factor.
+std::optional<double> Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool& left) {
   left = false;
-  double shift = factors_.make_positive(guess / 4);
+  const std::optional<double> positive = factors_.make_positive(guess / 4);
+  if (!positive) return {};
+  double shift = *positive;
   const double sigma = factors_.zero_level();
   if (shift > sigma) {
     const EigenPairs lowest = settled ? factors_.lowest(1, shift) : factors_.lowest(1, shift, 0.1);
@@ -93,32 +96,26 @@ double Newton::make_convex(State& state, const Vector& g, double guess, bool set
       energy_.evaluate(state);
     }
     const double convex = shift;                                // with which there was a factor
-    shift = lowest.values[0] < 0 ? -2 * lowest.values[0] : convex;
-    while (shift < convex && !factors_.try_cholesky(shift)) shift *= 2;
-    if (shift >= convex) factors_.try_cholesky(shift = convex);
-  } else if (shift > 0) {                                       // a zero mode: rounding alone would fill the step with it
-    shift = 100 * sigma;
-    factors_.try_cholesky(shift);
+    return factors_.make_positive_from(lowest.values[0] < 0 ? std::min(-2 * lowest.values[0], convex) : convex);
   }
-  return shift;
+  return shift > 0 ? factors_.make_positive_from(100 * sigma) : shift;   // a zero mode: rounding alone would fill the step with it
 }
 
 // The Newton step, with a shift τ so large that no dof moves by more than about `reach`: along a direction that has a force
 // but hardly a stiffness, as of a grain that must slide, the step would be of no use however it is cut.
-Newton::Step Newton::step_within(double reach, const Vector& g, double& shift) {
+std::optional<Newton::Step> Newton::step_within(double reach, const Vector& g, double& shift) {
   Step step = newton_step(g, shift);
   while (infinity_norm(step.p) > 2 * reach) {
-    shift = std::max(4 * shift, infinity_norm(g) / (4 * reach));
-    if (!factors_.try_cholesky(shift)) continue;
-    step = newton_step(g, shift);
+    const std::optional<double> stiffer = factors_.make_positive_from(std::max(4 * shift, infinity_norm(g) / (4 * reach)), 4);
+    if (!stiffer) return {};
+    step = newton_step(g, shift = *stiffer);
   }
   return step;
 }
 
 bool Newton::leave_saddle(State& state, const Vector& direction) {
   energy_.evaluate(state);
-  const double shift = std::max(-2 * energy_.quadratic_form(direction) / direction.squaredNorm(), 0.0);
-  for (double s = shift; !factors_.try_cholesky(s); s = std::max(2 * s, factors_.zero_level())) {}
+  if (!factors_.make_positive_from(-2 * energy_.quadratic_form(direction) / direction.squaredNorm())) return false;
   Step step;
   const double turn = distortion(energy_, state, direction), unit = turn > 0 ? turn : movement(energy_, direction);
   if (!(unit > 0)) return false;
@@ -134,7 +131,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
-  for (double alpha = 1e-3; alpha <= farthest; alpha *= 2) {       // as far as it goes down
+  for (double alpha = 1e-3; alpha <= farthest && !interrupted(); alpha *= 2) {       // as far as it goes down
     if (!take(state, step, alpha, Pace::downhill, next)) break;
     const double e = energy_.last_terms().total();
     if (!(e < lowest)) break;
