@@ -2,17 +2,13 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 
 #include <limits>
 
 namespace elamin {
 
 namespace {
-
-constexpr double largest_turn = 0.3;          // of a bond in one step: rotations stay within the series' reach
-constexpr double armijo = 0.1;                // part of the predicted decrease that must come true
-constexpr int most_corrections = 6;
-constexpr double contraction = 0.7;           // corrections must shrink at least so, or the step is too long
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -21,7 +17,7 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 // The part of p that one step may take: turns within reach, nothing longer than the whole …
 double Newton::part_within_turn(const State& state, const Vector& p, double load_change) const {
   constexpr double tiny = std::numeric_limits<double>::min();
-  return std::min({1.0, largest_turn / std::max(distortion(energy_, state, p, load_change), tiny),
+  return std::min({1.0, limits::largest_turn / std::max(distortion(energy_, state, p, load_change), tiny),
                    extent_ / std::max(infinity_norm(p), tiny)});
 }
 
@@ -57,7 +53,7 @@ bool Newton::take_long(const State& from, const Step& step, double alpha, State&
   const double change = energy_.last_terms().total() - step.energy;
   if (!std::isfinite(change)) return false;
   if (step.hidden(alpha)) return infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g);
-  const double wanted = armijo * step.predicted(alpha);
+  const double wanted = limits::armijo * step.predicted(alpha);
   return change <= wanted || change - energy_.unpredicted(to, from) <= wanted;
 }
 
@@ -69,12 +65,12 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
     const double change = energy_.last_terms().total() - step.energy;
     if (!std::isfinite(change)) return false;
     const bool falls = step.hidden(alpha) ? infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g)
-                                          : change <= armijo * step.predicted(alpha);
+                                          : change <= limits::armijo * step.predicted(alpha);
     if (falls) return k == 0 || energy_.passage(from, to) == 1;
     Vector correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
     if (step.keep_direction) correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
     const double size = correction.norm();
-    if (!(size <= contraction * last) || k == most_corrections) return false;
+    if (!(size <= limits::contraction * last) || k == limits::most_corrections) return false;
     last = size;
     energy_.kinematics().retract(to, correction);
   }
@@ -98,7 +94,7 @@ std::optional<double> Newton::make_convex(State& state, const Vector& g, double 
     const double convex = shift;                                // with which there was a factor
     return factors_.make_positive_from(lowest.values[0] < 0 ? std::min(-2 * lowest.values[0], convex) : convex);
   }
-  return shift > 0 ? factors_.make_positive_from(100 * sigma) : shift;   // a zero mode: rounding alone would fill the step with it
+  return shift > 0 ? factors_.make_positive_from(limits::hold_zero_modes * sigma) : shift;   // a zero mode: rounding alone would fill the step with it
 }
 
 // The Newton step, with a shift τ so large that no dof moves by more than about `reach`: along a direction that has a force
@@ -127,7 +123,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
   step.keep_direction = true;
   if (!(step.curvature < 0)) return false;
-  const double farthest = free_part(state, step.p, largest_turn) * largest_turn;
+  const double farthest = free_part(state, step.p, limits::largest_turn) * limits::largest_turn;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
