@@ -12,6 +12,8 @@ namespace elamin {
 
 namespace {
 
+constexpr double orthogonal = 1e-5;           // of a load to a critical mode, where nothing else tells limit from branch points
+
 // The lowest eigenpairs at the equilibrium without the known zero modes Z: of the span V of so many eigenvectors more as
 // there are known ones, what is orthogonal to VᵀZ. So it does not matter how a critical mode and a zero mode mix where
 // their eigenvalues meet, and the stiff directions, in which Z is not exact beside its own state, stay out.
@@ -67,10 +69,10 @@ Eigen::MatrixXd persistent(const Equilibrium& a, const Equilibrium& b) {
   return a.zero_modes.cols() <= b.zero_modes.cols() ? a.zero_modes : b.zero_modes;
 }
 
-// The load does work along a critical mode: then the branch turns there.
-bool is_limit(const Eigen::MatrixXd& modes, const Vector& load_derivative) {
-  constexpr double orthogonal = 1e-5;
-  return modes.cols() == 1 && modes.rows() > 0 && (modes.transpose() * load_derivative).norm() > orthogonal * load_derivative.norm();
+// How much of the load does work along a critical mode: none at a branch point.
+double work_along(const Eigen::MatrixXd& modes, const Vector& load_derivative) {
+  const double load = load_derivative.norm();
+  return load > 0 && modes.rows() > 0 ? (modes.transpose() * load_derivative).norm() / load : 0.0;
 }
 
 // Of the eigenvectors that are known of an equilibrium those with eigenvalues up to ± `most`, orthogonal to the zero modes.
@@ -93,11 +95,13 @@ void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, co
   e.tangent = newton.factors().solve_holding(-newton.energy().load_derivative());
 }
 
-Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known) {
+// turns: of the load factor on the segment; nothing: it does not tell.
+Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known, std::optional<bool> turns) {
   Event event;
   event.modes = critical_modes(newton, at, index, scale, known);
   newton.energy().evaluate(at.point.state);
-  event.kind = is_limit(event.modes, newton.energy().load_derivative()) ? EventKind::limit : EventKind::branch;
+  const bool limit = turns.value_or(work_along(event.modes, newton.energy().load_derivative()) > orthogonal);
+  event.kind = limit && event.modes.cols() == 1 ? EventKind::limit : EventKind::branch;
   hold_modes(newton, at, known, event.kind == EventKind::branch ? event.modes : Eigen::MatrixXd());
   at.point.multiplicity = static_cast<int>(event.modes.cols());
   at.point.stability.stable = false;
@@ -108,30 +112,33 @@ Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eige
 
 }  // namespace
 
-std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b) {
+Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns) {
   const int after = b.point.stability.negative;
   const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
+  const std::optional<bool> told = std::abs(after - before) == 1 ? std::optional(turns) : std::nullopt;
   const Eigen::MatrixXd known = persistent(a, b);
   Equilibrium first = a, second = b;
   first.zero_modes = second.zero_modes = known;
   const auto done = [&](Event event, double parameter) {
     event.at_parameter = parameter, event.before = before;
     event.after = before + (after > before ? 1 : -1) * std::max(1, static_cast<int>(event.modes.cols()));
-    return event;
+    return event.modes.cols() > 0 ? Crossing{std::move(event), {}, 0} : Crossing{};
   };
   Sample lower{segment.a, eigenvalue(newton, first, index), first};
   if (std::abs(lower.f) <= newton.factors().zero_level() && a.point.stability.critical > 0)       // a is the event itself
-    return done(finish(newton, first, index, newton.factors().zero_level(), known), segment.a);
+    return done(finish(newton, first, index, newton.factors().zero_level(), known, told), segment.a);
   Sample upper{segment.b, eigenvalue(newton, second, index), second};
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   const double resolution = 1e-13 * std::abs(segment.b - segment.a);
+  const bool was_negative = lower.f < 0;
+  Crossing jumps;
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     // The critical modes of a branch point keep still along the branch. Held there, the equations are regular.
     Equilibrium start = from.e, e;
-    const Eigen::MatrixXd modes = soft_modes(start, 2 * std::abs(from.f), known);
+    const Eigen::MatrixXd modes = turns && told ? Eigen::MatrixXd() : soft_modes(start, 2 * std::abs(from.f), known);
     newton.energy().evaluate(start.point.state);
-    if (modes.cols() > 0 && !is_limit(modes, newton.energy().load_derivative())) {
+    if (modes.cols() > 0 && (told || work_along(modes, newton.energy().load_derivative()) <= orthogonal)) {
       start.zero_modes = side_by_side(known, modes);
       start.tangent -= modes * (modes.transpose() * start.tangent);
       e = segment.at(t, start);
@@ -142,11 +149,11 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     if (!e.point.report.converged() || e.point.report.residual > rounding) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
     const double value = critical_value(newton, e, index);
+    if ((value < 0) == was_negative && (!jumps.before || t > jumps.before_parameter)) jumps.before = e, jumps.before_parameter = t;
     return Sample{t, value, std::move(e)};
   });
-  // A jump over zero, from one branch to another next to it, is none.
-  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return {};
-  return done(finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known), zero->t);
+  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return jumps;
+  return done(finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told), zero->t);
 }
 
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
@@ -163,23 +170,38 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
   return event_at(zero->e, zero->t);
 }
 
-std::optional<Event> locate_watch(const std::vector<Watch>& watches, const std::vector<double>& side, Segment segment,
-                                  const Equilibrium& a, const Equilibrium& b, int negative) {
-  std::optional<Event> first;
-  Equilibrium last = b;
+std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::vector<double>& sides, const Segment& segment,
+                                  const Equilibrium& a, const Equilibrium& b, int negative, bool& missed) {
+  std::vector<Event> first;
+  const double together = coincide * std::abs(segment.b - segment.a);
   for (std::size_t k = 0; k < watches.size(); ++k) {
     const Watch& w = watches[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
-    const double there = w.side(last.point.state);
-    if (side[k] == 0 || (there != 0 && (side[k] < 0) == (there < 0)) || (f(a) < 0) != (side[k] < 0)) continue;
-    std::optional<Event> event = there == 0 ? event_at(last, segment.b) : locate_root(segment, a, last, f);
-    if (!event) continue;
+    const double there = w.side(b.point.state);
+    if (sides[k] == 0 || (there != 0 && (sides[k] < 0) == (there < 0))) continue;
+    if ((f(a) < 0) != (sides[k] < 0)) continue;                // it changes within rounding of `a`, where it has been told
+    std::optional<Event> event = there == 0 ? event_at(b, segment.b) : locate_root(segment, a, b, f);
+    if (!event) {
+      missed = true;
+      continue;
+    }
     event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
     event->before = event->after = negative;
-    segment.b = event->at_parameter, last = event->at;
-    first = std::move(event);
+    const double lead = first.empty() ? 0.0 : event->at_parameter - first.front().at_parameter;
+    if (lead > together) continue;
+    if (lead < -together) first.clear();
+    first.push_back(std::move(*event));
   }
   return first;
+}
+
+void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& passed, const State& state, std::vector<double>& sides) {
+  for (std::size_t k = 0; k < watches.size(); ++k) {
+    const auto is = [&](const Event& e) { return e.kind == EventKind::watch && e.watch == static_cast<int>(k); };
+    const double here = watches[k].side(state);
+    if (std::any_of(passed.begin(), passed.end(), is)) sides[k] = -sides[k];
+    else if (here != 0) sides[k] = here;                       // at the value without passing it: it stays on its side
+  }
 }
 
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
@@ -230,8 +252,9 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     Equilibrium before = continue_to(newton, at, load - part), after = continue_to(newton, at, load + part);
     if (!before.point.report.converged() || !after.point.report.converged()) return {};
     if (before.point.stability.negative == after.point.stability.negative) continue;
-    const Segment along{load - part, load + part, [&](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); }};
-    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after);
+    const Segment along{load - part, load + part, [&](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); },
+                        [](const State& s) { return s.load_factor; }};
+    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, false).event;
     if (!event || event->kind == EventKind::limit) return {};
     event->at_parameter = position(event->at.point.state);
     if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};

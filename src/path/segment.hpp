@@ -10,6 +10,14 @@ struct Segment {
   double a = 0, b = 0;                 // parameters of its ends
   /// The equilibrium at a parameter between, computed from one that is near; not converged if there is none to be had.
   std::function<Equilibrium(double parameter, const Equilibrium& nearest)> at;
+  std::function<double(const State&)> parameter;   // of a state
 };
+
+/// Whether an equilibrium computed between two of a branch lies beside their chord: on another branch it would not.
+inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, double part, const State& between) {
+  constexpr double widest = 0.5;       // of the chord: a branch that is resolved bends less
+  const Vector chord = kinematics.difference(a, b);
+  return (kinematics.difference(a, between) - part * chord).norm() <= widest * chord.norm();
+}
 
 }  // namespace elamin
