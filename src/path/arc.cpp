@@ -64,6 +64,16 @@ Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
   return report.converged() && energy.passage(nearest.point.state, state) < 1 ? blocked : report;
 }
 
+Report Arc::settle(State& state, const Eigen::MatrixXd& held) const {
+  Plane across = plane();
+  return newton_.correct(state, held, nullptr, most_iterations, &across);
+}
+
+double Arc::load_rate(const Equilibrium& e) const {
+  const Direction d = along(e);
+  return d.load / std::max(cosine(d, direction_, metric_), least_cosine);
+}
+
 Equilibrium Arc::at(double s, const Equilibrium& nearest) const {
   State state;
   const Report report = correct(state, s, nearest);

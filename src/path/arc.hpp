@@ -40,6 +40,10 @@ class Arc {
   Equilibrium at(double s, const Equilibrium& nearest) const;
   /// The state of it alone, without what is known of the equilibrium there.
   Report correct(State& state, double s, const Equilibrium& nearest) const;
+  /// The equilibrium at the arc length of a state that is near to it, some directions (dofs × m) held.
+  Report settle(State& state, const Eigen::MatrixXd& held) const;
+  /// dλ/ds of the branch at an equilibrium.
+  double load_rate(const Equilibrium& e) const;
   /// s of an equilibrium, and how far the state lies from the branch's tangent at `from`, in the metric.
   double position(const State& state) const;
   double distance(const State& state) const;

@@ -140,7 +140,8 @@ void HeldSteps::step() {
   if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) return halve(target, "the corrector went to another branch");
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
   bool missed = false;
-  const Segment segment{here, target, between, [](const State& state) { return state.load_factor; }};
+  Segment segment = segment_of_loads(newton_, here, target);
+  segment.at = between;
   std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, candidate, after, missed);
   if (missed && halvings_ < finest) return halve(target, "where an observable reaches its value could not be located");
   if (!seen.empty()) {

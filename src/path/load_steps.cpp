@@ -97,7 +97,8 @@ void LoadSteps::step() {
       e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
     return e;
   };
-  Segment segment{here, target, between, [](const State& state) { return state.load_factor; }};
+  Segment segment = segment_of_loads(newton_, here, target);
+  segment.at = between;
   std::optional<Event> event;
   std::optional<ContactChange> contact;
   bool accepted = candidate.point.report.converged();
@@ -245,20 +246,21 @@ void LoadSteps::lose_stability(Event event, double target) {
   pass(event, target);
 }
 
-// Over a branch point along the tangent: the critical modes keep still, so that the branch is not left.
+// Over a branch point along the tangent: to where the Morse index is the one beyond, with the critical modes free, or held where that
+// leads to another branch.
 void LoadSteps::pass(const Event& event, double target) {
   const double at = event.at.point.state.load_factor;
-  Equilibrium start = event.at;
-  const Eigen::MatrixXd held = side_by_side(start.zero_modes, event.modes);
-  const Eigen::MatrixXd zero_modes = start.zero_modes;
-  start.zero_modes = held;
+  Equilibrium free = event.at, held = event.at;
+  held.zero_modes = side_by_side(held.zero_modes, event.modes);
   Equilibrium next;
   for (double part = beyond_event; part > 1e-6; part /= 4) {
     const double past = at + part * (target - at);
-    next = continue_to(newton_, start, past);
-    if (!next.point.report.converged()) continue;
-    if (next.zero_modes.cols() == held.cols()) next.zero_modes = zero_modes;
-    return settle(std::move(next), past);
+    for (const Equilibrium* start : {&free, &held}) {
+      next = continue_to(newton_, *start, past);
+      if (!next.point.report.converged() || next.point.stability.negative != event.after) continue;
+      if (next.zero_modes.cols() == held.zero_modes.cols()) next.zero_modes = free.zero_modes;
+      return settle(std::move(next), past);
+    }
   }
   end(Status::not_converged, fmt::format("the branch is lost behind {}, load factor {:.10g}: {}", event.at.point.label, at, next.point.report.why));
 }

@@ -12,6 +12,7 @@ namespace elamin {
 
 namespace {
 
+constexpr int most_iterations = 16;           // of a corrector between two equilibria
 constexpr double orthogonal = 1e-5;           // of a load to a critical mode, where nothing else tells limit from branch points
 
 // The lowest eigenpairs at the equilibrium without the known zero modes Z: of the span V of so many eigenvectors more as
@@ -89,6 +90,11 @@ Eigen::MatrixXd soft_modes(const Equilibrium& e, double most, const Eigen::Matri
   return modes;
 }
 
+// How the branch moves along its critical modes, which is what the linear equations at a branch point do not tell.
+void move_along_modes(Equilibrium& at, const Eigen::MatrixXd& modes, const Interpolated& between) {
+  if (between.load_rate != 0 && modes.cols() > 0) at.tangent += modes * (modes.transpose() * between.rate) / between.load_rate;
+}
+
 void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, const Eigen::MatrixXd& modes) {
   newton.energy().evaluate(e.point.state);
   newton.factors().factorize_holding(side_by_side(known, modes));
@@ -132,28 +138,51 @@ Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibri
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   const double resolution = 1e-13 * std::abs(segment.b - segment.a);
   const bool was_negative = lower.f < 0;
+  // A force that is left along the critical modes breaks the branch point: then there is none.
+  const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
+  const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && e.point.report.residual <= rounding; };
+  const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
   Crossing jumps;
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
-    // The critical modes of a branch point keep still along the branch. Held there, the equations are regular.
-    Equilibrium start = from.e, e;
-    const Eigen::MatrixXd modes = turns && told ? Eigen::MatrixXd() : soft_modes(start, 2 * std::abs(from.f), known);
-    newton.energy().evaluate(start.point.state);
+    // At a branch point the equations are regular with the critical modes held where the branch has them.
+    Equilibrium e;
+    const Eigen::MatrixXd modes = turns && told ? Eigen::MatrixXd() : soft_modes(from.e, 2 * std::abs(from.f), known);
+    newton.energy().evaluate(from.e.point.state);
     if (modes.cols() > 0 && (told || work_along(modes, newton.energy().load_derivative()) <= orthogonal)) {
-      start.zero_modes = side_by_side(known, modes);
-      start.tangent -= modes * (modes.transpose() * start.tangent);
-      e = segment.at(t, start);
+      State state = between(t).state;
+      const Report report = segment.settle(state, side_by_side(known, modes));
+      if (report.converged() && report.residual <= rounding) e = assess(newton, state, report);
     }
-    // A force that is left along them breaks the branch point: then there is none.
-    const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
-    if (!e.point.report.converged() || e.point.report.residual > rounding) e = segment.at(t, from.e);
-    if (!e.point.report.converged() || e.point.report.residual > rounding) return {};
+    if (!good(e)) e = segment.at(t, from.e);
+    if (!good(e)) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
     const double value = critical_value(newton, e, index);
     if ((value < 0) == was_negative && (!jumps.before || t > jumps.before_parameter)) jumps.before = e, jumps.before_parameter = t;
     return Sample{t, value, std::move(e)};
   });
   if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return jumps;
-  return done(finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told), zero->t);
+  Event event = finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
+  if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
+  return done(std::move(event), zero->t);
+}
+
+Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, double ta, double tb,
+                         double t) {
+  const double width = tb - ta, u = (t - ta) / width, la = segment.load_rate(a), lb = segment.load_rate(b);
+  const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
+  const double d01 = 6 * u * (1 - u) / width, d10 = (1 - u) * (1 - 3 * u), d11 = u * (3 * u - 2);
+  const Vector moved = kinematics.difference(a.point.state, b.point.state);
+  const double from = a.point.state.load_factor, change = b.point.state.load_factor - from;
+  Interpolated point{a.point.state, d01 * moved + d10 * la * a.tangent + d11 * lb * b.tangent, d01 * change + d10 * la + d11 * lb};
+  kinematics.prescribe(point.state, from + h01 * change + h10 * la + h11 * lb);
+  kinematics.retract(point.state, h01 * moved + h10 * la * a.tangent + h11 * lb * b.tangent);
+  return point;
+}
+
+Segment segment_of_loads(Newton& newton, double from, double to) {
+  return {from, to, [&newton](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); },
+          [&newton](State& state, const Eigen::MatrixXd& held) { return newton.correct(state, held, nullptr, most_iterations); },
+          [](const State& state) { return state.load_factor; }, [](const Equilibrium&) { return 1.0; }};
 }
 
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
@@ -205,8 +234,7 @@ void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& p
 }
 
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
-                                    const std::function<double(const Equilibrium&)>& slope,
-                                    const std::function<double(const State&)>& position) {
+                                    const std::function<double(const Equilibrium&)>& slope) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Eigen::MatrixXd known = persistent(a, b);
@@ -225,14 +253,8 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     const Sample next{t, slope(e), e};
     ((next.f < 0) == (lower.f < 0) ? lower : upper) = next;
   }
-  // Hermite's cubic between the two, with dx/ds = dλ/ds dx/dλ.
-  const double width = upper.t - lower.t, u = (zero_of(lower, upper) - lower.t) / width;
-  const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
-  const Vector moved = kinematics.difference(lower.e.point.state, upper.e.point.state);
-  State state = lower.e.point.state;
-  const double load = state.load_factor + h01 * (upper.e.point.state.load_factor - state.load_factor) + h10 * lower.f + h11 * upper.f;
-  kinematics.prescribe(state, load);
-  kinematics.retract(state, h01 * moved + h10 * lower.f * lower.e.tangent + h11 * upper.f * upper.e.tangent);
+  State state = interpolate(kinematics, segment, lower.e, upper.e, lower.t, upper.t, zero_of(lower, upper)).state;
+  const double load = state.load_factor;
   // The branch that is met: there, and a little to both sides.
   energy.evaluate(state);
   Equilibrium at = lower.e;
@@ -252,11 +274,10 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     Equilibrium before = continue_to(newton, at, load - part), after = continue_to(newton, at, load + part);
     if (!before.point.report.converged() || !after.point.report.converged()) return {};
     if (before.point.stability.negative == after.point.stability.negative) continue;
-    const Segment along{load - part, load + part, [&](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); },
-                        [](const State& s) { return s.load_factor; }};
+    const Segment along = segment_of_loads(newton, load - part, load + part);
     std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, false).event;
     if (!event || event->kind == EventKind::limit) return {};
-    event->at_parameter = position(event->at.point.state);
+    event->at_parameter = segment.parameter(event->at.point.state);
     if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};
     event->before = a.point.stability.negative, event->after = b.point.stability.negative;
     event->arrival = true;

@@ -23,6 +23,9 @@ struct Crossing {
 /// a limit point if the load does work along the critical mode.
 Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns);
 
+/// Equilibria between two load factors.
+Segment segment_of_loads(Newton& newton, double from, double to);
+
 /// An event of an equilibrium that lies at its place already.
 inline Event event_at(const Equilibrium& e, double parameter) {
   Event event;
@@ -46,9 +49,8 @@ void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& p
 /// The branch point that a side branch arrives at between `a` and `b`, where the load factor turns although no eigenvalue
 /// changes sign. `slope`: dλ/ds, which changes sign. On the side branch the equations are singular there; so the place is
 /// told from equilibria beside it (cubic Hermite interpolation), the branch that is met is stepped on by holding the
-/// critical mode, and the zero of the eigenvalue located along that one. `position`: the parameter of a state.
+/// critical mode, and the zero of the eigenvalue located along that one.
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
-                                    const std::function<double(const Equilibrium&)>& slope,
-                                    const std::function<double(const State&)>& position);
+                                    const std::function<double(const Equilibrium&)>& slope);
 
 }  // namespace elamin

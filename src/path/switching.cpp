@@ -79,7 +79,11 @@ class Switch {
   }
 
  private:
+  // Beside the branch point, and not on the branch that is known.
   bool near(const State& state, double a) const {
+    const Vector moved = kinematics().difference(event_.at.point.state, state);
+    const double change = state.load_factor - event_.at.point.state.load_factor;
+    if ((moved - change * event_.at.tangent).norm() < 0.1 * moved.norm()) return false;
     return kinematics().difference(event_.at.point.state, state).norm() <= 2 * a && newton_.energy().passage(event_.at.point.state, state) == 1;
   }
   const Kinematics& kinematics() const { return newton_.energy().kinematics(); }

@@ -71,6 +71,7 @@ std::optional<Waypoint> Walk::next() {
     std::optional<Candidate> c = reach(arc, s, why);
     const bool corner = !c && (c = reach_corner(arc, s)).has_value();
     if (!c) {
+      if (getenv("DBG")) fmt::print(stderr, "refused s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
       s = shorter(s);
       continue;
     }
@@ -94,8 +95,10 @@ std::optional<Waypoint> Walk::next() {
         e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
       return e;
     };
-    const Segment segment{0, c->s, between, [&arc](const State& state) { return arc.position(state); }};
+    const Segment segment{0, c->s, between, [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
+                          [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); }};
     if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, arc, *c, why) || !find_watches(segment, *c, why)) {
+      if (getenv("DBG")) fmt::print(stderr, "events  s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
       s = shorter(s);
       continue;
     }
@@ -202,7 +205,7 @@ bool Walk::find_critical(Segment segment, const Arc& arc, Candidate& c, std::str
       return true;
     }
   } else if (sign_of(slope(current_)) == sign_) {
-    event = locate_arrival(newton_, segment, current_, c.e, slope, [&](const State& state) { return arc.position(state); });
+    event = locate_arrival(newton_, segment, current_, c.e, slope);
   }
   if (!event || event->modes.cols() == 0) return why = "the Morse index changes, but there is no limit point and no branch point between: two branches pass by each other", false;
   c.s = event->at_parameter, c.e = event->at;
