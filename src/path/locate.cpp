@@ -253,7 +253,8 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     const Sample next{t, slope(e), e};
     ((next.f < 0) == (lower.f < 0) ? lower : upper) = next;
   }
-  State state = interpolate(kinematics, segment, lower.e, upper.e, lower.t, upper.t, zero_of(lower, upper)).state;
+  const Interpolated touches = interpolate(kinematics, segment, lower.e, upper.e, lower.t, upper.t, zero_of(lower, upper));
+  State state = touches.state;
   const double load = state.load_factor;
   // The branch that is met: there, and a little to both sides.
   energy.evaluate(state);
@@ -281,6 +282,7 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};
     event->before = a.point.stability.negative, event->after = b.point.stability.negative;
     event->arrival = true;
+    event->passing = touches.rate, event->passing_load = touches.load_rate;
     return event;
   }
   return {};

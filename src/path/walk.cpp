@@ -29,6 +29,12 @@ constexpr int halvings_at_first = 8;          // then steps are quartered
 
 int sign_of(double x) { return x < 0 ? -1 : 1; }
 
+// The direction of a side branch where it arrives at a branch point.
+Direction passing(const Event& arrival, const Metric& metric) {
+  const double size = std::sqrt(metric.dot(arrival.passing, arrival.passing_load, arrival.passing, arrival.passing_load));
+  return {arrival.passing / size, arrival.passing_load / size};
+}
+
 // Zero modes that last along a branch and are no motions of rigid parts.
 void name_neutral(Stability& s) {
   s.zero_modes.push_back(fmt::format("neutral: equilibria side by side at the same load factor ({} direction{})", s.critical, s.critical > 1 ? "s" : ""));
@@ -231,7 +237,12 @@ bool Walk::joins(const Event& event, const Equilibrium& end, const Arc& arc) con
 bool Walk::find_watches(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.s;
   bool missed = false;
-  std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, c.e, negative_, missed);
+  Equilibrium end = c.e;
+  if (!c.events.empty() && c.events.front().arrival) {         // this branch, not the one that is met
+    const Direction d = passing(c.events.front(), metric_);
+    end.tangent = d.x / (std::abs(d.load) > 1e-100 ? d.load : 1e-100);
+  }
+  std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, end, negative_, missed);
   if (missed) return why = "where an observable reaches its value could not be located", false;
   if (seen.empty()) return true;
   const bool before = seen.front().at_parameter < c.s - coincide * segment.b;
@@ -285,7 +296,7 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
     negative_ = event->after;
     sign_ = sign_of(next.load);
   } else if (critical) {
-    if (event->arrival) next = arc.direction();                 // on along the side branch, to its other half
+    if (event->arrival) next = passing(*event, metric_);        // on along the side branch, to its other half
     if (event->kind == EventKind::limit) sign_ = -sign_;
     if (event->arrival) sign_ = -sign_;
     if (event->arrival || event->kind == EventKind::limit) next.load = std::copysign(next.load, sign_);   // else rounding's
