@@ -4,7 +4,6 @@
 #include "energy/step_limits.hpp"
 #include "path/load_steps.hpp"
 #include "path/locate.hpp"
-#include "path/root.hpp"
 #include "solve/method.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +19,10 @@ constexpr int finest = 12;                          // halvings of a step
 constexpr int most_changes = 20;                    // of contacts at one load factor
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a fall begins
 constexpr double rounding = 1e-12;                  // of a diameter, of the largest force
+constexpr double near_by = 1e-3;                    // of the smallest size: gaps that are looked at
+constexpr double together = 1e-10;                  // of the path: changes of contacts that are so near are one
+constexpr int short_enough = 6;                     // halvings after which what has opened has not closed again on the way
+constexpr int most_first = 100;                     // contacts that are tried before the first one is found
 
 bool in(const std::vector<HardForce>& contacts, const HardForce& contact) {
   return std::any_of(contacts.begin(), contacts.end(), [&](const HardForce& h) { return key(h) == key(contact); });
@@ -29,6 +32,10 @@ double force_of(const State& state, const HardForce& contact) {
   for (const HardForce& h : state.hard)
     if (key(h) == key(contact)) return h.force;
   return 0;
+}
+
+bool same(const std::vector<HardForce>& a, const std::vector<HardForce>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HardForce& x, const HardForce& y) { return key(x) == key(y); });
 }
 
 // Who touches or leaves whom.
@@ -55,10 +62,13 @@ void HeldSteps::begin() {
   State state = start_;
   newton_.energy().kinematics().prescribe(state, at);
   Report report;
-  if (!state.hard.empty()) {                                    // a state that was stored, perhaps
-    State near = state;
-    report = equilibrium_.correct(near, newton_.tolerance(), nullptr, 1e-3 * newton_.energy().model().diameter[0]);
-    if (report.converged()) state = near;
+  State near = state;                                           // where it stands, perhaps, or was stored
+  const Inertia inertia = newton_.energy().dofs() > 0 ? equilibrium_.inertia(near) : Inertia{};
+  if (inertia.negative == 0) {
+    const Eigen::MatrixXd held = inertia.zero > 0 ? equilibrium_.lowest(near, inertia.zero).vectors : Eigen::MatrixXd();
+    report = equilibrium_.correct(near, newton_.tolerance(), nullptr, near_by * newton_.energy().kinematics().smallest_size(), held);
+    if (report.converged() && equilibrium_.inertia(near).negative == 0) state = near;
+    else report = {};
   }
   if (!report.converged()) report = minimise(newton_, state, IpoptOptions{.tolerance = newton_.tolerance()});
   if (!report.converged()) return end(report.status, fmt::format("no equilibrium at the start, load factor {:.10g}: {}", at, report.why));
@@ -66,19 +76,33 @@ void HeldSteps::begin() {
   first.point.label = "initial";
   tell(first.point);
   first.point.label.clear();
-  closed_ = state.hard;
-  accept(std::move(first), at);
+  go_on(std::move(first));
+}
+
+// From an equilibrium where the branch begins.
+void HeldSteps::go_on(Equilibrium from) {
+  closed_ = from.point.state.hard;
+  halvings_ = changes_ = 0;
+  const Contacts slack = judge(from, nullptr).slack;
+  if (!slack.empty())
+    if (const std::optional<Contacts> now = equilibrium_.onward(from.point.state, slack, direction()); now && !same(*now, closed_)) {
+      closed_ = from.point.state.hard = *now;
+      from = assess(newton_, from.point.state, from.point.report);
+    }
+  accept(std::move(from), slack);
 }
 
 // Forces that are nothing are not told.
 void HeldSteps::tell(PathPoint point) {
-  const double least = rounding * newton_.energy().force_scale();
-  std::erase_if(point.state.hard, [&](const HardForce& h) { return !(h.force > least); });
+  newton_.energy().evaluate(point.state, false);
+  std::erase_if(point.state.hard, [&](const HardForce& h) { return !(h.force > 0 && newton_.energy().relative(Vector::Constant(1, h.force)) > rounding); });
   emit(std::move(point));
 }
 
-void HeldSteps::accept(Equilibrium at, double load_factor) {
+void HeldSteps::accept(Equilibrium at, const Contacts& slack) {
   current_ = std::move(at);
+  slack_ = slack;
+  const double load_factor = current_.point.state.load_factor;
   side_.clear();
   for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
   if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
@@ -93,7 +117,7 @@ Equilibrium HeldSteps::follow(const Equilibrium& from, const Contacts& closed, d
   energy.kinematics().retract(state, from.tangent, change);
   state.hard = closed;
   for (HardForce& h : state.hard) h.force = force_of(from.point.state, h);
-  Report report = equilibrium_.settle(state, newton_.tolerance(), &from.point.state);
+  Report report = equilibrium_.settle(state, newton_.tolerance(), &from.point.state, ContactEquilibrium::anywhere, from.zero_modes);
   if (report.converged() && energy.passage(from.point.state, state) < 1)
     report.status = Status::not_converged, report.why = "the step would carry something through something else";
   if (report.converged()) return assess(newton_, state, report);
@@ -102,21 +126,37 @@ Equilibrium HeldSteps::follow(const Equilibrium& from, const Contacts& closed, d
   return failed;
 }
 
-// Below zero: the force of a contact that is closed, in parts of the largest; the gap of another one, in diameters.
-double HeldSteps::margin(const Contacts& closed, const HardForce& contact, const Equilibrium& e) const {
-  const Model& model = newton_.energy().model();
-  if (in(closed, contact)) return force_of(e.point.state, contact) / newton_.energy().force_scale();
+// Below zero: the force of a contact that is closed, in parts of the largest; the gap of another one, in diameters. Of the energy's
+// last evaluation.
+double HeldSteps::margin(const HardForce& contact, const Equilibrium& e) const {
+  const Energy& energy = newton_.energy();
+  if (in(closed_, contact)) {
+    const double force = force_of(e.point.state, contact);
+    return std::copysign(energy.relative(Vector::Constant(1, force)), force);
+  }
   HardGap gap;
-  return hard_gap(model, contact, e.point.state, gap) ? gap.value / model.diameter[contact.particle] : 1.0;
+  return hard_gap(energy.model(), contact, e.point.state, gap) ? gap.value / energy.model().diameter[contact.particle] : 1.0;
 }
 
-HeldSteps::Contacts HeldSteps::wrong(const Contacts& closed, const Equilibrium& e) {
-  Contacts found;
-  newton_.energy().evaluate(e.point.state, false);              // its force scale
-  for (const HardForce& h : closed)
-    if (margin(closed, h, e) < -rounding) found.push_back(h);
-  for (const HardForce& h : newton_.energy().hard_contacts(e.point.state, 0))
-    if (!in(closed, h) && margin(closed, h, e) < -rounding) found.push_back(h);
+// What vanishes so near that the way from the equilibrium before cannot tell it from here has neither gap nor force.
+HeldSteps::Judgement HeldSteps::judge(const Equilibrium& e, const Equilibrium* before) {
+  Energy& energy = newton_.energy();
+  const State& state = e.point.state;
+  Contacts all = closed_;
+  for (const HardForce& h : energy.hard_contacts(state, near_by * energy.kinematics().smallest_size()))
+    if (!in(closed_, h)) all.push_back(h);
+  energy.evaluate(state, false);                                // its force scale
+  const double way = before ? std::abs(state.load_factor - before->point.state.load_factor) : 0;
+  Judgement found;
+  for (const HardForce& h : all) {
+    const double left = margin(h, e), place = state.position.col(h.particle).cwiseAbs().maxCoeff() / energy.model().diameter[h.particle];
+    double nothing = std::max(rounding, 8 * epsilon * place);
+    if (way > 0) nothing = std::max(nothing, std::abs(margin(h, *before) - left) * together * std::abs(options_.to - options_.from) / way);
+    if (left < -nothing) found.wrong.push_back(h);
+    else if (left <= nothing) found.slack.push_back(h);
+  }
+  const auto in_order = [](const HardForce& a, const HardForce& b) { return key(a) < key(b); };
+  std::sort(found.wrong.begin(), found.wrong.end(), in_order), std::sort(found.slack.begin(), found.slack.end(), in_order);
   return found;
 }
 
@@ -131,95 +171,129 @@ void HeldSteps::step() {
 
   Equilibrium candidate = follow(current_, closed_, target);
   if (!candidate.point.report.converged()) return halve(target, candidate.point.report.why);
-  if (!wrong(closed_, candidate).empty()) {
-    if (!meet(candidate, target)) halve(target, "contacts change in a way that could not be located");
-    return;
+  Judgement judgement = judge(candidate, &current_);
+  for (int k = 0; !judgement.wrong.empty(); ++k) {
+    const auto dips = std::find_if(judgement.wrong.begin(), judgement.wrong.end(), [&](const HardForce& h) { return in(slack_, h); });
+    const bool from_here = dips != judgement.wrong.end();
+    if (from_here && halvings_ >= short_enough && turn_back(*dips)) return;
+    std::optional<Equilibrium> nearer = !from_here && k < most_first ? first_change(judgement.wrong, candidate) : std::nullopt;
+    if (!nearer) return halve(target, "contacts change in a way that could not be located");
+    candidate = std::move(*nearer);
+    judgement = judge(candidate, &current_);
   }
+  const double arrived = candidate.point.state.load_factor;
   const int after = candidate.point.stability.negative;
-  if (after != current_.point.stability.negative) return lose(target, after);
-  if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) return halve(target, "the corrector went to another branch");
+  if (after != current_.point.stability.negative) return lose(arrived, after);
+  if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) return halve(arrived, "the corrector went to another branch");
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
-  if (auto seen = locate_watch(options_.watches, side_, {here, target, between}, current_, candidate, after)) {
+  if (auto seen = locate_watch(options_.watches, side_, {here, arrived, between}, current_, candidate, after)) {
     const std::size_t k = static_cast<std::size_t>(seen->watch);
     const double side = side_[k];
     Event event = *seen;
     std::erase_if(event.at.point.state.hard, [](const HardForce& h) { return !(h.force > 0); });
     emit(event);
-    accept(std::move(seen->at), seen->at_parameter);
+    accept(std::move(seen->at), judge(event.at, &current_).slack);
     side_[k] = -side;
     if (options_.watches[k].stop) end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, seen->at_parameter));
     return;
   }
-  changes_ = 0;
+  if (std::abs(arrived - here) > together * std::abs(options_.to - options_.from)) changes_ = 0;
   halvings_ = std::max(0, halvings_ - 1);
+  if (std::any_of(judgement.slack.begin(), judgement.slack.end(), [&](const HardForce& h) { return !in(slack_, h); }))
+    return corner(std::move(candidate), judgement.slack);
   tell(candidate.point);
-  accept(std::move(candidate), target);
+  accept(std::move(candidate), judgement.slack);
 }
 
-// The first contact that is made or lost on the way to the candidate, and the branch behind it. False if it cannot be found.
-bool HeldSteps::meet(Equilibrium candidate, double target) {
-  const double here = current_.point.state.load_factor;
-  std::optional<HardForce> first;
-  for (;;) {                                                    // the one that is first, as far as straight lines tell
-    std::optional<HardForce> next;
-    double least = 2;
-    for (const HardForce& h : wrong(closed_, candidate)) {
-      if (first && key(*first) == key(h)) continue;
-      const double a = margin(closed_, h, current_), b = margin(closed_, h, candidate);
-      const double part = a > 0 ? a / (a - b) : 0.0;
-      if (part < least) least = part, next = h;
-    }
-    if (!next) break;
-    first = next;
-    const double a = margin(closed_, *first, current_), b = margin(closed_, *first, candidate);
-    if (!(a > rounding)) {                                      // it changes here, at an event that has been told
-      candidate = current_;
-      break;
-    }
-    const auto zero = find_zero({here, a, current_}, {candidate.point.state.load_factor, b, candidate}, 1e-13 * std::abs(target - here),
-                                [&](double t, const Sample& near) -> std::optional<Sample> {
-      const Equilibrium e = follow(near.e, closed_, t);
-      if (!e.point.report.converged()) return {};
-      newton_.energy().evaluate(e.point.state, false);
-      return Sample{t, margin(closed_, *first, e), e};
-    });
-    if (!zero) return false;
-    candidate = zero->e;
+// Where the first of the contacts that are wrong at the candidate changes, as far as straight lines tell.
+std::optional<Equilibrium> HeldSteps::first_change(const Contacts& wrong, const Equilibrium& candidate) {
+  Energy& energy = newton_.energy();
+  const State& from = current_.point.state;
+  const double here = from.load_factor, way = candidate.point.state.load_factor - here;
+  const HardForce* first = nullptr;
+  double least = 1;
+  for (const HardForce& h : wrong) {
+    const double a = margin(h, current_), b = margin(h, candidate);
+    if (const double part = a / (a - b); part < least) least = part, first = &h;
   }
-  const bool told_already = candidate.point.state.load_factor == here;
-  if (!first || (told_already && ++changes_ > most_changes)) return false;
-  const int before = current_.point.stability.negative;
-  if (candidate.point.stability.negative != before) {           // that comes first
-    lose(candidate.point.state.load_factor, candidate.point.stability.negative);
-    return true;
-  }
-  const bool made = !in(closed_, *first);
+  if (!first) return {};
+  State state = from;
+  energy.kinematics().prescribe(state, here + least * way);
+  energy.kinematics().retract(state, energy.kinematics().difference(from, candidate.point.state), least);
+  state.hard = closed_;
+  for (HardForce& h : state.hard) h.force = (1 - least) * force_of(from, h) + least * force_of(candidate.point.state, h);
+  const Report report = equilibrium_.meet(state, *first, newton_.tolerance(), &from, current_.zero_modes);
+  const double part = (state.load_factor - here) / way;
+  if (!report.converged() || !(part > 0 && part < 1) || energy.passage(from, state) < 1) return {};
+  return assess(newton_, state, report);
+}
+
+// The rates at the beginning of a step did not tell that this contact changes there: it does, for the step shows it.
+bool HeldSteps::turn_back(const HardForce& contact) {
+  if (++changes_ > most_changes) return false;
   Contacts now = closed_;
-  if (made) now.push_back({first->particle, first->other, first->wall, first->face, 0});
-  else std::erase_if(now, [&](const HardForce& h) { return key(h) == key(*first); });
+  if (in(now, contact)) std::erase_if(now, [&](const HardForce& h) { return key(h) == key(contact); });
+  else now.push_back({contact.particle, contact.other, contact.wall, contact.face, 0});
   std::sort(now.begin(), now.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
-  State state = candidate.point.state;
+  change(current_, std::move(now), slack_);
+  return true;
+}
+
+// An equilibrium at which contacts have neither gap nor force that had one before: which of them are closed behind?
+void HeldSteps::corner(Equilibrium at, const Contacts& slack) {
+  State state = at.point.state;
+  const std::optional<Contacts> now = ++changes_ > most_changes ? std::nullopt : equilibrium_.onward(state, slack, direction());
+  if (!now) {
+    tell(at.point);
+    accept(std::move(at), slack);
+    const double here = current_.point.state.load_factor;
+    const std::string why = "which contacts are closed behind here cannot be told: the equilibrium ends, or they change without end";
+    note(fmt::format("load factor {:.10g}: {}", here, why));
+    if (options_.when_unstable == WhenUnstable::stop || interval_ == targets_.size())
+      return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
+    return fall(targets_[interval_], why);
+  }
+  if (same(*now, closed_)) {
+    tell(at.point);
+    accept(std::move(at), slack);
+  } else {
+    change(std::move(at), *now, slack);
+  }
+}
+
+// An event where other contacts are closed from here on, and the branch behind it.
+void HeldSteps::change(Equilibrium at, Contacts now, const Contacts& slack) {
+  constexpr std::size_t most_told = 4;
+  const Model& model = newton_.energy().model();
+  std::vector<std::string> sentences;
+  for (const HardForce& h : slack)
+    if (in(now, h) != in(closed_, h)) sentences.push_back(told(model, h, in(now, h)));
+  sentences.erase(std::unique(sentences.begin(), sentences.end()), sentences.end());
+  const int before = at.point.stability.negative;
+  State state = at.point.state;
   state.hard = now;
-  for (HardForce& h : state.hard) h.force = force_of(candidate.point.state, h);
+  for (HardForce& h : state.hard) h.force = force_of(at.point.state, h);
   const double load = state.load_factor;
-  Equilibrium behind = assess(newton_, state, candidate.point.report);
-  if (options_.contacts && !told_already) {
+  Equilibrium behind = assess(newton_, state, at.point.report);
+  const int after = behind.point.stability.negative;
+  if (options_.contacts) {
     Event event;
-    event.kind = EventKind::contact, event.what = told(newton_.energy().model(), *first, made);
-    event.at = candidate;
-    event.before = before, event.after = behind.point.stability.negative;
-    std::erase_if(event.at.point.state.hard, [&](const HardForce& h) { return !(h.force > 0) || key(h) == key(*first); });
+    event.kind = EventKind::contact;
+    for (std::size_t k = 0; k < std::min(most_told, sentences.size()); ++k) event.what += (k ? ", " : "") + sentences[k];
+    if (sentences.size() > most_told) event.what += fmt::format(" and {} more", sentences.size() - most_told);
+    event.at = std::move(at);
+    event.before = before, event.after = after;
+    std::erase_if(event.at.point.state.hard, [&](const HardForce& h) { return !(h.force > 0) || in(slack, h); });
     emit(event);
+  } else {
+    tell(at.point);
   }
   closed_ = std::move(now);
-  halvings_ = std::max(0, halvings_ - 1);
-  const int after = behind.point.stability.negative;
-  accept(std::move(behind), load);
+  accept(std::move(behind), slack);
   if (after > before) {
     note(fmt::format("load factor {:.10g}: with the contacts, the number of negative eigenvalues goes from {} to {}", load, before, after));
     leave_unstable();
   }
-  return true;
 }
 
 // Stability changes on the way to this load factor: closer, until the step is the finest; then it is told.
@@ -270,7 +344,6 @@ void HeldSteps::fall(double target, const std::string& why) {
   if (!report.converged())
     return end(report.status, fmt::format("the branch ends at load factor {:.10g}; Ipopt finds no minimum beyond: {}", here, report.why));
   Equilibrium landed = assess(newton_, state, report);
-  halvings_ = changes_ = 0;
   const std::string what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
   if (same_branch(energy, current_, landed)) {
     tell(landed.point);                                         // only the steps were too hard
@@ -278,8 +351,7 @@ void HeldSteps::fall(double target, const std::string& why) {
     note(fmt::format("jump: {}", what));
     emit_landing(landed.point, what, current_.point.stability.negative, "");
   }
-  closed_ = state.hard;
-  accept(std::move(landed), past);
+  go_on(std::move(landed));
 }
 
 }  // namespace elamin
