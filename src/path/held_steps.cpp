@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace elamin {
 
@@ -18,6 +19,8 @@ namespace {
 constexpr int finest = 12;                          // halvings of a step
 constexpr int most_changes = 20;                    // of contacts at one load factor
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a fall begins
+constexpr double aside = 1e-3;                      // turn of what is glued, and way in diameters, to where a fall begins
+constexpr double alike = 1e-6;                      // of the energy that is lost
 constexpr double rounding = 1e-12;                  // of a diameter, of the largest force
 constexpr double near_by = 1e-3;                    // of the smallest size: gaps that are looked at
 constexpr double together = 1e-10;                  // of the path: changes of contacts that are so near are one
@@ -36,6 +39,12 @@ double force_of(const State& state, const HardForce& contact) {
 
 bool same(const std::vector<HardForce>& a, const std::vector<HardForce>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HardForce& x, const HardForce& y) { return key(x) == key(y); });
+}
+
+void toggle(std::vector<HardForce>& contacts, const HardForce& contact) {
+  if (std::erase_if(contacts, [&](const HardForce& h) { return key(h) == key(contact); }) > 0) return;
+  contacts.push_back({contact.particle, contact.other, contact.wall, contact.face, 0});
+  std::sort(contacts.begin(), contacts.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
 }
 
 // Who touches or leaves whom.
@@ -232,33 +241,32 @@ std::optional<Equilibrium> HeldSteps::first_change(const Contacts& wrong, const 
 bool HeldSteps::turn_back(const HardForce& contact) {
   if (++changes_ > most_changes) return false;
   Contacts now = closed_;
-  if (in(now, contact)) std::erase_if(now, [&](const HardForce& h) { return key(h) == key(contact); });
-  else now.push_back({contact.particle, contact.other, contact.wall, contact.face, 0});
-  std::sort(now.begin(), now.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
+  toggle(now, contact);
   change(current_, std::move(now), slack_);
   return true;
 }
 
-// An equilibrium at which contacts have neither gap nor force that had one before: which of them are closed behind?
+// An equilibrium at which contacts have neither gap nor force that had one before: which of them are closed behind? If no choice
+// is right the stable branch ends here, and those that have come change sides.
 void HeldSteps::corner(Equilibrium at, const Contacts& slack) {
-  State state = at.point.state;
-  const std::optional<Contacts> now = ++changes_ > most_changes ? std::nullopt : equilibrium_.onward(state, slack, direction());
-  if (!now) {
+  if (++changes_ > most_changes) {
     tell(at.point);
     accept(std::move(at), slack);
     const double here = current_.point.state.load_factor;
-    const std::string why = "which contacts are closed behind here cannot be told: the equilibrium ends, or they change without end";
-    note(fmt::format("load factor {:.10g}: {}", here, why));
+    const std::string why = "contacts change without end";
     if (options_.when_unstable == WhenUnstable::stop || interval_ == targets_.size())
       return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
     return fall(targets_[interval_], why);
   }
-  if (same(*now, closed_)) {
-    tell(at.point);
-    accept(std::move(at), slack);
-  } else {
-    change(std::move(at), *now, slack);
+  std::optional<Contacts> now = equilibrium_.onward(at.point.state, slack, direction());
+  if (!now) {
+    now = closed_;
+    for (const HardForce& h : slack)
+      if (!in(slack_, h)) toggle(*now, h);
   }
+  if (!same(*now, closed_)) return change(std::move(at), *now, slack);
+  tell(at.point);
+  accept(std::move(at), slack);
 }
 
 // An event where other contacts are closed from here on, and the branch behind it.
@@ -323,26 +331,47 @@ void HeldSteps::halve(double target, const std::string& why) {
   fall(targets_[interval_], why);
 }
 
-// A little farther on, the minimum that Ipopt finds from here.
+// A little farther on, the minimum that Ipopt finds from here. Where the branch goes on, unstable, it is left to both sides of its
+// critical mode, and the lower of two minima is taken; of two that are alike always the same, so that rounding does not choose.
 void HeldSteps::fall(double target, const std::string& why) {
   Energy& energy = newton_.energy();
+  const Kinematics& kinematics = energy.kinematics();
   const double here = current_.point.state.load_factor, past = here + beyond_event * (target - here);
-  if (std::abs(past - here) <= 1e-9 * std::abs(options_.to - options_.from))
-    return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
+  const auto ends = [&](Status status, const std::string& sentence) {
+    end(status, fmt::format("the branch ends at load factor {:.10g}{}", here, sentence));
+  };
+  if (std::abs(past - here) <= 1e-9 * std::abs(options_.to - options_.from)) return ends(Status::not_converged, ": " + why);
   State state = current_.point.state;
-  energy.kinematics().prescribe(state, past);
-  if (energy.passage(current_.point.state, state) < 1)
-    return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
+  kinematics.prescribe(state, past);
+  if (energy.passage(current_.point.state, state) < 1) return ends(Status::not_converged, ": " + why);
   if (current_.tangent.allFinite()) {
     State predicted = state;
-    energy.kinematics().retract(predicted, current_.tangent, past - here);
+    kinematics.retract(predicted, current_.tangent, past - here);
     if (energy.passage(current_.point.state, predicted) == 1 && movement(energy, current_.tangent) * std::abs(past - here) < 1) state = predicted;
   }
-  energy.evaluate(state, false);
-  const double before = energy.last_terms().total();
-  const Report report = minimise(newton_, state, IpoptOptions{.tolerance = newton_.tolerance()});
-  if (!report.converged())
-    return end(report.status, fmt::format("the branch ends at load factor {:.10g}; Ipopt finds no minimum beyond: {}", here, report.why));
+  std::vector<State> starts;
+  if (const Equilibrium on = follow(current_, closed_, past);
+      on.point.report.converged() && on.point.stability.negative > 0 && judge(on, nullptr).wrong.empty()) {
+    state = on.point.state;
+    const Vector mode = canonical_modes(kinematics, equilibrium_.lowest(state, 1).vectors).col(0);
+    const double part = std::min(aside / std::max(distortion(energy, state, mode), 1e-300), aside / std::max(movement(energy, mode), 1e-300));
+    for (const double side : {1.0, -1.0}) {
+      starts.push_back(state);
+      kinematics.retract(starts.back(), mode, side * part);
+    }
+  } else {
+    starts.push_back(state);
+  }
+  const double before = energy.value(state);
+  Report report;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (State& from : starts) {
+    const Report found = minimise(newton_, from, IpoptOptions{.tolerance = newton_.tolerance()});
+    if (found.converged() ? !(found.energy < lowest - alike * std::abs(before - lowest)) && report.converged() : report.converged()) continue;
+    report = found;
+    if (found.converged()) state = from, lowest = found.energy;
+  }
+  if (!report.converged()) return ends(report.status, "; Ipopt finds no minimum beyond: " + report.why);
   Equilibrium landed = assess(newton_, state, report);
   const std::string what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
   if (same_branch(energy, current_, landed)) {
