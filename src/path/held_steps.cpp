@@ -4,6 +4,7 @@
 #include "energy/step_limits.hpp"
 #include "path/load_steps.hpp"
 #include "path/locate.hpp"
+#include "path/root.hpp"
 #include "solve/method.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +19,14 @@ namespace {
 
 constexpr int finest = 12;                          // halvings of a step
 constexpr int most_changes = 20;                    // of contacts at one load factor
-constexpr double beyond_event = 0.1;                // of the way to the next step: where a fall begins
+constexpr double beyond_event = 1e-4;               // of the path: where a fall begins …
+constexpr double before_target = 0.5;               // … or of the way to the next step
 constexpr double aside = 1e-3;                      // turn of what is glued, and way in diameters, to where a fall begins
 constexpr double alike = 1e-6;                      // of the energy that is lost
+constexpr int look_for_limit = 3;                   // after so many halvings, and again
+constexpr int most_along = 30;                      // equilibria on the way to a limit point
+constexpr double turns_little = 1.2;                // 1/cos of the angle between the tangent and the way
+constexpr double vanished = 1e-9;                   // of its size where the step begins: a curvature, a slope
 constexpr double rounding = 1e-12;                  // of a diameter, of the largest force
 constexpr double near_by = 1e-3;                    // of the smallest size: gaps that are looked at
 constexpr double together = 1e-10;                  // of the path: changes of contacts that are so near are one
@@ -179,7 +185,11 @@ void HeldSteps::step() {
   const double target = std::abs(goal - here) <= 1.25 * std::abs(step) ? goal : here + step;
 
   Equilibrium candidate = follow(current_, closed_, target);
-  if (!candidate.point.report.converged()) return halve(target, candidate.point.report.why);
+  if (!candidate.point.report.converged()) {
+    if (halvings_ % look_for_limit == look_for_limit - 1)
+      if (std::optional<Event> limit = limit_point(target)) return void(lose(std::move(*limit)));
+    return halve(target, candidate.point.report.why);
+  }
   Judgement judgement = judge(candidate, &current_);
   for (int k = 0; !judgement.wrong.empty(); ++k) {
     const auto dips = std::find_if(judgement.wrong.begin(), judgement.wrong.end(), [&](const HardForce& h) { return in(slack_, h); });
@@ -192,8 +202,14 @@ void HeldSteps::step() {
   }
   const double arrived = candidate.point.state.load_factor;
   const int after = candidate.point.stability.negative;
-  if (after != current_.point.stability.negative) return lose(arrived, after);
-  if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) return halve(arrived, "the corrector went to another branch");
+  if (after != current_.point.stability.negative) {
+    std::optional<Event> event = branch_point(candidate);
+    if (!event && halvings_ % look_for_limit == look_for_limit - 1) event = limit_point(arrived);
+    if (!event) return miss(arrived, after);
+    if (lose(std::move(*event))) return;
+  } else if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) {
+    return halve(arrived, "the corrector went to another branch");
+  }
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
   if (auto seen = locate_watch(options_.watches, side_, {here, arrived, between}, current_, candidate, after)) {
     const std::size_t k = static_cast<std::size_t>(seen->watch);
@@ -304,8 +320,125 @@ void HeldSteps::change(Equilibrium at, Contacts now, const Contacts& slack) {
   }
 }
 
-// Stability changes on the way to this load factor: closer, until the step is the finest; then it is told.
-void HeldSteps::lose(double target, int after) {
+// The equilibrium at which modes become critical, as an event.
+Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, const Eigen::MatrixXd& mode) {
+  Event event;
+  event.kind = kind;
+  event.before = current_.point.stability.negative, event.after = after;
+  const State& state = at.point.state;
+  const int count = std::max(1, std::abs(after - event.before));
+  const EigenPairs lowest = equilibrium_.lowest(state, std::min(event.before, after) + count);
+  event.modes = lowest.vectors.cols() >= count ? canonical_modes(newton_.energy().kinematics(), lowest.vectors.rightCols(count)) : mode;
+  at.zero_modes = current_.zero_modes;
+  at.tangent = kind == EventKind::limit ? current_.tangent : equilibrium_.tangent(state, side_by_side(at.zero_modes, event.modes)).q;
+  at.point.stability.stable = false;
+  event.at_parameter = state.load_factor;
+  event.at = std::move(at);
+  return event;
+}
+
+// Where on the way to the candidate, which is on the same branch, an eigenvalue goes through zero: its mode keeps still along the branch, and held the
+// equations are regular.
+std::optional<Event> HeldSteps::branch_point(const Equilibrium& candidate) {
+  Energy& energy = newton_.energy();
+  const int before = current_.point.stability.negative, after = candidate.point.stability.negative;
+  const EigenPairs lowest = equilibrium_.lowest(candidate.point.state, std::max(before, after));
+  Vector mode = lowest.vectors.col(std::min<Eigen::Index>(std::min(before, after), lowest.vectors.cols() - 1));
+  const Eigen::MatrixXd& known = current_.zero_modes;
+  if (known.cols() > 0) mode -= known * (known.transpose() * mode);
+  if (!(mode.norm() > 0.5)) return {};
+  mode.normalize();
+  const auto sample = [&](const Equilibrium& e) { return Sample{e.point.state.load_factor, equilibrium_.curvature(e.point.state, mode, known), e}; };
+  const Sample lower = sample(current_), upper = sample(candidate);
+  if (!((lower.f < 0) != (upper.f < 0)) || !std::isfinite(lower.f) || !std::isfinite(upper.f)) return {};
+  const Eigen::MatrixXd held = side_by_side(known, mode);
+  const auto zero = find_zero(lower, upper, 1e-13 * std::abs(upper.t - lower.t), [&](double t, const Sample& near) -> std::optional<Sample> {
+    State state = near.e.point.state;
+    const double way = t - state.load_factor, whole = upper.t - lower.t;
+    energy.kinematics().prescribe(state, t);
+    energy.kinematics().retract(state, energy.kinematics().difference(current_.point.state, candidate.point.state), way / whole);
+    state.hard = closed_;
+    for (HardForce& h : state.hard) h.force = force_of(near.e.point.state, h);
+    State free = state;
+    Report report = equilibrium_.settle(state, newton_.tolerance(), &near.e.point.state, ContactEquilibrium::anywhere, held);
+    if (!report.converged()) {                                  // a force is left along the mode: it moves, with the load factor
+      state = free;
+      report = equilibrium_.settle(state, newton_.tolerance(), &near.e.point.state, ContactEquilibrium::anywhere, known);
+    }
+    if (!report.converged()) return {};
+    Equilibrium e;
+    e.point.state = state, e.point.report = report;
+    return sample(e);
+  });
+  if (!zero || !(std::abs(zero->f) <= vanished * std::max(std::abs(lower.f), std::abs(upper.f)))) return {};
+  return critical(assess(newton_, zero->e.point.state, zero->e.point.report), EventKind::branch, after, mode);
+}
+
+// Where the load factor turns, ahead within a few steps: the equilibria along the softest motion, of which the load factor is a parabola.
+std::optional<Event> HeldSteps::limit_point(double target) {
+  Energy& energy = newton_.energy();
+  const State& origin = current_.point.state;
+  const double here = origin.load_factor;
+  const Eigen::MatrixXd& known = current_.zero_modes;
+  const int before = current_.point.stability.negative;
+  Vector mode = current_.tangent;                               // it turns into the critical mode
+  if (known.cols() > 0) mode -= known * (known.transpose() * mode);
+  if (!(mode.norm() > 0) || !mode.allFinite()) return {};
+  mode.normalize();
+  State state = origin;
+  double slope = 0;
+  if (!equilibrium_.slide(state, origin, mode, 0, newton_.tolerance(), known, slope).converged() || !(slope > 0)) return {};
+  const double least_way = std::min(std::abs(target - here) / slope, 0.1 / std::max(movement(energy, mode), 1e-300));
+  double a = 0, slope_a = slope, b = target < here ? -least_way : least_way;
+  State found = state;
+  for (int k = 0; k < most_along && !interrupted(); ++k) {      // the secant of dλ/ds
+    State next = found;
+    energy.kinematics().retract(next, mode, b - a);
+    double slope_b = 0;
+    const Report report = equilibrium_.slide(next, origin, mode, b, newton_.tolerance(), known, slope_b);
+    if (!report.converged() || energy.passage(origin, next) < 1) return {};
+    // The branch turns little on the way, or the step is too long to tell this branch from another one.
+    if (energy.kinematics().difference(origin, next).norm() > turns_little * std::abs(b)) return {};
+    found = next;
+    const double step = -slope_b * (b - a) / (slope_b - slope_a);
+    if (std::abs(slope_b) <= vanished * std::abs(slope) || std::abs(step * slope_b) <= 1e-14 * std::abs(next.load_factor - here)) {
+      const double part = (next.load_factor - here) / (target - here);
+      if (!(part >= 0 && part <= 1)) return {};
+      Equilibrium at = assess(newton_, next, report);
+      at.tangent = current_.tangent;
+      if (!judge(at, nullptr).wrong.empty()) return {};         // contacts change before
+      return critical(std::move(at), EventKind::limit, before + 1, mode);
+    }
+    if (!std::isfinite(step)) return {};
+    a = b, slope_a = slope_b;
+    b += std::clamp(step, -4 * std::abs(b), 4 * std::abs(b));
+  }
+  return {};
+}
+
+// An event of stability: the branch ends there, or (false) goes on.
+bool HeldSteps::lose(Event event) {
+  const bool limit = event.kind == EventKind::limit;
+  const Equilibrium whole = event.at;
+  if (limit ? options_.limits : options_.branch_points) {
+    std::erase_if(event.at.point.state.hard, [](const HardForce& h) { return !(h.force > 0); });
+    emit(event);
+  }
+  const double at = event.at.point.state.load_factor;
+  const std::string label = event.at.point.label.empty() ? "the loss of stability" : event.at.point.label;
+  const bool loses = event.after > event.before;
+  if (loses && options_.when_unstable == WhenUnstable::stop)
+    return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", label, at)), true;
+  if (limit && options_.when_unstable == WhenUnstable::follow)
+    return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond", label, at)), true;
+  if (!limit && !(loses && options_.when_unstable == WhenUnstable::jump)) return false;
+  current_ = whole;
+  fall(targets_[interval_], "stability is lost");
+  return true;
+}
+
+// Stability changes on the way to this load factor, and where could not be told: closer, until the step is the finest; then it is a note.
+void HeldSteps::miss(double target, int after) {
   const double here = current_.point.state.load_factor;
   const int before = current_.point.stability.negative;
   if (halvings_ < finest) return halve(target, "stability changes");
@@ -336,7 +469,7 @@ void HeldSteps::halve(double target, const std::string& why) {
 void HeldSteps::fall(double target, const std::string& why) {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
-  const double here = current_.point.state.load_factor, past = here + beyond_event * (target - here);
+  const double here = current_.point.state.load_factor, past = here + direction() * std::min(beyond_event * std::abs(options_.to - options_.from), before_target * std::abs(target - here));
   const auto ends = [&](Status status, const std::string& sentence) {
     end(status, fmt::format("the branch ends at load factor {:.10g}{}", here, sentence));
   };

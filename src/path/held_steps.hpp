@@ -34,7 +34,11 @@ class HeldSteps final : public Path {
   void change(Equilibrium at, Contacts now, const Contacts& slack);
   void go_on(Equilibrium from);
   double direction() const { return options_.to < options_.from ? -1 : 1; }
-  void lose(double target, int after);
+  std::optional<Event> branch_point(const Equilibrium& candidate);
+  std::optional<Event> limit_point(double target);
+  Event critical(Equilibrium at, EventKind kind, int after, const Eigen::MatrixXd& tangent_without);
+  bool lose(Event event);
+  void miss(double target, int after);
   void leave_unstable();
   void halve(double target, const std::string& why);
   void fall(double target, const std::string& why);

@@ -83,12 +83,17 @@ bool ContactEquilibrium::factorize_near(double shift) {
   return false;
 }
 
-// p, Δf of H p − Jᵀ Δf = b, J p = c.
-ContactEquilibrium::Step ContactEquilibrium::solve(const Vector& b, const Vector& c) {
-  Vector right(b.size() + c.size());
-  right << b, scale_ * c;
+// p, Δf of H p − Jᵀ Δf + Z μ = b, J p = c, Zᵀ p = 0, or `along` for the last of the directions Z that are held.
+ContactEquilibrium::Step ContactEquilibrium::solve(const Vector& b, const Vector& c, double along) {
+  const Eigen::Index held = borders_.cols();
+  Vector right = Vector::Zero(b.size() + c.size() + held);
+  right.head(b.size()) = b, right.segment(b.size(), c.size()) = scale_ * c;
+  double unit = 0;                                              // of the borders: see PivotedFactor
+  if (held > 0)
+    for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) unit = std::max(unit, std::abs(matrix_.valuePtr()[k]));
+  if (held > 0) right[right.size() - 1] = unit * along;
   const Vector x = pivoted_.solve(right);
-  return {x.head(b.size()), -scale_ * x.tail(c.size())};
+  return {x.head(b.size()), -scale_ * x.segment(b.size(), c.size()), held > 0 ? unit * x[x.size() - 1] : 0.0};
 }
 
 // ∂c/∂λ with what is prescribed, and J p of one gap.
@@ -180,6 +185,64 @@ Report ContactEquilibrium::newton(State& state, double tolerance, const State* f
     if (energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > reach) return end(Status::not_converged, too_far);
     for (std::size_t k = 0; k < gaps_.size(); ++k) state.hard[k].force += part * step.force[static_cast<Eigen::Index>(k)];
   }
+}
+
+// p = p₀ + δ p₁, δ the change of the load factor: so that no force is needed along the mode, μ₀ + δ μ₁ = 0.
+Report ContactEquilibrium::slide(State& state, const State& origin, const Vector& mode, double amount, double tolerance,
+                                 const Eigen::MatrixXd& held, double& slope) {
+  const Stopwatch watch;
+  Report report;
+  Eigen::MatrixXd borders(mode.size(), held.cols() + 1);
+  if (held.cols() > 0) borders.leftCols(held.cols()) = held;
+  borders.rightCols(1) = mode;
+  State previous = state, best;
+  const State* from = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  const double size = energy_.kinematics().smallest_size();
+  report.why = "Newton's method does not contract";
+  for (; report.iterations <= most_steps && !interrupted(); ++report.iterations) {
+    linearise(state, from, borders);
+    const double residual = energy_.relative(energy_.gradient());
+    const double left = amount - mode.dot(energy_.kinematics().difference(origin, state));
+    const double error = std::max({residual, worst_gap(state), std::abs(left) / size});
+    if (!std::isfinite(error) || !factorize_near(0)) break;
+    ++report.factorizations;
+    Vector gaps(static_cast<Eigen::Index>(gaps_.size())), rates(gaps.size());
+    for (std::size_t k = 0; k < gaps_.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value, rates[static_cast<Eigen::Index>(k)] = rate(gaps_[k]);
+    const Step by_load = solve(-energy_.load_derivative(), -rates);
+    const bool better = error <= least / 2;
+    if (error < least) {
+      const Step by_mode = solve(Vector::Zero(mode.size()), Vector::Zero(gaps.size()), 1);
+      best = state, least = error, slope = -by_mode.border / by_load.border;
+      report.residual = residual, report.energy = energy_.last_terms().total();
+    }
+    if (least <= tolerance && (!better || least <= 4 * epsilon)) {
+      state = best;
+      report.status = Status::converged, report.why = fmt::format("the residual is below {:g}", tolerance);
+      break;
+    }
+    Step step = solve(-energy_.gradient(), -gaps, left);
+    const double change = -step.border / by_load.border;
+    step.p += change * by_load.p, step.force += change * by_load.force;
+    if (!step.p.allFinite() || !std::isfinite(change)) break;
+    const double turn = distortion(energy_, state, step.p, change);
+    const double part = std::min({1.0, 0.3 / std::max(turn, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
+    previous = state, from = &previous;
+    energy_.kinematics().prescribe(state, state.load_factor + part * change);
+    energy_.kinematics().retract(state, step.p, part);
+    for (std::size_t k = 0; k < gaps_.size(); ++k) state.hard[k].force += part * step.force[static_cast<Eigen::Index>(k)];
+  }
+  report.seconds = watch.seconds();
+  return report;
+}
+
+double ContactEquilibrium::curvature(const State& state, const Vector& mode, const Eigen::MatrixXd& held) {
+  Eigen::MatrixXd borders(mode.size(), held.cols() + 1);
+  if (held.cols() > 0) borders.leftCols(held.cols()) = held;
+  borders.rightCols(1) = mode;
+  linearise(state, nullptr, borders);
+  if (!factorize_near(0)) return std::numeric_limits<double>::quiet_NaN();
+  return -solve(Vector::Zero(mode.size()), Vector::Zero(static_cast<Eigen::Index>(gaps_.size())), 1).border;
 }
 
 Report ContactEquilibrium::correct(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held) {

@@ -34,6 +34,15 @@ class ContactEquilibrium {
     return newton(state, tolerance, from, anywhere, held, &changing);
   }
 
+  /// The stationary point where the coordinates have moved by `amount` [length] along `mode` (dofs, normalised) since `origin`; the load
+  /// factor λ is an unknown. `slope` gets dλ/d(amount): at a limit point, where the equations at a given λ are singular and these are not, it is zero.
+  Report slide(State& state, const State& origin, const Vector& mode, double amount, double tolerance, const Eigen::MatrixXd& held, double& slope);
+
+  /// A curvature along `mode`, among the motions that keep the closed gaps: κ of  [ K v ; vᵀ 0 ] [ x ; −κ ] = [ 0 ; 1 ],  K the matrix above. It is zero
+  /// where K is singular with a critical mode that is not orthogonal to v, and smooth along the branch.   Source: Govaerts 2000, Numerical
+  /// Methods for Bifurcations of Dynamical Equilibria, §3.3.
+  double curvature(const State& state, const Vector& mode, const Eigen::MatrixXd& held);
+
   /// The same, and the right contacts: those that would pull are let go, those that would overlap are taken in, until no gap is
   /// negative and no force either, within rounding; State::hard then holds those that bear a force.
   Report correct(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {});
@@ -59,12 +68,12 @@ class ContactEquilibrium {
   EigenPairs lowest(const State& state, int count);
 
  private:
-  struct Step { Vector p, force; };
+  struct Step { Vector p, force; double border = 0; };         // of the last of the directions held
   Report newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held, const HardForce* changing);
   void linearise(const State& state, const State* from, const Eigen::MatrixXd& held = {});
   bool factorize(double shift);
   bool factorize_near(double shift);
-  Step solve(const Vector& b, const Vector& c);
+  Step solve(const Vector& b, const Vector& c, double along = 0);
   double worst_gap(const State& state) const;
   double rate(const HardGap& gap) const;
   double along(const HardGap& gap, const Vector& p) const;
