@@ -19,13 +19,17 @@ namespace {
 
 constexpr int finest = 12;                          // halvings of a step
 constexpr int most_changes = 20;                    // of contacts at one load factor
-constexpr double beyond_event = 1e-4;               // of the path: where a fall begins …
+constexpr double beyond_event = 1e-3;               // of the path: where a fall begins …
 constexpr double before_target = 0.5;               // … or of the way to the next step
 constexpr double aside = 1e-3;                      // turn of what is glued, and way in diameters, to where a fall begins
+constexpr double nearest = 1e-5;                   // the barrier where a fall begins, as small as leads to a minimum near by
 constexpr double alike = 1e-6;                      // of the energy that is lost
 constexpr int look_for_limit = 3;                   // after so many halvings, and again
+constexpr int most_crossings = 20;                  // of modes in one step, before the first one is found
+constexpr double just_before = 1e-6;                // of the way to a branch point
 constexpr int most_along = 30;                      // equilibria on the way to a limit point
 constexpr double turns_little = 1.2;                // 1/cos of the angle between the tangent and the way
+constexpr double at_the_limit = 1e-6;               // of the way ahead: a load factor that does not grow further
 constexpr double vanished = 1e-9;                   // of its size where the step begins: a curvature, a slope
 constexpr double rounding = 1e-12;                  // of a diameter, of the largest force
 constexpr double near_by = 1e-3;                    // of the smallest size: gaps that are looked at
@@ -187,7 +191,7 @@ void HeldSteps::step() {
   Equilibrium candidate = follow(current_, closed_, target);
   if (!candidate.point.report.converged()) {
     if (halvings_ % look_for_limit == look_for_limit - 1)
-      if (std::optional<Event> limit = limit_point(target)) return void(lose(std::move(*limit)));
+      if (std::optional<Event> limit = limit_point(target)) return lose(std::move(*limit));
     return halve(target, candidate.point.report.why);
   }
   Judgement judgement = judge(candidate, &current_);
@@ -205,9 +209,9 @@ void HeldSteps::step() {
   if (after != current_.point.stability.negative) {
     std::optional<Event> event = branch_point(candidate);
     if (!event && halvings_ % look_for_limit == look_for_limit - 1) event = limit_point(arrived);
-    if (!event) return miss(arrived, after);
-    if (lose(std::move(*event))) return;
-  } else if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) {
+    return event ? lose(std::move(*event)) : miss(arrived, after);
+  }
+  if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) {
     return halve(arrived, "the corrector went to another branch");
   }
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
@@ -320,18 +324,32 @@ void HeldSteps::change(Equilibrium at, Contacts now, const Contacts& slack) {
   }
 }
 
-// The equilibrium at which modes become critical, as an event.
-Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, const Eigen::MatrixXd& mode) {
+// The equilibrium at which modes become critical, as an event: those whose eigenvalues vanish beside `scale`, of at most as many as change
+// sign. `after`: the Morse index behind the last of them.
+Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, double scale) {
+  constexpr double zero = 1e-6;
   Event event;
   event.kind = kind;
-  event.before = current_.point.stability.negative, event.after = after;
+  const int before = current_.point.stability.negative, sign = after > before ? 1 : -1, least = std::min(before, after), most = std::abs(after - before);
   const State& state = at.point.state;
-  const int count = std::max(1, std::abs(after - event.before));
-  const EigenPairs lowest = equilibrium_.lowest(state, std::min(event.before, after) + count);
-  event.modes = lowest.vectors.cols() >= count ? canonical_modes(newton_.energy().kinematics(), lowest.vectors.rightCols(count)) : mode;
+  const int known = static_cast<int>(current_.zero_modes.cols());
+  const EigenPairs lowest = equilibrium_.lowest(state, std::max(before, after) + known);
+  std::vector<Eigen::Index> by_size;
+  for (Eigen::Index j = 0; j < lowest.values.size(); ++j) {
+    const Vector v = lowest.vectors.col(j);
+    if (known == 0 || (current_.zero_modes.transpose() * v).norm() < 0.5) by_size.push_back(j);
+  }
+  std::sort(by_size.begin(), by_size.end(), [&](Eigen::Index i, Eigen::Index j) { return std::abs(lowest.values[i]) < std::abs(lowest.values[j]); });
+  int count = 1;
+  while (count < most && count < static_cast<int>(by_size.size()) && std::abs(lowest.values[by_size[static_cast<std::size_t>(count)]]) <= zero * scale) ++count;
+  event.modes.resize(lowest.vectors.rows(), std::min<Eigen::Index>(count, static_cast<Eigen::Index>(by_size.size())));
+  for (Eigen::Index j = 0; j < event.modes.cols(); ++j) event.modes.col(j) = lowest.vectors.col(by_size[static_cast<std::size_t>(j)]);
+  event.modes = canonical_modes(newton_.energy().kinematics(), event.modes);
+  event.before = before, event.after = before + sign * count;
   at.zero_modes = current_.zero_modes;
   at.tangent = kind == EventKind::limit ? current_.tangent : equilibrium_.tangent(state, side_by_side(at.zero_modes, event.modes)).q;
   at.point.stability.stable = false;
+  at.point.stability.negative = least;
   event.at_parameter = state.load_factor;
   event.at = std::move(at);
   return event;
@@ -339,7 +357,22 @@ Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, const Eigen
 
 // Where on the way to the candidate, which is on the same branch, an eigenvalue goes through zero: its mode keeps still along the branch, and held the
 // equations are regular.
-std::optional<Event> HeldSteps::branch_point(const Equilibrium& candidate) {
+std::optional<Event> HeldSteps::branch_point(Equilibrium candidate) {
+  for (int k = 0; k < most_crossings && !interrupted(); ++k) {
+    const std::optional<Crossing> found = crossing(candidate);
+    if (!found) return {};
+    // Another mode may have crossed zero before this one.
+    const double here = current_.point.state.load_factor, beside = here + (1 - just_before) * (found->at.point.state.load_factor - here);
+    Equilibrium nearer = follow(current_, closed_, beside);
+    if (!nearer.point.report.converged()) return {};
+    if (nearer.point.stability.negative == current_.point.stability.negative) return critical(found->at, EventKind::branch, candidate.point.stability.negative, found->scale);
+    candidate = std::move(nearer);
+  }
+  return {};
+}
+
+// Where the mode of the candidate that belongs to an eigenvalue of another sign does so.
+std::optional<HeldSteps::Crossing> HeldSteps::crossing(const Equilibrium& candidate) {
   Energy& energy = newton_.energy();
   const int before = current_.point.stability.negative, after = candidate.point.stability.negative;
   const EigenPairs lowest = equilibrium_.lowest(candidate.point.state, std::max(before, after));
@@ -370,8 +403,9 @@ std::optional<Event> HeldSteps::branch_point(const Equilibrium& candidate) {
     e.point.state = state, e.point.report = report;
     return sample(e);
   });
-  if (!zero || !(std::abs(zero->f) <= vanished * std::max(std::abs(lower.f), std::abs(upper.f)))) return {};
-  return critical(assess(newton_, zero->e.point.state, zero->e.point.report), EventKind::branch, after, mode);
+  const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
+  if (!zero || !(std::abs(zero->f) <= vanished * scale)) return {};
+  return Crossing{assess(newton_, zero->e.point.state, zero->e.point.report), scale};
 }
 
 // Where the load factor turns, ahead within a few steps: the equilibria along the softest motion, of which the load factor is a parabola.
@@ -387,9 +421,11 @@ std::optional<Event> HeldSteps::limit_point(double target) {
   mode.normalize();
   State state = origin;
   double slope = 0;
-  if (!equilibrium_.slide(state, origin, mode, 0, newton_.tolerance(), known, slope).converged() || !(slope > 0)) return {};
-  const double least_way = std::min(std::abs(target - here) / slope, 0.1 / std::max(movement(energy, mode), 1e-300));
-  double a = 0, slope_a = slope, b = target < here ? -least_way : least_way;
+  if (!equilibrium_.slide(state, origin, mode, 0, newton_.tolerance(), known, slope).converged()) return {};
+  const double forward = target < here ? -1 : 1, a_little = 0.1 / std::max(movement(energy, mode), 1e-300);
+  const bool there = !(slope * a_little > at_the_limit * std::abs(target - here));                 // or all but
+  double a = 0, slope_a = slope, b = forward * (there ? 0.1 * a_little : std::min(std::abs(target - here) / slope, a_little));
+  double steepest = std::abs(slope);
   State found = state;
   for (int k = 0; k < most_along && !interrupted(); ++k) {      // the secant of dλ/ds
     State next = found;
@@ -399,15 +435,18 @@ std::optional<Event> HeldSteps::limit_point(double target) {
     if (!report.converged() || energy.passage(origin, next) < 1) return {};
     // The branch turns little on the way, or the step is too long to tell this branch from another one.
     if (energy.kinematics().difference(origin, next).norm() > turns_little * std::abs(b)) return {};
+    // On this branch one more eigenvalue is negative behind the limit point, and none before it.
+    if (!there && std::abs(slope_b) > 1e-3 * slope && equilibrium_.inertia(next).negative != before + (slope_b < 0 ? 1 : 0)) return {};
+    steepest = std::max(steepest, std::abs(slope_b));
     found = next;
     const double step = -slope_b * (b - a) / (slope_b - slope_a);
-    if (std::abs(slope_b) <= vanished * std::abs(slope) || std::abs(step * slope_b) <= 1e-14 * std::abs(next.load_factor - here)) {
+    if (std::abs(slope_b) <= vanished * steepest) {
       const double part = (next.load_factor - here) / (target - here);
-      if (!(part >= 0 && part <= 1)) return {};
+      if (!(part >= -at_the_limit && part <= 1)) return {};
       Equilibrium at = assess(newton_, next, report);
       at.tangent = current_.tangent;
       if (!judge(at, nullptr).wrong.empty()) return {};         // contacts change before
-      return critical(std::move(at), EventKind::limit, before + 1, mode);
+      return critical(std::move(at), EventKind::limit, before + 1, 0);
     }
     if (!std::isfinite(step)) return {};
     a = b, slope_a = slope_b;
@@ -416,8 +455,8 @@ std::optional<Event> HeldSteps::limit_point(double target) {
   return {};
 }
 
-// An event of stability: the branch ends there, or (false) goes on.
-bool HeldSteps::lose(Event event) {
+// An event of stability: the branch ends there, or goes on.
+void HeldSteps::lose(Event event) {
   const bool limit = event.kind == EventKind::limit;
   const Equilibrium whole = event.at;
   if (limit ? options_.limits : options_.branch_points) {
@@ -428,13 +467,15 @@ bool HeldSteps::lose(Event event) {
   const std::string label = event.at.point.label.empty() ? "the loss of stability" : event.at.point.label;
   const bool loses = event.after > event.before;
   if (loses && options_.when_unstable == WhenUnstable::stop)
-    return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", label, at)), true;
+    return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", label, at));
   if (limit && options_.when_unstable == WhenUnstable::follow)
-    return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond", label, at)), true;
-  if (!limit && !(loses && options_.when_unstable == WhenUnstable::jump)) return false;
-  current_ = whole;
-  fall(targets_[interval_], "stability is lost");
-  return true;
+    return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond", label, at));
+  accept(whole, judge(whole, &current_).slack);
+  if (limit || (loses && options_.when_unstable == WhenUnstable::jump)) {
+    if (interval_ < targets_.size()) fall(targets_[interval_], "stability is lost");
+    return;
+  }
+  current_.point.stability.negative = event.after;
 }
 
 // Stability changes on the way to this load factor, and where could not be told: closer, until the step is the finest; then it is a note.
@@ -499,7 +540,7 @@ void HeldSteps::fall(double target, const std::string& why) {
   Report report;
   double lowest = std::numeric_limits<double>::infinity();
   for (State& from : starts) {
-    const Report found = minimise(newton_, from, IpoptOptions{.tolerance = newton_.tolerance()});
+    const Report found = minimise(newton_, from, IpoptOptions{.tolerance = newton_.tolerance(), .barrier = nearest});
     if (found.converged() ? !(found.energy < lowest - alike * std::abs(before - lowest)) && report.converged() : report.converged()) continue;
     report = found;
     if (found.converged()) state = from, lowest = found.energy;

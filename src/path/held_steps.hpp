@@ -10,8 +10,9 @@ namespace elamin {
 /// along the branch tell (ContactEquilibrium::onward). What vanishes at the end of a step, within rounding, is an event there; what
 /// vanishes where the path begins is none. What Newton's method does not find, Ipopt looks for.
 ///
-/// Steps that fail are halved, down to 2⁻¹² of a step. Where the branch turns unstable, or no step can be made, this is told by
-/// a note, with the load factors between which it happens; under `jump` the state then falls to the minimum that Ipopt finds.
+/// Steps that fail are halved, down to 2⁻¹² of a step. Where the branch turns unstable the branch point or limit point is located; what
+/// cannot be located, and where no step can be made, is told by a note. Under `jump` the state then falls to the minimum that Ipopt
+/// finds a fixed part of the path beyond.
 class HeldSteps final : public Path {
  public:
   HeldSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering = nullptr);
@@ -34,10 +35,12 @@ class HeldSteps final : public Path {
   void change(Equilibrium at, Contacts now, const Contacts& slack);
   void go_on(Equilibrium from);
   double direction() const { return options_.to < options_.from ? -1 : 1; }
-  std::optional<Event> branch_point(const Equilibrium& candidate);
+  struct Crossing { Equilibrium at; double scale; };           // of a mode's curvature through zero, and how large it is beside that
+  std::optional<Event> branch_point(Equilibrium candidate);
+  std::optional<Crossing> crossing(const Equilibrium& candidate);
   std::optional<Event> limit_point(double target);
-  Event critical(Equilibrium at, EventKind kind, int after, const Eigen::MatrixXd& tangent_without);
-  bool lose(Event event);
+  Event critical(Equilibrium at, EventKind kind, int after, double scale);
+  void lose(Event event);
   void miss(double target, int after);
   void leave_unstable();
   void halve(double target, const std::string& why);
