@@ -29,6 +29,7 @@ constexpr int most_crossings = 20;                  // of modes in one step, bef
 constexpr double just_before = 1e-6;                // of the way to a branch point
 constexpr int most_along = 30;                      // equilibria on the way to a limit point
 constexpr double turns_little = 1.2;                // 1/cos of the angle between the tangent and the way
+constexpr double most_bend = 0.2;                   // of the way, over which tangents tell it; √λ from its vertex has 0.5
 constexpr double at_the_limit = 1e-6;               // of the way ahead: a load factor that does not grow further
 constexpr double vanished = 1e-9;                   // of its size where the step begins: a curvature, a slope
 constexpr double rounding = 1e-12;                  // of a diameter, of the largest force
@@ -55,6 +56,15 @@ void toggle(std::vector<HardForce>& contacts, const HardForce& contact) {
   if (std::erase_if(contacts, [&](const HardForce& h) { return key(h) == key(contact); }) > 0) return;
   contacts.push_back({contact.particle, contact.other, contact.wall, contact.face, 0});
   std::sort(contacts.begin(), contacts.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
+}
+
+// Whether the way between two equilibria is not the mean of their tangents, as it is of a parabola: a step over a bend, where the equilibrium that
+// Newton's method finds may belong to a branch on the other side.
+bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b) {
+  const Vector moved = kinematics.difference(a.point.state, b.point.state);
+  const double change = b.point.state.load_factor - a.point.state.load_factor;
+  const double rounding_of_places = 1e-12 * b.point.state.position.norm();
+  return !((moved - change / 2 * (a.tangent + b.tangent)).norm() <= most_bend * moved.norm() + rounding_of_places);
 }
 
 // Who touches or leaves whom.
@@ -194,6 +204,7 @@ void HeldSteps::step() {
       if (std::optional<Event> limit = limit_point(target)) return lose(std::move(*limit));
     return halve(target, candidate.point.report.why);
   }
+  if (halvings_ < finest && bends(newton_.energy().kinematics(), current_, candidate)) return halve(target, "the branch bends too much to be told from another one");
   Judgement judgement = judge(candidate, &current_);
   for (int k = 0; !judgement.wrong.empty(); ++k) {
     const auto dips = std::find_if(judgement.wrong.begin(), judgement.wrong.end(), [&](const HardForce& h) { return in(slack_, h); });
