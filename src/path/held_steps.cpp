@@ -128,12 +128,12 @@ void HeldSteps::tell(PathPoint point) {
   emit(std::move(point));
 }
 
-void HeldSteps::accept(Equilibrium at, const Contacts& slack) {
+void HeldSteps::accept(Equilibrium at, const Contacts& slack, const std::vector<Event>& passed) {
   current_ = std::move(at);
   slack_ = slack;
   const double load_factor = current_.point.state.load_factor;
-  side_.clear();
-  for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
+  side_.resize(options_.watches.size(), 0);
+  pass_watches(options_.watches, passed, current_.point.state, side_);
   if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
 }
 
@@ -226,15 +226,21 @@ void HeldSteps::step() {
     return halve(arrived, "the corrector went to another branch");
   }
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
-  if (auto seen = locate_watch(options_.watches, side_, {here, arrived, between}, current_, candidate, after)) {
-    const std::size_t k = static_cast<std::size_t>(seen->watch);
-    const double side = side_[k];
-    Event event = *seen;
-    std::erase_if(event.at.point.state.hard, [](const HardForce& h) { return !(h.force > 0); });
-    emit(event);
-    accept(std::move(seen->at), judge(event.at, &current_).slack);
-    side_[k] = -side;
-    if (options_.watches[k].stop) end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, seen->at_parameter));
+  bool missed = false;
+  Segment segment = segment_of_loads(newton_, here, arrived);
+  segment.at = between;
+  const std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, candidate, after, missed);
+  if (missed && halvings_ < finest) return halve(arrived, "where an observable reaches its value could not be located");
+  if (!seen.empty()) {
+    const double there = seen.front().at_parameter;
+    for (Event event : seen) {
+      std::erase_if(event.at.point.state.hard, [](const HardForce& h) { return !(h.force > 0); });
+      emit(event);
+    }
+    const Contacts slack = judge(seen.front().at, &current_).slack;
+    accept(seen.front().at, slack, seen);
+    for (const Event& event : seen)
+      if (options_.watches[event.watch].stop) return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, there));
     return;
   }
   if (std::abs(arrived - here) > together * std::abs(options_.to - options_.from)) changes_ = 0;
@@ -370,7 +376,7 @@ Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, double scal
 // equations are regular.
 std::optional<Event> HeldSteps::branch_point(Equilibrium candidate) {
   for (int k = 0; k < most_crossings && !interrupted(); ++k) {
-    const std::optional<Crossing> found = crossing(candidate);
+    const std::optional<Vanishing> found = crossing(candidate);
     if (!found) return {};
     // Another mode may have crossed zero before this one.
     const double here = current_.point.state.load_factor, beside = here + (1 - just_before) * (found->at.point.state.load_factor - here);
@@ -383,7 +389,7 @@ std::optional<Event> HeldSteps::branch_point(Equilibrium candidate) {
 }
 
 // Where the mode of the candidate that belongs to an eigenvalue of another sign does so.
-std::optional<HeldSteps::Crossing> HeldSteps::crossing(const Equilibrium& candidate) {
+std::optional<HeldSteps::Vanishing> HeldSteps::crossing(const Equilibrium& candidate) {
   Energy& energy = newton_.energy();
   const int before = current_.point.stability.negative, after = candidate.point.stability.negative;
   const EigenPairs lowest = equilibrium_.lowest(candidate.point.state, std::max(before, after));
@@ -416,7 +422,7 @@ std::optional<HeldSteps::Crossing> HeldSteps::crossing(const Equilibrium& candid
   });
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   if (!zero || !(std::abs(zero->f) <= vanished * scale)) return {};
-  return Crossing{assess(newton_, zero->e.point.state, zero->e.point.report), scale};
+  return Vanishing{assess(newton_, zero->e.point.state, zero->e.point.report), scale};
 }
 
 // Where the load factor turns, ahead within a few steps: the equilibria along the softest motion, of which the load factor is a parabola.

@@ -35,9 +35,9 @@ class HeldSteps final : public Path {
   void change(Equilibrium at, Contacts now, const Contacts& slack);
   void go_on(Equilibrium from);
   double direction() const { return options_.to < options_.from ? -1 : 1; }
-  struct Crossing { Equilibrium at; double scale; };           // of a mode's curvature through zero, and how large it is beside that
+  struct Vanishing { Equilibrium at; double scale; };          // of a mode's curvature, and how large it is beside that
   std::optional<Event> branch_point(Equilibrium candidate);
-  std::optional<Crossing> crossing(const Equilibrium& candidate);
+  std::optional<Vanishing> crossing(const Equilibrium& candidate);
   std::optional<Event> limit_point(double target);
   Event critical(Equilibrium at, EventKind kind, int after, double scale);
   void lose(Event event);
@@ -45,7 +45,7 @@ class HeldSteps final : public Path {
   void leave_unstable();
   void halve(double target, const std::string& why);
   void fall(double target, const std::string& why);
-  void accept(Equilibrium at, const Contacts& slack);
+  void accept(Equilibrium at, const Contacts& slack, const std::vector<Event>& passed = {});
   void tell(PathPoint point);
 
   Newton& newton_;
