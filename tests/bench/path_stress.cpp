@@ -1008,7 +1008,7 @@ void column_stop(Case& test) {
   const double to = (1 + random.decades(0.3, 20)) * c.euler * (c.last - c.first) * spacing / c.EA / c.drive;
   const double bend = std::sqrt(to * c.drive * c.length) * 0.6;   // about the deflection at the end, without the stop
   const double gap = bend * random.between(0.4, 0.9);
-  const double E = random.decades(1e-1, 1e7) * c.euler / (c.diameter * c.diameter);
+  const double E = random.decades(1e2, 1e10) * c.euler / (c.diameter * c.diameter);
   f.list("wall").key("name", "stop").key("shape", "plane").key("point", c.place.at(0, gap + c.diameter / 2)).key("normal", c.place.along(0, -1)).key("effective_modulus", E);
   const bool jump = random.chance(0.4);
   Way way{.method = PathMethod::arc_length, .steps = random.whole_decades(3, 200), .to = to, .when_unstable = "follow"};
@@ -1025,6 +1025,287 @@ void column_stop(Case& test) {
   test.agree(t, other);
 }
 
+// ---- More of them: load and unload, events, sheets, grains, boxes.
+
+/// The same column is loaded and unloaded: it comes back to where it began, and nothing has happened.
+void column_back(Case& test) {
+  Random& random = test.random;
+  const Column c = some_column(random);
+  File f = written(c, "A column is pushed, bent and let go");
+  const double push = random.decades(1e-8, 1e-2);
+  const int particle = random_middle(random, c);
+  const Vec3 side = c.place.along(0, random.sign());
+  f.group("pushed", "column", fmt::format("ids = [{}]", particle + 1));
+  f.list("load").key("name", "push").key("group", "pushed").key("force", Vec3(push * c.euler * side)).key("constant", true);
+  const double critical = built_critical(test, c, f), to = beyond_critical(random, c) * critical;
+  f.raw(fmt::format("\n[path]\nmethod = \"{}\"\nsteps = {}", random.chance(0.5) ? "arc_length" : "load_steps", random.whole_decades(3, 200)));
+  f.list("stage").key("name", "there").key("to", to).list("stage").key("name", "back").key("to", 0.0);
+  if (random.chance(0.5)) f.key("steps", random.whole_decades(3, 200));
+  const Traced t = test.trace(f.text(), "path");
+  if (!test.reaches(t, 0)) return;
+  test.has_events(t, {}, of_events, false), test.index_is(t, 0);
+  test.same_state(t, t.last(), t, t.rows.front());
+}
+
+/// Where a bending column passes certain deflections: each once, twins both, whatever the steps and the method.
+void events_column(Case& test) {
+  Random& random = test.random;
+  const Column c = random_column(random, random.chance(0.5) ? Ends::clamped : Ends::hinged, false, random.chance(0.7));
+  File f = written(c, "A column that bends, with events");
+  const double push = random.decades(1e-7, 1e-2);
+  const int particle = random_middle(random, c);
+  const Vec3 side = c.place.along(0, random.sign());
+  f.group("pushed", "column", fmt::format("ids = [{}]", particle + 1));
+  f.list("load").key("name", "push").key("group", "pushed").key("force", Vec3(push * c.euler * side)).key("constant", true);
+  const double critical = built_critical(test, c, f), beyond = random.between(1.1, 3);
+  const double amplitude = 2 / pi * std::sqrt((beyond - 1) * critical * c.drive * c.length);       // about
+  Eigen::Index row = 0;
+  side.cwiseAbs().maxCoeff(&row);
+  const std::string letter(1, "xyz"[row]);
+  f.list("observe").key("name", "w").key("group", "pushed").key("quantity", "displacement." + letter);
+  std::vector<std::pair<std::string, double>> wanted;
+  const int places = random.whole(1, 4);
+  for (int k = 0; k < places; ++k) {
+    const double value = random.decades(1e-2, 0.9) * amplitude * side[row];
+    const int how = random.whole(0, 2);                           // alone, twins, near each other
+    wanted.push_back({fmt::format("e{}", k), value});
+    if (how > 0) wanted.push_back({fmt::format("e{}t", k), how == 1 ? value : value * (1 + random.decades(1e-6, 1e-1))});
+  }
+  for (const auto& [name, value] : wanted) f.list("event").key("name", name).key("observable", "w").key("value", value);
+  Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200), .to = beyond * critical,
+          .when_unstable = "follow"};
+  if (!way.arcs()) way.when_unstable = "jump";
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, way.to)) return;
+  const auto bent = [&](const Row& r) { return (r.point.state.position(row, particle) - t.model.start.position(row, particle)) / side[row]; };
+  const double begin = bent(t.rows.front()), end = bent(t.last());
+  std::vector<std::pair<double, double>> found;                   // deflection, load factor
+  for (const auto& [name, value] : wanted) {
+    const std::vector<Row> rows = t.of(name);
+    const bool passed = value / side[row] > begin && value / side[row] < end;
+    if (test.expect(rows.size() == (passed ? 1 : 0), [&] { return fmt::format("event {} comes {} times, expected {} ({})", name, rows.size(), passed ? 1 : 0, t.told()); }) && passed)
+      found.push_back({value / side[row], rows[0].lambda()});
+  }
+  if (test.expect(t.events().size() == found.size(), [&] { return "other events: " + t.told(); }) == false) return;
+  way.steps = random.other_steps(way.steps), way.method = way.arcs() ? PathMethod::load_steps : PathMethod::arc_length;
+  way.when_unstable = way.arcs() ? "follow" : "jump";
+  const Traced other = test.trace(f, way, "other");
+  if (!test.reaches(other, way.to)) return;
+  for (const auto& [name, value] : wanted) {
+    const std::vector<Row> a = t.of(name), b = other.of(name);
+    test.expect(a.size() == b.size() && (a.empty() || std::abs(a[0].lambda() - b[0].lambda()) <= of_events * way.to),
+                [&] { return fmt::format("event {} comes otherwise: {}; {}", name, t.told(), other.told()); });
+  }
+}
+
+/// A hinged column under a dead load until its ends have passed each other. Where they meet it may spin.
+void column_passes(Case& test) {
+  Random& random = test.random;
+  Column c = random_column(random, Ends::hinged, true, true, 1e4, 1e8);
+  while (c.particles > 120) c = random_column(random, Ends::hinged, true, true, 1e4, 1e8);
+  const File f = written(c, "The ends of a column pass each other");
+  const double critical = built_critical(test, c, f);
+  Way way{.method = PathMethod::arc_length, .steps = random.whole_decades(5, 200), .to = random.between(2.3, 3) * critical, .when_unstable = "follow", .branches = 1};
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, way.to)) return;
+  const int branches = t.last().point.branch;
+  for (int k = 1; k <= branches; ++k) {
+    const Row end = t.on_branch(k).back();
+    if (!test.expect(end.lambda() == way.to, [&] { return fmt::format("side branch {} ends at {:.17g}", k, end.lambda()); })) return;
+  }
+  test.expect(branches == 2, [&] { return fmt::format("{} side branches", branches); });
+  test.same_energy("the ends of the side branches", t.on_branch(1).back().energy(), t.on_branch(2).back().energy());
+}
+
+/// Two clamped columns side by side are shortened and pushed against each other.
+void two_beams(Case& test) {
+  Random& random = test.random;
+  const int particles = random.whole_decades(16, 48);
+  const double length = random.decades(1e-6, 1e3), spacing = length / (particles - 1), EI = random.decades(1e-6, 1e6), ratio = random.between(0.6, 6);
+  const double slender = random.decades(1e4, 1e7), free = length * (particles - 2.0) / (particles - 1), euler = 4 * pi * pi * EI / (free * free);
+  const Place3 p = anywhere(random, true, length, false);
+  const double shortening = random.between(1.2, 3) * euler / (slender * EI / (length * length)) * free;
+  const double amplitude = 2 / pi * std::sqrt(shortening * length), gap = amplitude * random.between(0.1, 1.2), diameter = spacing * random.between(0.3, 1);
+  File f = p.begin("Two beams are pushed against each other");
+  const std::array<std::string, 2> names{"thin", "thick"};
+  for (int k = 0; k < 2; ++k) {
+    const double t = k == 0 ? 0 : diameter + gap, stiff = k == 0 ? 1 : ratio;
+    f.list("beam").key("name", names[k]).key("particles", particles).key("from", p.at(0, t)).key("to", p.at(length, t)).key("diameter", diameter)
+        .key("axial_stiffness", slender * EI * std::sqrt(stiff) / (length * length)).key("bending_stiffness", EI * stiff);
+    f.group(names[k] + "_foot", names[k], "first = 2").group(names[k] + "_head", names[k], "last = 2").group(names[k] + "_middle", names[k], "middle = 1");
+    f.list("support").key("group", names[k] + "_foot").list("support").key("group", names[k] + "_head").key("displacement", p.along(-shortening, 0));
+    f.list("load").key("group", names[k] + "_middle").key("force", p.along(0, (k == 0 ? 1 : -1) * random.decades(1e-9, 1e-3) * euler * stiff)).key("constant", true);
+  }
+  f.list("contact").raw("between = [\"thin\", \"thick\"]").key("effective_modulus", random.decades(1e3, 1e11) * euler / (diameter * diameter));
+  const bool jump = random.chance(0.4);
+  Way way{.method = jump ? PathMethod::load_steps : PathMethod::arc_length, .steps = random.whole_decades(3, 200), .to = 1, .when_unstable = jump ? "jump" : "follow"};
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, 1)) return;
+  test.touches(t);
+  for (const Row& r : t.rows) {
+    if (r.kind() == "contact") break;                             // until they touch each beam bends to the side it is pushed to
+    if (!test.expect(r.kind().empty() && r.point.stability.negative == 0, [&] { return fmt::format("before the beams touch: {} at {:.10g}, Morse index {}", r.point.label, r.lambda(), r.point.stability.negative); })) return;
+    for (int k = 0; k < 2; ++k) {
+      const int middle = k * particles + particles / 2;
+      const double moved = (r.point.state.position.col(middle) - t.model.start.position.col(middle)).dot(p.along(0, k == 0 ? 1 : -1));
+      if (!test.expect(moved >= -1e-13 * length, [&] { return fmt::format("the {} beam goes to the other side than it is pushed to, at {:.10g}", names[k], r.lambda()); })) return;
+    }
+  }
+  way.steps = random.other_steps(way.steps);
+  const Traced other = test.trace(f, way, "other");
+  if (test.reaches(other, 1)) test.touches(other), test.agree(t, other);
+}
+
+/// A strip of the lattice, clamped at two ends, is compressed until it buckles out of its plane.
+void sheet_strip(Case& test) {
+  Random& random = test.random;
+  const int wide = random.whole(2, 5), rows = random.whole(8, 18);
+  const double spacing = random.decades(1e-6, 1e3), thick = random.between(0.1, 0.8) * spacing, E = random.decades(1, 1e9);
+  const double length = (rows - 1) * spacing * std::sqrt(3) / 2, clamped = length - spacing * std::sqrt(3) / 2;
+  Place3 p = anywhere(random, false, length, false);
+  Vec3 n = p.axes.col(2);
+  if (n[2] < 0) n = -n;
+  // The sheet's frame for this normal: see frame_of.
+  const Vec3 e2(-n[0] * n[1] / (1 + n[2]), 1 - n[1] * n[1] / (1 + n[2]), -n[1]);
+  File f = p.begin("A strip is compressed");
+  f.list("sheet").key("name", "strip").key("shape", "rectangle").raw(fmt::format("size = [{:.17g}, {:.17g}]", wide * spacing, length * (1 + 1e-10)))
+      .key("center", p.origin).key("normal", n).key("spacing", spacing).key("thickness", thick).key("youngs_modulus", E);
+  f.group("foot", "strip", fmt::format("first = {}", 2 * wide + 1)).group("head", "strip", fmt::format("last = {}", 2 * wide + 1));
+  const double estimate = 4 * pi * pi * thick * thick / (12 * 8.0 / 9) / (clamped * clamped) * clamped;
+  f.list("support").key("group", "foot").list("support").key("group", "head").key("displacement", Vec3(-estimate * e2));
+  const bool fall = random.chance(0.5);
+  Way way{.method = PathMethod::arc_length, .steps = random.whole_decades(3, 100), .to = random.between(1.3, 1.7), .when_unstable = "follow", .branches = 1};
+  if (fall) way = {.method = PathMethod::load_steps, .steps = way.steps, .to = way.to};
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, way.to)) return;
+  test.expect(t.of("branch").size() >= 1 && t.of("branch")[0].point.multiplicity == 1, [&] { return "events " + t.told() + "; expected one branch point first"; });
+  if (!fall) {
+    const int branches = t.last().point.branch;
+    if (!test.expect(branches == 2, [&] { return fmt::format("{} side branches", branches); })) return;
+    const Row one = t.on_branch(1).back(), two = t.on_branch(2).back();
+    if (!test.expect(one.lambda() == way.to && two.lambda() == way.to, [&] { return fmt::format("the side branches end at {:.17g} and {:.17g}", one.lambda(), two.lambda()); })) return;
+    test.same_energy("the ends of the side branches", one.energy(), two.energy());
+    const Field sum = (one.point.state.position - t.model.start.position) + (two.point.state.position - t.model.start.position);
+    const Vector across = sum.transpose() * n, w = (one.point.state.position - t.model.start.position).transpose() * n;
+    test.expect(across.cwiseAbs().maxCoeff() <= 1e-7 * w.cwiseAbs().maxCoeff(), [] { return "the side branches do not mirror each other"; });
+  }
+  way.steps = random.other_steps(way.steps);
+  const Traced other = test.trace(f, way, "other");
+  if (!test.reaches(other, way.to)) return;
+  if (fall) test.agree(t, other), test.same_energy("the ends of two falls", t.last().energy(), other.last().energy());
+  else test.same_energy("the ends of side branches", t.on_branch(1).back().energy(), other.on_branch(1).back().energy());
+}
+
+/// A hard lid on a row of grains that springs join: touches at a load factor that may lie on a step, and compresses them.
+void hard_lid(Case& test) {
+  Random& random = test.random;
+  const int grains = random.whole(2, 8);
+  const double size = random.decades(1e-6, 1e3), K = random.decades(1e-6, 1e6), r = random.between(0.1, 0.45) * size;
+  const bool planar = random.chance(0.5);
+  const Place3 p = anywhere(random, planar, size, true);
+  Way way{.steps = random.whole_decades(3, 200), .to = 1};
+  const double critical = random.chance(0.5) ? random.whole(1, way.steps - 1) / static_cast<double>(way.steps) : random.between(0.1, 0.9);
+  const double way_down = random.between(0.05, 0.5) * size;
+  std::vector<Vec3> centers;
+  for (int k = 0; k < grains; ++k) centers.push_back(p.at(k * size, 0));
+  File f = p.begin("A hard lid on a row of springs");
+  f.list("grains").key("name", "row").key("positions", centers).key("diameter", 2 * r);
+  f.list("connect").raw("between = [\"row\", \"row\"]").key("within", 1.1 * size).key("bond_stiffness", K).key("rest_length", size);
+  f.group("foot", "row", "first = 1").group("top", "row", fmt::format("last = {}", grains - 1));
+  f.list("support").key("group", "foot").list("support").key("group", "top").key("directions", planar ? p.letter(1) : p.letter(1) + p.letter(2));
+  f.list("wall").key("name", "lid").key("shape", "plane").key("group", "top").key("point", p.at((grains - 1) * size + r + critical * way_down, 0)).key("normal", p.along(-1, 0))
+      .key("hard", true).key("displacement", p.along(-way_down, 0));
+  f.table("solver").key("method", "ipopt");
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, 1) || !test.has_events(t, {{"contact", critical}})) return;
+  const double top = (t.last().point.state.position.col(grains - 1) - p.origin).dot(p.along(1, 0)), expected = (grains - 1) * size - (1 - critical) * way_down;
+  test.expect(std::abs(top - expected) <= of_states * size, [&] { return fmt::format("the topmost grain ends {:.2g} sizes beside its place", (top - expected) / size); });
+  const double force = 2 * K * (1 - critical) * way_down / (grains - 1), energy = force * force / (4 * K) * (grains - 1);
+  test.same_energy("the springs", t.last().energy(), energy);
+}
+
+/// A ring between two plates, as the grains of a suspension: the plates press it flat.
+void ring_plates(Case& test) {
+  Random& random = test.random;
+  const double radius = random.decades(1e-6, 1e3), EI = random.decades(1e-6, 1e6), slender = random.decades(1e4, 1e8);
+  const int n = 4 * random.whole_decades(4, 20);
+  const Place3 p = anywhere(random, true, radius, true);
+  const Vec3 normal = p.axes.col(2).cwiseAbs();
+  const Vec3 e2 = normal[1] == 1 ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
+  const std::string across = normal[0] == 1 ? "z" : "x";
+  const double diameter = random.between(0.005, 0.05) * radius, gap = random.between(0.02, 0.2) * radius, down = random.between(0.2, 0.6) * radius;
+  File f = p.begin("A ring between plates");
+  f.list("loop").key("name", "ring").key("particles", n).key("center", p.origin).key("normal", normal).key("radius", radius).key("diameter", diameter)
+      .key("axial_stiffness", slender * EI / (radius * radius)).key("bending_stiffness", EI).key("rest", "as_built");
+  f.group("top", "ring", fmt::format("ids = [{}]", n / 4 + 1)).group("bottom", "ring", fmt::format("ids = [{}]", 3 * n / 4 + 1));
+  f.list("support").key("group", "top").key("directions", across).list("support").key("group", "bottom");
+  f.list("wall").key("name", "plate").key("shape", "plane").key("point", Vec3(p.origin + (radius + diameter / 2 + gap) * e2)).key("normal", Vec3(-e2))
+      .key("effective_modulus", random.decades(1e2, 1e10) * EI / std::pow(radius * diameter, 2)).key("displacement", Vec3(-(gap + down) * e2));
+  Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 100), .to = 1, .when_unstable = "follow"};
+  if (!way.arcs()) way.when_unstable = "jump";
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, 1)) return;
+  const std::vector<Row> contacts = t.of("contact");
+  const double first = gap / (gap + down);
+  test.expect(!contacts.empty() && std::abs(contacts[0].lambda() - first) <= of_events, [&] { return fmt::format("events {}; expected contact {:.12g} first", t.told(), first); });
+  test.touches(t);
+  way.steps = random.other_steps(way.steps), way.method = way.arcs() ? PathMethod::load_steps : PathMethod::arc_length, way.when_unstable = way.arcs() ? "follow" : "jump";
+  const Traced other = test.trace(f, way, "other");
+  if (test.reaches(other, 1)) test.touches(other), test.agree(t, other);
+}
+
+/// A small heap of grains between walls in a plane, a lid comes down on it.
+void grain_heap(Case& test) {
+  Random& random = test.random;
+  const int below = random.whole(2, 4);
+  const double r = random.decades(1e-6, 1e3), weight = random.decades(1e-9, 1e9);
+  const auto stiff = [&] { return random.decades(1e3, 1e9) * weight / (r * r); };
+  const double E_wall = stiff(), E_grain = stiff();
+  const Place3 p = anywhere(random, true, r, false);
+  File f = p.begin("A heap of grains under a lid");
+  std::vector<Vec3> centers;
+  for (int k = 0; k < below; ++k) centers.push_back(p.at(r, (2 * k - below + 1) * r));
+  for (int k = 0; k + 1 < below; ++k) centers.push_back(p.at(r + std::sqrt(3) * r, (2 * k - below + 2) * r));
+  f.list("grains").key("name", "grains").key("positions", centers).key("diameter", 2 * r);
+  f.list("load").key("group", "grains").key("force", p.along(-weight, 0)).key("constant", true);
+  f.list("contact").raw("between = [\"grains\", \"grains\"]").key("effective_modulus", E_grain);
+  const auto wall = [&](const char* name, const Vec3& point, const Vec3& normal) -> File& {
+    return f.list("wall").key("name", name).key("shape", "plane").key("point", point).key("normal", normal).key("effective_modulus", E_wall);
+  };
+  const double gap = random.between(0.01, 0.3) * r, down = gap + random.between(0.01, 0.08) * r;
+  wall("floor", p.at(0, 0), p.along(1, 0)), wall("left", p.at(0, -below * r), p.along(0, 1)), wall("right", p.at(0, below * r), p.along(0, -1));
+  wall("lid", p.at((2 + std::sqrt(3)) * r + gap, 0), p.along(-1, 0)).key("displacement", p.along(-down, 0));
+  Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200), .to = 1, .when_unstable = "follow"};
+  if (!way.arcs()) way.when_unstable = "jump";
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, 1)) return;
+  test.touches(t);
+  way.steps = random.other_steps(way.steps), way.method = way.arcs() ? PathMethod::load_steps : PathMethod::arc_length, way.when_unstable = way.arcs() ? "follow" : "jump";
+  const Traced other = test.trace(f, way, "other");
+  if (test.reaches(other, 1)) test.touches(other), test.agree(t, other);
+}
+
+/// A box on a soft floor is pushed at the height a above its middle until it tips: F a = 4k b² sin θ − W c tan θ as long as all corners
+/// touch, sin θ < W/(4kb), then W(b − c tan θ), down to F = 0.
+void box_tips(Case& test) {
+  Random& random = test.random;
+  const double size = random.decades(1e-6, 1e3), W = random.decades(1e-6, 1e6), b = random.between(0.3, 0.8) * size, c = random.between(0.3, 1) * size;
+  const double k = random.decades(10, 1e6) * W / b * std::max(1.0, c / b), a = random.between(0.2, 1) * c, rounding = random.between(0.05, 0.3) * size;
+  const Place3 p = anywhere(random, false, size, true);           // s up, t the way of the push
+  File f = p.begin("A box tips over");
+  Vec3 sides;
+  for (int axis = 0; axis < 3; ++axis) sides[axis] = std::abs(p.axes(axis, 0)) == 1 ? 2 * c : std::abs(p.axes(axis, 1)) == 1 ? 2 * b : 0.6 * size;
+  const double sine = W / (4 * k * b), top = (4 * k * b * b * sine - W * c * sine / std::sqrt(1 - sine * sine)) / a, unit = random.between(0.5, 2);
+  f.list("body").key("name", "box").key("shape", "box").key("size", sides).key("rounding_diameter", rounding).key("position", p.at(c + rounding / 2, 0)).key("mass", W);
+  f.list("wall").key("name", "floor").key("group", "box").key("shape", "plane").key("point", p.at(0, 0)).key("normal", p.along(1, 0)).key("k_n", k);
+  f.list("gravity").key("acceleration", p.along(-1, 0));
+  f.list("support").key("group", "box").key("directions", p.letter(1) + p.letter(2)).key("turns", p.letter(0) + p.letter(1));
+  f.list("load").key("group", "box").key("force", p.along(0, unit * top)).key("point", p.along(a, 0));
+  Way way{.method = PathMethod::arc_length, .steps = random.whole_decades(3, 200), .to = random.between(1.05, 3) / unit, .when_unstable = "follow"};
+  const Traced t = test.trace(f.text() + fmt::format("\n[path]\nmethod = \"arc_length\"\nsteps = {}\nto = {:.17g}\nlowest = 0.0\npoints = 20000\n", way.steps, way.to), "path");
+  if (test.reaches(t, 0)) test.has_events(t, {{"limit", 1 / unit}});
+}
+
 // ---- All of them.
 
 struct Family {
@@ -1035,7 +1316,9 @@ const std::vector<Family> families{
     {"column_straight", column_straight}, {"column_falls", column_falls}, {"column_branches", column_branches}, {"column_pushed", column_pushed},
     {"arch_sine", arch_sine}, {"arch_round", arch_round}, {"truss_arcs", truss_arcs}, {"truss_snaps", truss_snaps},
     {"events_truss", events_truss}, {"events_side", events_side}, {"ring_pressure", ring_pressure}, {"ring_side", ring_side},
-    {"grain_lid", grain_lid}, {"box_lid", box_lid}, {"column_stop", column_stop},
+    {"grain_lid", grain_lid}, {"box_lid", box_lid}, {"column_stop", column_stop}, {"column_back", column_back},
+    {"events_column", events_column}, {"column_passes", column_passes}, {"two_beams", two_beams}, {"sheet_strip", sheet_strip},
+    {"hard_lid", hard_lid}, {"ring_plates", ring_plates}, {"grain_heap", grain_heap}, {"box_tips", box_tips},
 };
 
 /// What is wrong with one problem, one sentence after the other; "": it ended right.
