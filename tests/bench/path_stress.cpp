@@ -849,7 +849,7 @@ struct RingCase {
 
 RingCase random_ring(Random& random) {
   const double radius = random.decades(1e-6, 1e3), EI = random.decades(1e-6, 1e6), slender = random.decades(1e3, 1e8);   // EA R²/EI
-  const int n = random.whole_decades(8, 200);
+  const int n = random.whole_decades(12, 200);
   Place3 p = anywhere(random, true, radius, true);
   File f = p.begin("A ring under pressure, held by the least supports");
   f.list("loop").key("name", "ring").key("particles", n).key("center", p.origin).key("normal", Vec3(p.axes.col(2).cwiseAbs())).key("radius", radius)
@@ -878,7 +878,7 @@ void ring_pressure(Case& test) {
   const double critical = ring_critical(model, 2) / ring.unit;
   const bool stop = random.chance(0.3);
   Way way{.method = random.chance(0.6) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200),
-          .to = random.between(1.05, 2) * critical, .when_unstable = stop ? "stop" : "follow"};
+          .to = std::min(random.between(1.05, 2) * critical, 0.95 * ring_critical(model, 3) / ring.unit), .when_unstable = stop ? "stop" : "follow"};
   const Traced t = test.trace(ring.file, way, "path");
   if (stop ? !test.ends(t) : !test.reaches(t, way.to)) return;
   if (!test.has_events(t, {{"branch", critical}})) return;
@@ -904,7 +904,9 @@ void ring_side(Case& test) {
   for (int k = 1; k <= branches; ++k) {
     const Row end = t.on_branch(k).back();
     if (!test.expect(end.lambda() == way.to, [&] { return fmt::format("side branch {} ends at {:.17g}", k, end.lambda()); })) return;
-    test.expect(end.point.stability.negative == 0, [&] { return fmt::format("the oval has Morse index {}", end.point.stability.negative); });
+    // Of a coarse ring the ovals towards particles and towards bonds differ, and one of them is a saddle.
+    const int most = model.particles() < 40 ? 1 : 0;
+    test.expect(end.point.stability.negative <= most, [&] { return fmt::format("the oval has Morse index {}", end.point.stability.negative); });
   }
 }
 
