@@ -480,7 +480,7 @@ void column_straight(Case& test) {
   const Traced t = test.trace(f, way, "path");
   if (stop ? !test.ends(t) : !test.reaches(t, way.to)) return;
   if (!test.has_events(t, {{"branch", critical}})) return;
-  const Row& event = t.of("branch")[0];
+  const Row event = t.of("branch")[0];
   const int each = c.planar ? 1 : 2;
   test.expect(event.point.multiplicity == each, [&] { return fmt::format("multiplicity {}, expected {}", event.point.multiplicity, each); });
   for (const Row& r : t.rows)
@@ -882,7 +882,7 @@ void ring_pressure(Case& test) {
   const Traced t = test.trace(ring.file, way, "path");
   if (stop ? !test.ends(t) : !test.reaches(t, way.to)) return;
   if (!test.has_events(t, {{"branch", critical}})) return;
-  const Row& event = t.of("branch")[0];
+  const Row event = t.of("branch")[0];
   test.expect(event.point.multiplicity == 2, [&] { return fmt::format("multiplicity {}, expected 2", event.point.multiplicity); });
   const Field x = event.point.state.position.colwise() - event.point.state.position.rowwise().mean().eval();
   const double most = x.colwise().norm().maxCoeff(), least = x.colwise().norm().minCoeff();
