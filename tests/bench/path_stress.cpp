@@ -207,9 +207,10 @@ struct Traced {
   }
 };
 
-constexpr double of_events = 1e-9;              // load factors, of their own size or the range's
+constexpr double of_events = 1e-9;              // load factors: known ones of their own size, those of two runs of the path's range
 constexpr double of_states = 1e-8;              // positions, of the structure's size
 constexpr double of_energies = 1e-9;            // relative
+constexpr double of_round = 1e-6;               // a ring's radii at its branch point, where the residual moves it most
 constexpr double of_gaps = 1e-9;                // at a contact, of the size of what touches
 
 /// One problem at work: runs what a family writes, and keeps what is wrong.
@@ -310,7 +311,7 @@ class Case {
     double range = 0;
     for (const Row& r : a.rows) range = std::max(range, std::abs(r.lambda()));
     for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k) {
-      const double off = std::abs(x[k].lambda() - y[k].lambda()) / std::max(std::abs(x[k].lambda()), 1e-3 * range);
+      const double off = std::abs(x[k].lambda() - y[k].lambda()) / range;
       if (!expect(x[k].kind() == y[k].kind() && off <= of_events && x[k].point.multiplicity == y[k].point.multiplicity,
                   [&] { return fmt::format("{}, off by {:.2g}", told(), off); })) return false;
     }
@@ -886,7 +887,7 @@ void ring_pressure(Case& test) {
   test.expect(event.point.multiplicity == 2, [&] { return fmt::format("multiplicity {}, expected 2", event.point.multiplicity); });
   const Field x = event.point.state.position.colwise() - event.point.state.position.rowwise().mean().eval();
   const double most = x.colwise().norm().maxCoeff(), least = x.colwise().norm().minCoeff();
-  test.expect(most - least <= of_states * most, [&] { return fmt::format("the ring is not round at the branch point, by {:.2g}", (most - least) / most); });
+  test.expect(most - least <= of_round * most, [&] { return fmt::format("the ring is not round at the branch point, by {:.2g}", (most - least) / most); });
 }
 
 void ring_side(Case& test) {
@@ -943,6 +944,13 @@ void grain_lid(Case& test) {
           .when_unstable = random.chance(0.5) ? "follow" : "jump"};
   if (!way.arcs()) way.when_unstable = "jump";
   if (critical > 0.999) return;                                   // soft: the lid hardly comes to touch
+  if (random.chance(0.25)) {                                      // down and up again
+    f.raw(fmt::format("\n[path]\nmethod = \"{}\"\nsteps = {}", way.arcs() ? "arc_length" : "load_steps", way.steps));
+    f.list("stage").key("name", "down").key("to", 1.0).list("stage").key("name", "up").key("to", 0.0);
+    const Traced t = test.trace(f.text(), "path");
+    if (test.reaches(t, 0) && test.has_events(t, {{"contact", critical}, {"contact", critical}})) test.touches(t), test.same_state(t, t.last(), t, t.rows.front());
+    return;
+  }
   const Traced t = test.trace(f, way, "path");
   if (!test.reaches(t, 1) || !test.has_events(t, {{"contact", critical}})) return;
   test.touches(t), test.index_is(t, 0);
