@@ -18,12 +18,12 @@ namespace {
 constexpr double give = 1e-10;                 // δ: of the stiffness scale
 constexpr double gap_rounding = 1e-13;         // of a diameter
 constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
-constexpr int most_shifts = 100;               // each larger than the one before: beyond all that doubles hold
 constexpr int block_chances = 3;               // changes of all at once that need not lead on: Júdice & Pires, p ≤ 10
 constexpr int pivots_at_least = 20, pivots_each = 4;
 constexpr double rounding_of_rates = 1e-9;     // of the largest
 
 const char* const too_far = "there is no equilibrium near enough";
+const char* const singular = "nothing holds what can move here: the equations are singular, with any shift";
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -78,9 +78,8 @@ bool ContactEquilibrium::factorize(double shift) {
 
 // With this shift or, where that leaves the matrix singular, with the next larger one that does not. False: none does.
 bool ContactEquilibrium::factorize_near(double shift) {
-  for (int k = 0; k < most_shifts && !interrupted(); ++k, shift = shift > 0 ? 4 * shift : 16 * std::max(factors_.zero_level(), epsilon * scale_))
-    if (factorize(shift)) return true;
-  return false;
+  const double next = shift > 0 ? 4 * shift : 16 * std::max(factors_.zero_level(), epsilon * scale_);
+  return first_shift(shift, next, 4, [&](double s) { return factorize(s); }).has_value();
 }
 
 // p, Δf of H p − Jᵀ Δf + Z μ = b, J p = c, Zᵀ p = 0, or `along` for the last of the directions Z that are held.
@@ -165,7 +164,7 @@ Report ContactEquilibrium::newton(State& state, double tolerance, const State* f
     for (std::size_t k = 0; k < gaps_.size(); ++k) {
       gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value, rates[static_cast<Eigen::Index>(k)] = rate(gaps_[k]);
     }
-    if (!factorize_near(0)) return end(Status::not_converged, "the equations have no solution");
+    if (!factorize_near(0)) return interrupted() ? end(Status::interrupted, "interrupted") : end(Status::not_converged, singular);
     ++report.factorizations;
     Step step = solve(-energy_.gradient(), -gaps);
     double change = 0;                                          // of the load factor
@@ -287,14 +286,12 @@ Inertia ContactEquilibrium::inertia(const State& state) {
   linearise(state, nullptr);
   const double sigma = factors_.zero_level();
   const int contacts = static_cast<int>(gaps_.size());
-  const auto negative = [&](double shift) {
-    for (int k = 0; k < most_shifts && !factorize(shift); ++k) shift *= 1.5;
-    return pivoted_.negative() - contacts;
-  };
-  Inertia inertia;
-  inertia.negative = negative(sigma);
-  inertia.zero = std::max(0, negative(-sigma) - inertia.negative);
-  return inertia;
+  const auto factor_at = [&](double shift) { return first_shift(shift, 1.5 * shift, 1.5, [&](double s) { return factorize(s); }).has_value(); };
+  Inertia inertia{0, energy_.dofs()};
+  if (!factor_at(sigma)) return inertia;
+  const int below = pivoted_.negative() - contacts;
+  if (!factor_at(-sigma)) return inertia;
+  return {below, std::max(0, pivoted_.negative() - contacts - below)};
 }
 
 ContactEquilibrium::Tangent ContactEquilibrium::tangent(const State& state, const Eigen::MatrixXd& held) {
@@ -355,13 +352,13 @@ EigenPairs ContactEquilibrium::lowest(const State& state, int count) {
   const int n = energy_.dofs(), contacts = static_cast<int>(gaps_.size());
   const Eigen::Index block = std::min(std::max(1, n - contacts), count + 3);
   count = std::min(count, static_cast<int>(block));
-  double shift = std::max(factors_.zero_level(), epsilon * scale_);       // one that leaves nothing negative
-  for (int k = 0; k < most_shifts && (!factorize(shift) || pivoted_.negative() > contacts); ++k) shift *= 8;
+  const double sigma = std::max(factors_.zero_level(), epsilon * scale_);       // a shift that leaves nothing negative
+  const auto positive = first_shift(sigma, 8 * sigma, 8, [&](double s) { return factorize(s) && pivoted_.negative() <= contacts; });
   Eigen::MatrixXd x(n, block), hx(n, block);
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::sin(1 + 12.9898 * static_cast<double>(i));
   const Vector none = Vector::Zero(contacts);
   Vector values = Vector::Zero(block), before;
-  for (int k = 0; k < 100; ++k) {
+  for (int k = 0; positive && k < 100 && !interrupted(); ++k) {
     for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve(x.col(j).normalized(), none).p;
     x = Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(n, block);
     for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));
