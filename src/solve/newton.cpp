@@ -134,7 +134,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
         turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), alpha = first = turn * free;
         continue;
       }
-      if (alpha < 1e-12 * first)
+      if (!(alpha > 1e-12 * first))
         return end(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
             std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",
             report.residual));
