@@ -38,25 +38,62 @@ double Arc::distance(const State& state) const {
   return std::sqrt(metric_.dot(x, load, x, load));
 }
 
-Equilibrium Arc::at(double s, const Equilibrium& nearest) const {
+Plane Arc::plane() const {
+  return {direction_.x / (metric_.length * metric_.length), direction_.load / (metric_.load * metric_.load), metric_.length, metric_.load};
+}
+
+// Where the arc begins, which may be a branch point, its own direction is the branch's.
+Direction Arc::along(const Equilibrium& nearest) const {
+  const bool begins = position(nearest.point.state) == 0 && distance(nearest.point.state) == 0;
+  return begins ? direction_ : direction_of(nearest, metric_, direction_);
+}
+
+Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
-  const Direction d = direction_of(nearest, metric_, direction_);
+  const Direction d = along(nearest);
   const double step = (s - position(nearest.point.state)) / std::max(cosine(d, direction_, metric_), least_cosine);
-  State state = nearest.point.state;
+  state = nearest.point.state;
   kinematics.prescribe(state, state.load_factor + step * d.load);
   kinematics.retract(state, d.x, step);
-  Equilibrium failed;
-  failed.point.state = state;
-  failed.point.report.why = "the step would carry something through something else";
-  if (energy.passage(nearest.point.state, state) < 1) return failed;
-  const Plane plane{direction_.x / (metric_.length * metric_.length), direction_.load / (metric_.load * metric_.load),
-                    metric_.length, metric_.load};
-  const Report report = newton_.correct(state, nearest.zero_modes, &nearest.point.state, most_iterations, &plane);
-  failed.point.state = state;
-  if (energy.passage(nearest.point.state, state) < 1) return failed;
-  failed.point.report = report;
-  return report.converged() ? assess(newton_, state, report) : failed;
+  Report blocked;
+  blocked.why = "the step would carry something through something else";
+  if (energy.passage(nearest.point.state, state) < 1) return blocked;
+  Plane across = plane();
+  const Report report = newton_.correct(state, nearest.zero_modes, &nearest.point.state, most_iterations, &across);
+  return report.converged() && energy.passage(nearest.point.state, state) < 1 ? blocked : report;
+}
+
+Report Arc::settle(State& state, const Eigen::MatrixXd& held) const {
+  Plane across = plane();
+  return newton_.correct(state, held, nullptr, most_iterations, &across);
+}
+
+double Arc::load_rate(const Equilibrium& e) const {
+  const Direction d = along(e);
+  return d.load / std::max(cosine(d, direction_, metric_), least_cosine);
+}
+
+Equilibrium Arc::at(double s, const Equilibrium& nearest) const {
+  State state;
+  const Report report = correct(state, s, nearest);
+  if (!report.converged()) {
+    Equilibrium failed;
+    failed.point.state = state, failed.point.report = report;
+    return failed;
+  }
+  Equilibrium e = assess(newton_, state, report);
+  if (e.tangent.size() == 0) return e;
+  Factors& factors = newton_.factors();
+  if (e.zero_modes.cols() != nearest.zero_modes.cols()) factors.factorize_holding(nearest.zero_modes);
+  const Plane across = plane();
+  const Factors::Bordered t = factors.solve_bordered(newton_.energy().load_derivative(), across.row, across.corner,
+                                                     Vector::Zero(e.tangent.size()), 1);
+  // dx/dλ is without bound at a limit point, not its direction.
+  const double least = epsilon * epsilon * t.p.norm() * metric_.load / metric_.length;
+  const double load = std::abs(t.delta) > least ? t.delta : std::copysign(least, t.delta);
+  if (t.p.allFinite() && std::isfinite(1 / load)) e.tangent = t.p / load;
+  return e;
 }
 
 }  // namespace elamin

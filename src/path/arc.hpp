@@ -35,14 +35,24 @@ class Arc {
       : newton_(newton), from_(from), direction_(std::move(direction)), metric_(metric) {}
 
   /// The equilibrium at arc length s, predicted along the branch's direction at one that is near. Not converged if Newton
-  /// does not contract there, or if anything would pass through something else on the way.
+  /// does not contract there, or if anything would pass through something else on the way. Its tangent is that of the bordered
+  /// system  H p + c δ = 0,  t_x·p/L² + t_λ δ/Λ² = 1,  which is regular where H is not: at limit points, beside branch points.
   Equilibrium at(double s, const Equilibrium& nearest) const;
+  /// The state of it alone, without what is known of the equilibrium there.
+  Report correct(State& state, double s, const Equilibrium& nearest) const;
+  /// The equilibrium at the arc length of a state that is near to it, some directions (dofs × m) held.
+  Report settle(State& state, const Eigen::MatrixXd& held) const;
+  /// dλ/ds of the branch at an equilibrium.
+  double load_rate(const Equilibrium& e) const;
   /// s of an equilibrium, and how far the state lies from the branch's tangent at `from`, in the metric.
   double position(const State& state) const;
   double distance(const State& state) const;
   const Direction& direction() const { return direction_; }
+  const Metric& metric() const { return metric_; }
 
  private:
+  Plane plane() const;
+  Direction along(const Equilibrium& nearest) const;
   Newton& newton_;
   Equilibrium from_;
   Direction direction_;

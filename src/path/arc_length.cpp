@@ -64,9 +64,9 @@ ArcLength::ArcLength(Newton& newton, SideBranch side, std::string parent, const 
 void ArcLength::begin() {
   if (side_) {
     branch_ = ++numbering().branches;
-    emit(side_->first.point);
-    set_out(side_->first, side_->direction, side_->first.point.stability.negative,
-            closed_contacts(newton_.energy(), side_->first.point.state));
+    Equilibrium at = side_->at;
+    at.point.label.clear();
+    set_out(at, side_->direction, -1, closed_contacts(newton_.energy(), at.point.state), side_->step);
     return;
   }
   std::string sentence;
@@ -109,7 +109,7 @@ void ArcLength::set_out(const Equilibrium& from, const Direction& direction, int
   w.step = step, w.shortest = shortest;
   if (step > 0 && options_.resume && !walk_) w.told = options_.resume->label;
   walk_.emplace(newton_, from, direction, negative, std::move(closed), metric_, std::move(w));
-  first_ = from, first_direction_ = direction, left_ = false;
+  first_ = from, first_direction_ = direction, left_ = false, travelled_ = 0;
 }
 
 void ArcLength::advance() {
@@ -130,18 +130,22 @@ void ArcLength::advance() {
 void ArcLength::show(Waypoint waypoint) {
   const double load = waypoint.at.point.state.load_factor;
   waypoint.at.point.resume = resume_here(waypoint);
-  if (waypoint.event) {
-    Event& event = *waypoint.event;
+  const Vector from_first = newton_.energy().kinematics().difference(first_.point.state, waypoint.at.point.state);
+  const double change = load - first_.point.state.load_factor;
+  travelled_ = std::max(travelled_, std::sqrt(walk_->metric().dot(from_first, change, from_first, change)));
+  for (Event& event : waypoint.events) {
     event.at.point.resume = waypoint.at.point.resume;
     const bool located = event.kind == EventKind::limit ? options_.limits : event.kind == EventKind::branch ? options_.branch_points : true;
-    if (event.kind == EventKind::branch && meets_known(waypoint)) return;
+    if (event.kind == EventKind::branch && meets_known(waypoint, event)) return;
     if (located) emit(event);
     else emit(waypoint.at.point);
+  }
+  for (const Event& event : waypoint.events)
     if (event.kind == EventKind::watch && options_.watches[event.watch].stop)
       return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, load));
-    if (event.kind != EventKind::watch && event.before == 0 && event.after > 0) lose_stability(event);
-    return;
-  }
+  for (Event& event : waypoint.events)
+    if (event.kind != EventKind::watch && event.before == 0 && event.after > 0) return void(lose_stability(event));
+  if (!waypoint.events.empty()) return;
   emit(waypoint.at.point);
   if (waypoint.stop) {
     const double stop = *waypoint.stop;
@@ -153,11 +157,12 @@ void ArcLength::show(Waypoint waypoint) {
 }
 
 Resume ArcLength::resume_here(const Waypoint& waypoint) const {
-  Resume r = waypoint.event ? resume_of(*waypoint.event, walk_->closed()) : Resume{};
+  const bool any = !waypoint.events.empty();
+  Resume r = any ? resume_of(waypoint.events.front(), walk_->closed()) : Resume{};
   r.tangent = waypoint.at.tangent;
   r.direction = walk_->direction().x, r.load = walk_->direction().load;
   r.length = walk_->metric().length, r.step = walk_->step(), r.shortest = walk_->shortest();
-  if (!waypoint.event) store(walk_->closed(), r);
+  if (!any) store(walk_->closed(), r);
   return r;
 }
 
@@ -185,7 +190,7 @@ bool ArcLength::lose_stability(Event& event) {
 }
 
 // Whether this is a branch point that the diagram has already: then the branch ends there.
-bool ArcLength::meets_known(const Waypoint& waypoint) {
+bool ArcLength::meets_known(const Waypoint& waypoint, const Event& event) {
   const Kinematics& kinematics = newton_.energy().kinematics();
   const State& state = waypoint.at.point.state;
   const Metric& metric = walk_->metric();
@@ -193,12 +198,10 @@ bool ArcLength::meets_known(const Waypoint& waypoint) {
     const State& other = known_[k].at.point.state;
     const Vector apart = kinematics.difference(other, state);
     const double load = state.load_factor - other.load_factor;
-    const Vector travelled = kinematics.difference(first_.point.state, state);
-    const double way = std::sqrt(metric.dot(travelled, 0, travelled, 0)) + std::abs(state.load_factor - first_.point.state.load_factor) / metric.load;
-    if (std::sqrt(metric.dot(apart, load, apart, load)) > same_point * way) continue;
+    if (std::sqrt(metric.dot(apart, load, apart, load)) > same_point * travelled_) continue;
     emit(waypoint.at.point);
     arrived_at_ = static_cast<int>(k);
-    arrival_ = waypoint.event->arrival ? Vector(-walk_->direction().x.normalized()) : Vector(Vector::Zero(apart.size()));
+    arrival_ = event.arrival ? Vector(-walk_->direction().x.normalized()) : Vector(Vector::Zero(apart.size()));
     end(Status::converged, fmt::format("the branch arrives at {}, load factor {:.10g}", known_[k].at.point.label, state.load_factor));
     return true;
   }

@@ -40,7 +40,7 @@ class ArcLength : public Path {
   Resume resume_here(const Waypoint& waypoint) const;
   void show(Waypoint waypoint);
   bool lose_stability(Event& event);
-  bool meets_known(const Waypoint& waypoint);
+  bool meets_known(const Waypoint& waypoint, const Event& event);
   bool closes_loop(const Waypoint& waypoint);
 
   Newton& newton_;
@@ -53,6 +53,7 @@ class ArcLength : public Path {
   Equilibrium first_;                    // where the loop would close
   Direction first_direction_;
   bool left_ = false;                    // has been well away from there
+  double travelled_ = 0;                 // the farthest that it has been away, in the metric
   int points_ = 0;
   int arrived_at_ = -1;
   Vector arrival_;

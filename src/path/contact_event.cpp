@@ -1,12 +1,14 @@
 #include "path/contact_event.hpp"
 
 #include "energy/body_touches.hpp"
+#include "energy/wall_group.hpp"
 #include "model/entities.hpp"
 #include "path/root.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -16,7 +18,9 @@ namespace elamin {
 namespace {
 
 constexpr double together = 1e-10;            // of the size: gaps that vanish at one load factor
+constexpr double together_in_step = 1e-9;     // … or of its change over the step
 constexpr double beside = 1e-9;               // of the size: where one side of a corner is looked at
+constexpr double along_chord = 0.1;           // of the step: beyond its ends, where a gap that vanishes at one of them may be found
 
 std::vector<ContactKey> difference(const ContactSet& a, const ContactSet& b) {
   std::vector<ContactKey> keys;
@@ -82,14 +86,13 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   change.onward = back == 0 ? came : ahead == 0 ? -came : 0;
 }
 
-// Those of the changed contacts that change at the equilibrium found; completes it.
+// Completes the equilibrium at which these contacts change.
 void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vector<ContactKey>& changed, const Vector& way, double load_change) {
   Energy& energy = newton.energy();
   constexpr std::size_t most_told = 4;
   std::vector<std::string> sentences;
   std::vector<ContactKey> here;
   for (const ContactKey& key : changed) {
-    if (std::abs(gap(energy, key, change.at.point.state)) > together * size_of(energy.model(), key.particle)) continue;
     toggle(now, key);
     here.push_back(key);
     const std::string sentence = told(energy.model(), key, now.count(key) > 0);
@@ -102,26 +105,76 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vect
   if (!here.empty()) look_both_ways(newton, change, here, way, load_change);
 }
 
-// ∇gap (dofs) and ∂gap/∂λ of prescribed coordinates and moving walls.
-Vector slope(const Energy& energy, const ContactKey& key, const State& state, const Touch& touch, double& by_load) {
+// The direction in which a gap grows: of a contact of bodies with its point, of particles at their centres.
+bool normal_of(const Energy& energy, const ContactKey& key, const State& state, Vec3& normal, Vec3& point) {
+  const Model& model = energy.model();
+  if (key.feature >= 0) {
+    const std::optional<Touch> touch = body_touch(model, energy.body_rules(), touch_key(key), state);
+    if (touch) normal = touch->normal, point = touch->point;
+    return touch.has_value();
+  }
+  if (key.wall < 0) {
+    normal = (state.at(key.particle) - state.at(key.other)).hi.normalized();
+    return normal.allFinite();
+  }
+  std::array<WallTouch, WallContact::most_faces> faces;
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const int n = wall_at(model.walls[key.wall], state.load_factor).touches(state.at(key.particle), model.diameter[key.particle] / 2, anywhere, faces);
+  const auto nearest = std::min_element(faces.begin(), faces.begin() + n, [](const WallTouch& s, const WallTouch& t) { return s.gap < t.gap; });
+  if (n > 0) normal = nearest->normal;
+  return n > 0;
+}
+
+// ∇gap (dofs) and ∂gap/∂λ of prescribed coordinates and moving walls; load_change: over which the walls move. False where there is none.
+bool slope(const Energy& energy, const ContactKey& key, const State& state, double load_change, Vector& row, double& by_load) {
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
+  Vec3 normal, point;
+  if (!normal_of(energy, key, state, normal, point)) return false;
   Field g = Field::Zero(3, kinematics.sites());
+  const auto push = [&](int body, const Vec3& at, double sign) {
+    g.col(kinematics.place_of(body)) += sign * normal;
+    g.col(kinematics.turn_of(body)) += sign / kinematics.lever(body) * (at - state.bodies[body].position.hi).cross(normal);
+  };
   const auto add = [&](int entity, double sign) {
-    if (!is_body(model, entity)) {
-      g.col(entity) += sign * touch.normal;
-      return;
-    }
-    const int b = entity - model.particles();
-    g.col(kinematics.place_of(b)) += sign * touch.normal;
-    g.col(kinematics.turn_of(b)) += sign / kinematics.lever(b) * (touch.point - state.bodies[b].position.hi).cross(touch.normal);
+    if (is_body(model, entity)) return push(entity - model.particles(), key.feature >= 0 ? point : Vec3(state.position.col(entity)), sign);
+    const auto glued = std::find_if(model.glued.begin(), model.glued.end(), [&](const Glued& u) { return u.particle == entity; });
+    if (glued != model.glued.end()) return push(glued->body, state.position.col(entity), sign);
+    g.col(entity) += sign * normal;
   };
   add(key.particle, 1);
   if (key.other >= 0) add(key.other, -1);
   by_load = 0;
   for (int s = 0; s < kinematics.sites(); ++s) by_load += g.col(s).dot(kinematics.drive(s));
-  if (key.wall >= 0) by_load -= model.walls[key.wall].scaling.rate * touch.normal.dot(model.walls[key.wall].displacement);
-  return kinematics.restrict(g);
+  if (key.wall >= 0 && load_change != 0) {                      // a gap is linear in how far a wall has moved
+    State moved = state;
+    moved.load_factor += load_change;
+    by_load += (gap(energy, key, moved) - gap(energy, key, state)) / load_change;
+  }
+  row = kinematics.restrict(g);
+  return row.allFinite() && std::isfinite(by_load);
+}
+
+// The equilibrium at which a gap vanishes, from a state that is near:  g(x, λ) = 0, gap(x, λ) = 0. way, load_change: the scales of
+// what may move. The state is moved along the way first, to where the gap vanishes to first order.
+Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from, const Vector& way, double load_change, State& state) {
+  constexpr int most = 12;
+  Energy& energy = newton.energy();
+  Plane plane;
+  plane.length = std::max(way.norm(), 1e-300), plane.load = std::max(std::abs(load_change), 1e-300);
+  plane.close = 1e-13 * size_of(energy.model(), key.particle);
+  bool defined = true;
+  plane.condition = [&](const State& at, Plane& p) {
+    defined = defined && slope(energy, key, at, load_change, p.row, p.corner);
+    return defined ? gap(energy, key, at) : 0.0;
+  };
+  Report report;
+  const double off = plane.condition(state, plane), rate = defined ? plane.row.dot(way) + plane.corner * load_change : 0.0;
+  if (rate == 0) return report;
+  state = moved_by(energy.kinematics(), state, way, load_change, -off / rate);
+  report = newton.correct(state, from.zero_modes, nullptr, most, &plane);
+  if (!defined) report.status = Status::not_converged;
+  return report;
 }
 
 }  // namespace
@@ -140,40 +193,62 @@ ContactSet closed_contacts(Energy& energy, const State& state) {
 std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
                                             const Equilibrium& b) {
   Energy& energy = newton.energy();
+  const Kinematics& kinematics = energy.kinematics();
   ContactSet now = before;
   std::vector<ContactKey> changed;
-  const auto gap = [&](const ContactKey& key, const Equilibrium& e) { return elamin::gap(energy, key, e.point.state); };
+  const auto gap = [&](const ContactKey& key, const State& state) { return elamin::gap(energy, key, state); };
   for (const ContactKey& key : difference(before, closed_contacts(energy, b.point.state))) {
-    const double ga = gap(key, a), gb = gap(key, b);
+    const double ga = gap(key, a.point.state), gb = gap(key, b.point.state);
     if ((ga < 0) != (gb < 0) && std::isfinite(ga) && std::isfinite(gb)) changed.push_back(key);
     else toggle(now, key);                    // it changes at `a`, which is an event already, or fades out at the end of an edge
   }
   if (changed.empty()) return {};
-  const auto sample = [&](const ContactKey& key, double t, const Equilibrium& e) { return Sample{t, gap(key, e), e}; };
-  ContactChange change{true, segment.b, b, {}, {}};
+  ContactChange change{true, segment.b, {}, {}, {}};
+  std::optional<Equilibrium> at = b;          // what is known of it
+  State found = b.point.state;
+  Report report;
+  const auto near = [&](const ContactKey& key, const State& state) {
+    const double moved = std::abs(gap(key, b.point.state) - gap(key, a.point.state));
+    return std::abs(gap(key, state)) <= std::max(together * size_of(energy.model(), key.particle), together_in_step * moved);
+  };
   for (std::size_t round = 0; round <= changed.size(); ++round) {
     // The one that changes first, as far as straight lines tell, of those that change before.
     const ContactKey* first = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const ContactKey& key : changed) {
-      const double ga = gap(key, a), gu = gap(key, change.at), size = size_of(energy.model(), key.particle);
-      if ((ga < 0) == (gu < 0) || (round > 0 && std::abs(gu) <= together * size)) continue;
+      const double ga = gap(key, a.point.state), gu = gap(key, found);
+      if ((ga < 0) == (gu < 0) || (round > 0 && near(key, found))) continue;
       if (const double part = ga / (ga - gu); part < least) least = part, first = &key;
     }
     if (!first) break;
-    const double resolution = 1e-13 * std::abs(segment.b - segment.a);
-    const auto zero = find_zero(sample(*first, segment.a, a), sample(*first, change.at_parameter, change.at), resolution,
-                                [&](double t, const Sample& from) -> std::optional<Sample> {
-      const Equilibrium e = segment.at(t, from.e);
-      if (!e.point.report.converged()) return {};
-      return sample(*first, t, e);
-    });
-    if (!zero) return ContactChange{};
-    change.at = zero->e, change.at_parameter = zero->t;
+    const Vector way = kinematics.difference(a.point.state, found);
+    const double load_change = found.load_factor - a.point.state.load_factor;
+    State state = moved_by(kinematics, a.point.state, way, load_change, least);
+    report = close_gap(newton, *first, a, way, load_change, state);
+    const double t = report.converged() ? segment.parameter(state) : segment.a;
+    const double part = (t - segment.a) / (change.at_parameter - segment.a);
+    const bool between = report.converged() && part > -along_chord && part < 1 + along_chord &&
+                         beside_chord(kinematics, a.point.state, found, part, state) && energy.passage(a.point.state, state) == 1;
+    if (between) {
+      found = state, change.at_parameter = t, at.reset();
+    } else {                                                    // slowly, along the branch
+      if (!at) at = segment.at(change.at_parameter, a);
+      if (!at->point.report.converged()) return ContactChange{};
+      const auto sample = [&](double u, const Equilibrium& e) { return Sample{u, gap(*first, e.point.state), e}; };
+      const auto zero = find_zero(sample(segment.a, a), sample(change.at_parameter, *at), 1e-13 * std::abs(segment.b - segment.a),
+                                  [&](double u, const Sample& from) -> std::optional<Sample> {
+        const Equilibrium e = segment.at(u, from.e);
+        if (!e.point.report.converged()) return {};
+        return sample(u, e);
+      });
+      if (!zero || !near(*first, zero->e.point.state)) return ContactChange{};      // a gap that jumps: two branches
+      at = zero->e, change.at_parameter = zero->t, found = zero->e.point.state;
+    }
   }
-  const State &from = a.point.state, &to = change.at.point.state;
-  const Vector way = energy.kinematics().difference(from, to);
-  tell(newton, change, std::move(now), changed, way, to.load_factor - from.load_factor);
+  change.at = at ? std::move(*at) : assess(newton, found, report);
+  const Vector way = kinematics.difference(a.point.state, found);
+  std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
+  tell(newton, change, std::move(now), changed, way, found.load_factor - a.point.state.load_factor);
   return change;
 }
 
@@ -190,11 +265,13 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   reach += 2 * walls;
   // The one that the tangent meets first.
   ContactKey first{};
+  ContactSet candidates = before;
   double least = std::numeric_limits<double>::infinity();
   for (const Touch& t : energy.touches(from, reach))
     for (const bool within : {false, true}) {
       const ContactKey key{t.particle, t.other, t.wall, t.feature, within};
       if (t.feature < 0 || (within && attraction_range(model, energy.body_rules(), t.key()) == 0)) continue;
+      candidates.insert(key);
       const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
       const bool closed = before.count(key) > 0;
       const bool at = std::abs(here) <= together * size_of(model, key.particle);
@@ -205,36 +282,26 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   if (!std::isfinite(least)) return {};
   ContactChange change;
   State state = moved_by(kinematics, from, way, load_change, least);
-  Report report;
-  for (int k = 0; k < 8; ++k) {
-    const std::optional<Touch> touch = body_touch(model, energy.body_rules(), touch_key(first), state);
-    if (!touch) return {};
-    Plane plane;
-    plane.row = slope(energy, first, state, *touch, plane.corner);
-    const double off = gap(energy, first, state);
-    if (k > 0 && std::abs(off) <= 1e-14 * size_of(model, first.particle)) break;
-    const double rate = plane.row.dot(way) + plane.corner * load_change;
-    if (rate == 0) return {};
-    state = moved_by(kinematics, state, way, load_change, -off / rate);
-    plane.length = std::max(way.norm(), 1e-300), plane.load = std::max(std::abs(load_change), 1e-300);
-    report = newton.correct(state, a.zero_modes, nullptr, 16, &plane);
-    if (!report.converged()) return {};
-  }
+  const Report report = close_gap(newton, first, a, way, load_change, state);
+  if (!report.converged()) return {};
   if (std::abs(gap(energy, first, state)) > together * size_of(model, first.particle)) return {};
   if (energy.passage(from, state) < 1) return {};
   change.found = true;
   change.at.point.state = state, change.at.point.report = report;
   change.at = assess(newton, state, report);
-  // Nothing else may have changed before.
-  std::vector<ContactKey> changed;
-  for (const auto& set : {before, closed_contacts(energy, state)})
-    for (const ContactKey& key : set) {
-      const bool here = std::abs(gap(energy, key, state)) <= together * size_of(model, key.particle);
-      if (here && std::find(changed.begin(), changed.end(), key) == changed.end()) changed.push_back(key);
+  // What changes here, too; nothing else may have changed before.
+  const State ahead = moved_by(kinematics, state, way, load_change, 1e-3);
+  std::vector<ContactKey> changed{first};
+  for (const ContactKey& key : candidates) {
+    const double here = gap(energy, key, state);
+    const bool closed = before.count(key) > 0;
+    if (key == first || !std::isfinite(here)) continue;
+    if (std::abs(here) > together * size_of(model, key.particle)) {
+      if ((here < 0) != closed) return {};
+    } else if ((gap(energy, key, ahead) < 0) != closed) {
+      changed.push_back(key);
     }
-  for (const ContactKey& key : difference(before, closed_contacts(energy, state)))
-    if (std::find(changed.begin(), changed.end(), key) == changed.end() && std::isfinite(gap(energy, key, state))) return {};
-  if (std::find(changed.begin(), changed.end(), first) == changed.end()) changed.push_back(first);
+  }
   tell(newton, change, before, changed, way, load_change);
   return change;
 }

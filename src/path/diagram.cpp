@@ -70,7 +70,8 @@ class Diagram final : public Path {
       const Event& event = known_[switched_];
       newton_.energy().evaluate(event.at.point.state);
       metric_ = metric_for(newton_.energy(), event.at, options_);
-      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_);
+      const WalkOptions w = walk_options(options_);
+      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_, w.load_step, w.turn);
       if (sides.empty()) note(fmt::format("{}: no side branch was found", event.at.point.label));
       for (const SideBranch& side : sides) waiting_.push_back({switched_, side});
       ++switched_;

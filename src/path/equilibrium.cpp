@@ -251,6 +251,17 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   return e;
 }
 
+bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to) {
+  constexpr double same_end = 1e-3;           // of the way
+  const Kinematics& kinematics = newton.energy().kinematics();
+  State state = from.point.state;
+  const double change = to.point.state.load_factor - state.load_factor;
+  kinematics.prescribe(state, to.point.state.load_factor);
+  kinematics.retract(state, from.tangent, change);
+  if (!newton.correct(state, from.zero_modes, &from.point.state, most_iterations).converged()) return false;
+  return kinematics.difference(state, to.point.state).norm() <= same_end * kinematics.difference(from.point.state, to.point.state).norm();
+}
+
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
   if (a.cols() > 0) both.leftCols(a.cols()) = a;

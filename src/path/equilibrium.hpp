@@ -26,6 +26,9 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect.
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 
+/// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.
+bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
+
 /// The columns of both, for what is held together.
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

@@ -77,10 +77,10 @@ void HeldSteps::tell(PathPoint point) {
   emit(std::move(point));
 }
 
-void HeldSteps::accept(Equilibrium at, double load_factor) {
+void HeldSteps::accept(Equilibrium at, double load_factor, const std::vector<Event>& passed) {
   current_ = std::move(at);
-  side_.clear();
-  for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
+  side_.resize(options_.watches.size(), 0);
+  pass_watches(options_.watches, passed, current_.point.state, side_);
   if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
 }
 
@@ -139,15 +139,20 @@ void HeldSteps::step() {
   if (after != current_.point.stability.negative) return lose(target, after);
   if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) return halve(target, "the corrector went to another branch");
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
-  if (auto seen = locate_watch(options_.watches, side_, {here, target, between}, current_, candidate, after)) {
-    const std::size_t k = static_cast<std::size_t>(seen->watch);
-    const double side = side_[k];
-    Event event = *seen;
-    std::erase_if(event.at.point.state.hard, [](const HardForce& h) { return !(h.force > 0); });
-    emit(event);
-    accept(std::move(seen->at), seen->at_parameter);
-    side_[k] = -side;
-    if (options_.watches[k].stop) end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, seen->at_parameter));
+  bool missed = false;
+  Segment segment = segment_of_loads(newton_, here, target);
+  segment.at = between;
+  std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, candidate, after, missed);
+  if (missed && halvings_ < finest) return halve(target, "where an observable reaches its value could not be located");
+  if (!seen.empty()) {
+    const double there = seen.front().at_parameter;
+    for (Event event : seen) {
+      std::erase_if(event.at.point.state.hard, [](const HardForce& h) { return !(h.force > 0); });
+      emit(event);
+    }
+    accept(seen.front().at, there, seen);
+    for (const Event& event : seen)
+      if (options_.watches[event.watch].stop) return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, there));
     return;
   }
   changes_ = 0;

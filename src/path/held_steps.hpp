@@ -31,7 +31,7 @@ class HeldSteps final : public Path {
   void leave_unstable();
   void halve(double target, const std::string& why);
   void fall(double target, const std::string& why);
-  void accept(Equilibrium at, double load_factor);
+  void accept(Equilibrium at, double load_factor, const std::vector<Event>& passed = {});
   void tell(PathPoint point);
 
   Newton& newton_;

@@ -70,12 +70,13 @@ void LoadSteps::begin() {
 }
 
 // Goes on from here; the interval's halving counts from this load factor.
-void LoadSteps::settle(Equilibrium at, double load_factor) {
+void LoadSteps::settle(Equilibrium at, double load_factor, const std::vector<Event>& passed) {
   current_ = std::move(at);
+  current_.point.label.clear();
   negative_ = current_.point.stability.negative;
   closed_ = closed_contacts(newton_.energy(), current_.point.state);
-  side_.clear();
-  for (const Watch& w : options_.watches) side_.push_back(w.side(current_.point.state));
+  side_.resize(options_.watches.size(), 0);
+  pass_watches(options_.watches, passed, current_.point.state, side_);
   interval_start_ = load_factor, done_ = 0;
   if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
 }
@@ -90,7 +91,14 @@ void LoadSteps::step() {
   const double target = arrived == whole ? goal : interval_start_ + (goal - interval_start_) * (static_cast<double>(arrived) / whole);
 
   Equilibrium candidate = continue_to(newton_, current_, target, options_.correct);
-  Segment segment{here, target, [this](double t, const Equilibrium& nearest) { return continue_to(newton_, nearest, t); }};
+  const auto between = [&, end = candidate.point.state](double t, const Equilibrium& nearest) {
+    Equilibrium e = continue_to(newton_, nearest, t);
+    if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, (t - here) / (target - here), e.point.state))
+      e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
+    return e;
+  };
+  Segment segment = segment_of_loads(newton_, here, target);
+  segment.at = between;
   std::optional<Event> event;
   std::optional<ContactChange> contact;
   bool accepted = candidate.point.report.converged();
@@ -99,8 +107,8 @@ void LoadSteps::step() {
     if (accepted) candidate = contact->at, segment.b = contact->at_parameter;
   }
   if (accepted && candidate.point.stability.negative != negative_) {
-    event = locate_crossing(newton_, segment, current_, negative_, candidate);
-    accepted = event && event->kind == EventKind::branch && event->modes.cols() > 0;
+    event = locate_crossing(newton_, segment, current_, negative_, candidate, false).event;
+    accepted = event && event->kind == EventKind::branch && leads_to(newton_, event->at, candidate) && leads_to(newton_, event->at, current_);
   }
   if (!accepted) {
     if (candidate.point.report.status == Status::interrupted) return end(Status::interrupted, "interrupted");
@@ -114,8 +122,18 @@ void LoadSteps::step() {
     return end(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}", here,
                                                   std::abs(target - here), why));
   }
+  if (event) segment.b = event->at_parameter, candidate = event->at;
+  bool missed = false;
+  std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, candidate, negative_, missed);
+  if (missed && halvings_ < finest) {
+    ++halvings_;
+    return;
+  }
+  const bool together = !seen.empty() && std::abs(segment.b - seen.front().at_parameter) <= coincide * std::abs(segment.b - segment.a);
+  if (!seen.empty() && !(together && (event || contact))) return reach(std::move(seen));
+  for (Event& e : seen) emit(e);
+  pass_watches(options_.watches, seen, candidate.point.state, side_);
   if (event) return lose_stability(std::move(*event), goal);
-  if (std::optional<Event> seen = locate_watch(options_.watches, side_, segment, current_, candidate, negative_)) return reach(std::move(*seen));
   if (contact) return meet(std::move(*contact), goal);
 
   const std::int64_t done = arrived;
@@ -127,17 +145,17 @@ void LoadSteps::step() {
   if (halvings_ > 0 && done_ % (2 * part) == 0) --halvings_;
 }
 
-void LoadSteps::reach(Event event) {
+void LoadSteps::reach(std::vector<Event> events) {
   halvings_ = 0;
-  event.closed = closed_contacts(newton_.energy(), event.at.point.state);
-  emit(event);
-  const double here = event.at.point.state.load_factor;
-  const std::size_t k = event.watch;
-  const double side = side_[k];
-  event.at.point.label.clear();
-  settle(std::move(event.at), here);
-  side_[k] = -side;
-  if (options_.watches[k].stop) end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, here));
+  Equilibrium at = events.front().at;
+  const double here = at.point.state.load_factor;
+  for (Event& event : events) {
+    event.closed = closed_contacts(newton_.energy(), event.at.point.state);
+    emit(event);
+  }
+  settle(std::move(at), here, events);
+  for (const Event& event : events)
+    if (options_.watches[event.watch].stop) return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, here));
 }
 
 // A contact made or lost: a point of the path, which goes on from there.
@@ -174,16 +192,23 @@ bool LoadSteps::explore(double target) {
   WalkOptions w;
   w.load_step = std::abs(way), w.turn = 0.1, w.contacts = options_.contacts;
   w.stops = {target, here - 100 * way};
+  w.watches = options_.watches, w.sides = side_;
   const Direction towards{Vector::Zero(current_.tangent.size()), way > 0 ? metric.load : -metric.load};
   Walk walk(newton_, current_, direction_of(current_, metric, towards), negative_, closed_, metric, w);
   for (int k = 0; k < most_explored; ++k) {
     std::optional<Waypoint> next = walk.next();
     if (!next) return false;
     const double load = next->at.point.state.load_factor;
-    if (next->event) {
-      Event& event = *next->event;
+    if (!next->events.empty()) {
+      Event& event = next->events.front();
+      if (event.kind == EventKind::watch) {
+        reach(std::move(next->events));
+        return true;
+      }
+      for (std::size_t j = 1; j < next->events.size(); ++j) emit(next->events[j]);
+      pass_watches(options_.watches, next->events, event.at.point.state, side_);
       if (event.kind == EventKind::contact) {
-        meet({true, 0, std::move(event.at), std::move(event.closed), event.what, std::move(event.beyond), event.onward}, targets_[interval_]);
+        meet({true, 0, event.at, event.closed, event.what, event.beyond, event.onward}, targets_[interval_]);
         return true;
       }
       if (event.kind == EventKind::limit && event.before > 0 && options_.when_unstable != WhenUnstable::follow) return false;
@@ -221,20 +246,21 @@ void LoadSteps::lose_stability(Event event, double target) {
   pass(event, target);
 }
 
-// Over a branch point along the tangent: the critical modes keep still, so that the branch is not left.
+// Over a branch point along the tangent: to where the Morse index is the one beyond, with the critical modes free, or held where that
+// leads to another branch.
 void LoadSteps::pass(const Event& event, double target) {
   const double at = event.at.point.state.load_factor;
-  Equilibrium start = event.at;
-  const Eigen::MatrixXd held = side_by_side(start.zero_modes, event.modes);
-  const Eigen::MatrixXd zero_modes = start.zero_modes;
-  start.zero_modes = held;
+  Equilibrium free = event.at, held = event.at;
+  held.zero_modes = side_by_side(held.zero_modes, event.modes);
   Equilibrium next;
   for (double part = beyond_event; part > 1e-6; part /= 4) {
     const double past = at + part * (target - at);
-    next = continue_to(newton_, start, past);
-    if (!next.point.report.converged()) continue;
-    if (next.zero_modes.cols() == held.cols()) next.zero_modes = zero_modes;
-    return settle(std::move(next), past);
+    for (const Equilibrium* start : {&free, &held}) {
+      next = continue_to(newton_, *start, past);
+      if (!next.point.report.converged() || next.point.stability.negative != event.after) continue;
+      if (next.zero_modes.cols() == held.zero_modes.cols()) next.zero_modes = free.zero_modes;
+      return settle(std::move(next), past);
+    }
   }
   end(Status::not_converged, fmt::format("the branch is lost behind {}, load factor {:.10g}: {}", event.at.point.label, at, next.point.report.why));
 }

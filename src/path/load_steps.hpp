@@ -22,12 +22,12 @@ class LoadSteps : public Path {
   void step();
   bool explore(double target);
   void meet(ContactChange change, double target);
-  void reach(Event watched);
+  void reach(std::vector<Event> watched);
   void lose_stability(Event event, double target);
   void pass(const Event& event, double target);
   bool fall(double target);
   void jump(const Event& event, double target);
-  void settle(Equilibrium at, double load_factor);
+  void settle(Equilibrium at, double load_factor, const std::vector<Event>& passed = {});
 
   Newton& newton_;
   PathOptions options_;

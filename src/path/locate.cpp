@@ -12,6 +12,9 @@ namespace elamin {
 
 namespace {
 
+constexpr int most_iterations = 16;           // of a corrector between two equilibria
+constexpr double orthogonal = 1e-5;           // of a load to a critical mode, where nothing else tells limit from branch points
+
 // The lowest eigenpairs at the equilibrium without the known zero modes Z: of the span V of so many eigenvectors more as
 // there are known ones, what is orthogonal to VᵀZ. So it does not matter how a critical mode and a zero mode mix where
 // their eigenvalues meet, and the stiff directions, in which Z is not exact beside its own state, stay out.
@@ -67,10 +70,10 @@ Eigen::MatrixXd persistent(const Equilibrium& a, const Equilibrium& b) {
   return a.zero_modes.cols() <= b.zero_modes.cols() ? a.zero_modes : b.zero_modes;
 }
 
-// The load does work along a critical mode: then the branch turns there.
-bool is_limit(const Eigen::MatrixXd& modes, const Vector& load_derivative) {
-  constexpr double orthogonal = 1e-5;
-  return modes.cols() == 1 && modes.rows() > 0 && (modes.transpose() * load_derivative).norm() > orthogonal * load_derivative.norm();
+// How much of the load does work along a critical mode: none at a branch point.
+double work_along(const Eigen::MatrixXd& modes, const Vector& load_derivative) {
+  const double load = load_derivative.norm();
+  return load > 0 && modes.rows() > 0 ? (modes.transpose() * load_derivative).norm() / load : 0.0;
 }
 
 // Of the eigenvectors that are known of an equilibrium those with eigenvalues up to ± `most`, orthogonal to the zero modes.
@@ -87,17 +90,24 @@ Eigen::MatrixXd soft_modes(const Equilibrium& e, double most, const Eigen::Matri
   return modes;
 }
 
+// How the branch moves along its critical modes, which is what the linear equations at a branch point do not tell.
+void move_along_modes(Equilibrium& at, const Eigen::MatrixXd& modes, const Interpolated& between) {
+  if (between.load_rate != 0 && modes.cols() > 0) at.tangent += modes * (modes.transpose() * between.rate) / between.load_rate;
+}
+
 void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, const Eigen::MatrixXd& modes) {
   newton.energy().evaluate(e.point.state);
   newton.factors().factorize_holding(side_by_side(known, modes));
   e.tangent = newton.factors().solve_holding(-newton.energy().load_derivative());
 }
 
-Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known) {
+// turns: of the load factor on the segment; nothing: it does not tell.
+Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known, std::optional<bool> turns) {
   Event event;
   event.modes = critical_modes(newton, at, index, scale, known);
   newton.energy().evaluate(at.point.state);
-  event.kind = is_limit(event.modes, newton.energy().load_derivative()) ? EventKind::limit : EventKind::branch;
+  const bool limit = turns.value_or(work_along(event.modes, newton.energy().load_derivative()) > orthogonal);
+  event.kind = limit && event.modes.cols() == 1 ? EventKind::limit : EventKind::branch;
   hold_modes(newton, at, known, event.kind == EventKind::branch ? event.modes : Eigen::MatrixXd());
   at.point.multiplicity = static_cast<int>(event.modes.cols());
   at.point.stability.stable = false;
@@ -108,45 +118,71 @@ Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eige
 
 }  // namespace
 
-std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b) {
+Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns) {
   const int after = b.point.stability.negative;
   const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
+  const std::optional<bool> told = std::abs(after - before) == 1 ? std::optional(turns) : std::nullopt;
   const Eigen::MatrixXd known = persistent(a, b);
   Equilibrium first = a, second = b;
   first.zero_modes = second.zero_modes = known;
   const auto done = [&](Event event, double parameter) {
     event.at_parameter = parameter, event.before = before;
     event.after = before + (after > before ? 1 : -1) * std::max(1, static_cast<int>(event.modes.cols()));
-    return event;
+    return event.modes.cols() > 0 ? Crossing{std::move(event), {}, 0} : Crossing{};
   };
   Sample lower{segment.a, eigenvalue(newton, first, index), first};
   if (std::abs(lower.f) <= newton.factors().zero_level() && a.point.stability.critical > 0)       // a is the event itself
-    return done(finish(newton, first, index, newton.factors().zero_level(), known), segment.a);
+    return done(finish(newton, first, index, newton.factors().zero_level(), known, told), segment.a);
   Sample upper{segment.b, eigenvalue(newton, second, index), second};
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   const double resolution = 1e-13 * std::abs(segment.b - segment.a);
+  const bool was_negative = lower.f < 0;
+  // A force that is left along the critical modes breaks the branch point: then there is none.
+  const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
+  const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && e.point.report.residual <= rounding; };
+  const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
+  Crossing jumps;
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
-    // The critical modes of a branch point keep still along the branch. Held there, the equations are regular.
-    Equilibrium start = from.e, e;
-    const Eigen::MatrixXd modes = soft_modes(start, 2 * std::abs(from.f), known);
-    newton.energy().evaluate(start.point.state);
-    if (modes.cols() > 0 && !is_limit(modes, newton.energy().load_derivative())) {
-      start.zero_modes = side_by_side(known, modes);
-      start.tangent -= modes * (modes.transpose() * start.tangent);
-      e = segment.at(t, start);
+    // At a branch point the equations are regular with the critical modes held where the branch has them.
+    Equilibrium e;
+    const Eigen::MatrixXd modes = turns && told ? Eigen::MatrixXd() : soft_modes(from.e, 2 * std::abs(from.f), known);
+    newton.energy().evaluate(from.e.point.state);
+    if (modes.cols() > 0 && (told || work_along(modes, newton.energy().load_derivative()) <= orthogonal)) {
+      State state = between(t).state;
+      const Report report = segment.settle(state, side_by_side(known, modes));
+      if (report.converged() && report.residual <= rounding) e = assess(newton, state, report);
     }
-    // A force that is left along them breaks the branch point: then there is none.
-    const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
-    if (!e.point.report.converged() || e.point.report.residual > rounding) e = segment.at(t, from.e);
-    if (!e.point.report.converged() || e.point.report.residual > rounding) return {};
+    if (!good(e)) e = segment.at(t, from.e);
+    if (!good(e)) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
     const double value = critical_value(newton, e, index);
+    if ((value < 0) == was_negative && (!jumps.before || t > jumps.before_parameter)) jumps.before = e, jumps.before_parameter = t;
     return Sample{t, value, std::move(e)};
   });
-  // A jump over zero, from one branch to another next to it, is none.
-  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return {};
-  return done(finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known), zero->t);
+  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return jumps;
+  Event event = finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
+  if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
+  return done(std::move(event), zero->t);
+}
+
+Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, double ta, double tb,
+                         double t) {
+  const double width = tb - ta, u = (t - ta) / width, la = segment.load_rate(a), lb = segment.load_rate(b);
+  const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
+  const double d01 = 6 * u * (1 - u) / width, d10 = (1 - u) * (1 - 3 * u), d11 = u * (3 * u - 2);
+  const Vector moved = kinematics.difference(a.point.state, b.point.state);
+  const double from = a.point.state.load_factor, change = b.point.state.load_factor - from;
+  Interpolated point{a.point.state, d01 * moved + d10 * la * a.tangent + d11 * lb * b.tangent, d01 * change + d10 * la + d11 * lb};
+  kinematics.prescribe(point.state, from + h01 * change + h10 * la + h11 * lb);
+  kinematics.retract(point.state, h01 * moved + h10 * la * a.tangent + h11 * lb * b.tangent);
+  return point;
+}
+
+Segment segment_of_loads(Newton& newton, double from, double to) {
+  return {from, to, [&newton](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); },
+          [&newton](State& state, const Eigen::MatrixXd& held) { return newton.correct(state, held, nullptr, most_iterations); },
+          [](const State& state) { return state.load_factor; }, [](const Equilibrium&) { return 1.0; }};
 }
 
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
@@ -163,28 +199,42 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
   return event_at(zero->e, zero->t);
 }
 
-std::optional<Event> locate_watch(const std::vector<Watch>& watches, const std::vector<double>& side, Segment segment,
-                                  const Equilibrium& a, const Equilibrium& b, int negative) {
-  std::optional<Event> first;
-  Equilibrium last = b;
+std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::vector<double>& sides, const Segment& segment,
+                                  const Equilibrium& a, const Equilibrium& b, int negative, bool& missed) {
+  std::vector<Event> first;
+  const double together = coincide * std::abs(segment.b - segment.a);
   for (std::size_t k = 0; k < watches.size(); ++k) {
     const Watch& w = watches[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
-    const double there = w.side(last.point.state);
-    if (side[k] == 0 || (there != 0 && (side[k] < 0) == (there < 0)) || (f(a) < 0) != (side[k] < 0)) continue;
-    std::optional<Event> event = there == 0 ? event_at(last, segment.b) : locate_root(segment, a, last, f);
-    if (!event) continue;
+    const double there = w.side(b.point.state);
+    if (sides[k] == 0 || (there != 0 && (sides[k] < 0) == (there < 0))) continue;
+    if ((f(a) < 0) != (sides[k] < 0)) continue;                // it changes within rounding of `a`, where it has been told
+    std::optional<Event> event = there == 0 ? event_at(b, segment.b) : locate_root(segment, a, b, f);
+    if (!event) {
+      missed = true;
+      continue;
+    }
     event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
     event->before = event->after = negative;
-    segment.b = event->at_parameter, last = event->at;
-    first = std::move(event);
+    const double lead = first.empty() ? 0.0 : event->at_parameter - first.front().at_parameter;
+    if (lead > together) continue;
+    if (lead < -together) first.clear();
+    first.push_back(std::move(*event));
   }
   return first;
 }
 
+void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& passed, const State& state, std::vector<double>& sides) {
+  for (std::size_t k = 0; k < watches.size(); ++k) {
+    const auto is = [&](const Event& e) { return e.kind == EventKind::watch && e.watch == static_cast<int>(k); };
+    const double here = watches[k].side(state);
+    if (std::any_of(passed.begin(), passed.end(), is)) sides[k] = -sides[k];
+    else if (here != 0) sides[k] = here;                       // at the value without passing it: it stays on its side
+  }
+}
+
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
-                                    const std::function<double(const Equilibrium&)>& slope,
-                                    const std::function<double(const State&)>& position) {
+                                    const std::function<double(const Equilibrium&)>& slope) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Eigen::MatrixXd known = persistent(a, b);
@@ -203,14 +253,8 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     const Sample next{t, slope(e), e};
     ((next.f < 0) == (lower.f < 0) ? lower : upper) = next;
   }
-  // Hermite's cubic between the two, with dx/ds = dλ/ds dx/dλ.
-  const double width = upper.t - lower.t, u = (zero_of(lower, upper) - lower.t) / width;
-  const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
-  const Vector moved = kinematics.difference(lower.e.point.state, upper.e.point.state);
-  State state = lower.e.point.state;
-  const double load = state.load_factor + h01 * (upper.e.point.state.load_factor - state.load_factor) + h10 * lower.f + h11 * upper.f;
-  kinematics.prescribe(state, load);
-  kinematics.retract(state, h01 * moved + h10 * lower.f * lower.e.tangent + h11 * upper.f * upper.e.tangent);
+  State state = interpolate(kinematics, segment, lower.e, upper.e, lower.t, upper.t, zero_of(lower, upper)).state;
+  const double load = state.load_factor;
   // The branch that is met: there, and a little to both sides.
   energy.evaluate(state);
   Equilibrium at = lower.e;
@@ -230,10 +274,10 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     Equilibrium before = continue_to(newton, at, load - part), after = continue_to(newton, at, load + part);
     if (!before.point.report.converged() || !after.point.report.converged()) return {};
     if (before.point.stability.negative == after.point.stability.negative) continue;
-    const Segment along{load - part, load + part, [&](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); }};
-    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after);
+    const Segment along = segment_of_loads(newton, load - part, load + part);
+    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, false).event;
     if (!event || event->kind == EventKind::limit) return {};
-    event->at_parameter = position(event->at.point.state);
+    event->at_parameter = segment.parameter(event->at.point.state);
     if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};
     event->before = a.point.stability.negative, event->after = b.point.stability.negative;
     event->arrival = true;

@@ -8,11 +8,23 @@
 
 namespace elamin {
 
+inline constexpr double coincide = 1e-10;      // of a segment: events that are at one place
+
+/// What came of a search for the place where an eigenvalue passes zero.
+struct Crossing {
+  std::optional<Event> event;          // nothing: the eigenvalue jumps over zero, the ends are on different branches
+  std::optional<Equilibrium> before;   // then: the last equilibrium before the jump, where one was computed …
+  double before_parameter = 0;         // … and its parameter
+};
+
 /// The first change of the Morse index on a segment from `a`, beyond which it is `before`, to `b`: root finding (Illinois,
 /// bracketed) on the sorted eigenvalue that changes sign, at equilibria that the corrector itself computes. A limit point if
-/// the load does work along the critical mode, else a branch point. Nothing if that eigenvalue does not go through zero:
-/// then `b` is on another branch than `a`, or `a` itself is the event.
-std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b);
+/// the load factor turns on the segment, else a branch point; where it may be both, because the index changes by more than one,
+/// a limit point if the load does work along the critical mode.
+Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns);
+
+/// Equilibria between two load factors.
+Segment segment_of_loads(Newton& newton, double from, double to);
 
 /// An event of an equilibrium that lies at its place already.
 inline Event event_at(const Equilibrium& e, double parameter) {
@@ -25,17 +37,20 @@ inline Event event_at(const Equilibrium& e, double parameter) {
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                  const std::function<double(const Equilibrium&)>& f);
 
-/// The first of the watches whose observable passes its value on the segment. side: of each, observable − value from `a` on,
-/// 0: not known. negative: the Morse index from `a` on.
-std::optional<Event> locate_watch(const std::vector<Watch>& watches, const std::vector<double>& side, Segment segment,
-                                  const Equilibrium& a, const Equilibrium& b, int negative);
+/// The watches whose observables pass their values first on the segment: several where they coincide. sides: of each the sign of
+/// observable − value from `a` on, 0: not known. negative: the Morse index from `a` on. `missed`: a watch changes its side, but
+/// where could not be found.
+std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::vector<double>& sides, const Segment& segment,
+                                  const Equilibrium& a, const Equilibrium& b, int negative, bool& missed);
+
+/// The sides from a point on where `passed` have been met.
+void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& passed, const State& state, std::vector<double>& sides);
 
 /// The branch point that a side branch arrives at between `a` and `b`, where the load factor turns although no eigenvalue
 /// changes sign. `slope`: dλ/ds, which changes sign. On the side branch the equations are singular there; so the place is
 /// told from equilibria beside it (cubic Hermite interpolation), the branch that is met is stepped on by holding the
-/// critical mode, and the zero of the eigenvalue located along that one. `position`: the parameter of a state.
+/// critical mode, and the zero of the eigenvalue located along that one.
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
-                                    const std::function<double(const Equilibrium&)>& slope,
-                                    const std::function<double(const State&)>& position);
+                                    const std::function<double(const Equilibrium&)>& slope);
 
 }  // namespace elamin

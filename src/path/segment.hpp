@@ -10,6 +10,26 @@ struct Segment {
   double a = 0, b = 0;                 // parameters of its ends
   /// The equilibrium at a parameter between, computed from one that is near; not converged if there is none to be had.
   std::function<Equilibrium(double parameter, const Equilibrium& nearest)> at;
+  /// The equilibrium at the parameter of a state that is near to it, some directions (dofs × m) held.
+  std::function<Report(State& state, const Eigen::MatrixXd& held)> settle;
+  std::function<double(const State&)> parameter;         // of a state
+  std::function<double(const Equilibrium&)> load_rate;   // dλ/dt
 };
+
+/// A point between two equilibria of a segment, and dx/dt (dofs), dλ/dt there: Hermite's cubic, with dx/dt = dλ/dt dx/dλ at the ends.
+struct Interpolated {
+  State state;
+  Vector rate;
+  double load_rate;
+};
+Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, double ta, double tb,
+                         double t);
+
+/// Whether an equilibrium computed between two of a branch lies beside their chord: on another branch it would not.
+inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, double part, const State& between) {
+  constexpr double widest = 0.5;       // of the chord: a branch that is resolved bends less
+  const Vector chord = kinematics.difference(a, b);
+  return (kinematics.difference(a, between) - part * chord).norm() <= widest * chord.norm();
+}
 
 }  // namespace elamin

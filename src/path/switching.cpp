@@ -10,21 +10,30 @@ namespace elamin {
 
 namespace {
 
-constexpr double first_turn = 0.02;           // of a bond at the first equilibrium [rad]
-constexpr double least_turn = 1e-4;
+constexpr double least_part = 1e-4;           // of the first amplitude: shorter ones are given up
 constexpr double same = 1e-6;                 // images by symmetry: load factors and energies, beside their changes
 constexpr int rays = 32;                      // on half a circle
 constexpr double no_force = 1e-12;            // of the scale of internal forces
 
+// An equilibrium beside a branch point.
+struct Beside {
+  Equilibrium e;
+  Direction direction;
+  Vector leaving;
+  double step;
+};
+
 class Switch {
  public:
-  Switch(Newton& newton, const Event& event, const Metric& metric) : newton_(newton), event_(event), metric_(metric) {}
+  Switch(Newton& newton, const Event& event, const Metric& metric, double load_step, double turn)
+      : newton_(newton), event_(event), metric_(metric), load_step_(load_step), turn_(turn) {}
 
   /// The equilibrium at amplitude a along a unit vector of the critical modes, others held or not.
   Report at(State& state, const Vector& along, double amplitude, const Eigen::MatrixXd& others) const {
     state = event_.at.point.state;
     kinematics().retract(state, along, amplitude);
-    Plane plane{along / (metric_.length * metric_.length), 0, metric_.length, metric_.load, others.cols() > 0};
+    Plane plane{along / (metric_.length * metric_.length), 0, metric_.length, metric_.load};
+    plane.guided = others.cols() > 0;
     return newton_.correct(state, side_by_side(zero(), others), nullptr, 30, &plane);
   }
 
@@ -34,19 +43,29 @@ class Switch {
     return t > 0 ? t : movement(newton_.energy(), along);
   }
 
-  std::optional<SideBranch> leave(const Vector& along) const {
-    for (double t = first_turn; t >= least_turn; t /= 3) {
-      const double amplitude = t / turn(along);
+  /// The longest amplitude along a mode, other modes held, at which the load factor has changed by no more than a step: λ(a) is taken
+  /// as a parabola.
+  double amplitude(const Vector& along, const Eigen::MatrixXd& others) const {
+    double a = turn_ / turn(along);
+    for (int k = 0; k < 12; ++k) {
       State state;
-      const Report report = at(state, along, amplitude, {});
-      if (!report.converged()) continue;
+      const Report report = at(state, along, a, others);
+      const double change = std::abs(state.load_factor - event_.at.point.state.load_factor);
+      if (report.converged() && near(state, a) && change <= load_step_) return a;
+      a *= report.converged() && change > 0 ? std::clamp(0.9 * std::sqrt(load_step_ / change), 1e-3, 0.5) : 0.3;
+    }
+    return a;
+  }
+
+  std::optional<Beside> leave(const Vector& along, double longest) const {
+    for (double a = longest; a >= least_part * longest; a /= 3) {
+      State state;
+      const Report report = at(state, along, a, {});
+      if (!report.converged() || !near(state, a)) continue;
       const Vector moved = kinematics().difference(event_.at.point.state, state);
-      if (moved.norm() > 2 * amplitude || newton_.energy().passage(event_.at.point.state, state) < 1) continue;
-      SideBranch side{assess(newton_, state, report), {}, along};
       const double load = state.load_factor - event_.at.point.state.load_factor;
       const double size = std::sqrt(metric_.dot(moved, load, moved, load));
-      side.direction = direction_of(side.first, metric_, {moved / size, load / size});
-      return side;
+      return Beside{assess(newton_, state, report), {moved / size, load / size}, along, size};
     }
     return {};
   }
@@ -60,16 +79,24 @@ class Switch {
   }
 
  private:
+  // Beside the branch point, and not on the branch that is known.
+  bool near(const State& state, double a) const {
+    const Vector moved = kinematics().difference(event_.at.point.state, state);
+    const double change = state.load_factor - event_.at.point.state.load_factor;
+    if ((moved - change * event_.at.tangent).norm() < 0.1 * moved.norm()) return false;
+    return kinematics().difference(event_.at.point.state, state).norm() <= 2 * a && newton_.energy().passage(event_.at.point.state, state) == 1;
+  }
   const Kinematics& kinematics() const { return newton_.energy().kinematics(); }
   const Eigen::MatrixXd& zero() const { return event_.at.zero_modes; }
   Newton& newton_;
   const Event& event_;
   Metric metric_;
+  double load_step_, turn_;
 };
 
 // Angles in [0, π) at which the force along the circle vanishes; only 0 where it vanishes everywhere.
 std::vector<double> angles_between(const Switch& s, const Vector& u, const Vector& v) {
-  const double amplitude = 2 * first_turn / std::max(s.turn(u), s.turn(v));
+  const double amplitude = std::min(s.amplitude(u, v), s.amplitude(v, u));
   std::vector<double> force(rays + 1);
   const double step = pi / rays, shift = step / 3;             // rays beside the axes of symmetry
   for (int k = 0; k <= rays; ++k) force[k] = s.around(shift + k * step, u, v, amplitude);
@@ -89,36 +116,67 @@ std::vector<double> angles_between(const Switch& s, const Vector& u, const Vecto
 }
 
 // Whether one is an image of the other: at the same distance the same load factor and energy, beside their changes.
-bool images(const Kinematics& kinematics, const Equilibrium& at, const SideBranch& a, const SideBranch& b) {
-  const auto shape = [&](const SideBranch& side) { return kinematics.extend(side.leaving).colwise().norm().eval().lpNorm<4>(); };
+bool images(const Kinematics& kinematics, const Equilibrium& at, const Beside& a, const Beside& b) {
+  const auto shape = [&](const Beside& side) { return kinematics.extend(side.leaving).colwise().norm().eval().lpNorm<4>(); };
   const auto close = [](double x, double y, double from) { return std::abs(x - y) <= same * std::max(std::abs(x - from), std::abs(y - from)) + 64 * epsilon * std::abs(from); };
-  return close(a.first.point.state.load_factor, b.first.point.state.load_factor, at.point.state.load_factor) &&
-         close(a.first.point.energy.total(), b.first.point.energy.total(), at.point.energy.total()) &&
+  return close(a.e.point.state.load_factor, b.e.point.state.load_factor, at.point.state.load_factor) &&
+         close(a.e.point.energy.total(), b.e.point.energy.total(), at.point.energy.total()) &&
          std::abs(shape(a) - shape(b)) <= 1e3 * same * shape(a);
+}
+
+// What costs nothing on a side branch within the span of the critical modes, orthonormal: the directions of a family.
+Eigen::MatrixXd neutral(const Beside& side, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& zero) {
+  Eigen::MatrixXd found(modes.rows(), 0);
+  for (Eigen::Index j = 0; j < side.e.zero_modes.cols(); ++j) {
+    Vector v = modes * (modes.transpose() * side.e.zero_modes.col(j));
+    v -= side.leaving * side.leaving.dot(v);
+    if (zero.cols() > 0) v -= zero * (zero.transpose() * v);
+    v -= found * (found.transpose() * v);
+    if (v.norm() > 0.5) found = side_by_side(found, v.normalized());
+  }
+  return found;
 }
 
 }  // namespace
 
-std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric) {
-  const Switch s(newton, branch_point, metric);
+std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double turn) {
+  const Switch s(newton, branch_point, metric, load_step, turn);
   const Eigen::MatrixXd& modes = branch_point.modes;
   std::vector<Vector> rays_found;
-  if (modes.cols() == 1) rays_found.push_back(modes.col(0));
-  for (Eigen::Index i = 0; i < modes.cols(); ++i)
-    for (Eigen::Index j = i + 1; j < modes.cols(); ++j)
-      for (const double angle : angles_between(s, modes.col(i), modes.col(j)))
-        rays_found.push_back(std::cos(angle) * modes.col(i) + std::sin(angle) * modes.col(j));
-  std::vector<SideBranch> found;
+  Eigen::MatrixXd family(modes.rows(), 0);
+  const auto others = [&](Eigen::Index i) -> Eigen::MatrixXd {
+    Eigen::MatrixXd rest(modes.rows(), modes.cols() - 1);
+    rest << modes.leftCols(i), modes.rightCols(modes.cols() - 1 - i);
+    return rest;
+  };
+  if (modes.cols() > 1)
+    if (const auto first = s.leave(modes.col(0), s.amplitude(modes.col(0), others(0)))) family = neutral(*first, modes, branch_point.at.zero_modes);
+  if (modes.cols() == 1 + family.cols()) rays_found.push_back(modes.col(0));
+  else {
+    family.resize(Eigen::NoChange, 0);
+    for (Eigen::Index i = 0; i < modes.cols(); ++i)
+      for (Eigen::Index j = i + 1; j < modes.cols(); ++j)
+        for (const double angle : angles_between(s, modes.col(i), modes.col(j)))
+          rays_found.push_back(std::cos(angle) * modes.col(i) + std::sin(angle) * modes.col(j));
+  }
+  std::vector<Beside> found;
   for (const Vector& ray : rays_found) {
-    const std::optional<SideBranch> one = s.leave(ray), other = s.leave(-ray);
-    const auto known = [&](const SideBranch& side) {
-      return std::any_of(found.begin(), found.end(), [&](const SideBranch& f) { return images(newton.energy().kinematics(), branch_point.at, side, f); });
+    const double longest = s.amplitude(ray, family);
+    const std::optional<Beside> one = s.leave(ray, longest), other = s.leave(-ray, longest);
+    const auto known = [&](const Beside& side) {
+      return std::any_of(found.begin(), found.end(), [&](const Beside& f) { return images(newton.energy().kinematics(), branch_point.at, side, f); });
     };
     const bool new_one = one && (modes.cols() == 1 || !known(*one)), new_other = other && (modes.cols() == 1 || !known(*other));
     if (new_one) found.push_back(*one);
     if (new_other) found.push_back(*other);
   }
-  return found;
+  std::vector<SideBranch> sides;
+  for (Beside& side : found) {
+    Equilibrium at = branch_point.at;
+    at.zero_modes = side_by_side(at.zero_modes, family);
+    sides.push_back({std::move(at), std::move(side.direction), std::move(side.leaving), side.step});
+  }
+  return sides;
 }
 
 }  // namespace elamin

@@ -7,19 +7,21 @@
 
 namespace elamin {
 
-/// The first equilibrium on a side branch, and the direction that leads away from the branch point.
+/// A branch that leaves a branch point: its direction there, and how long a first step may be.
 struct SideBranch {
-  Equilibrium first;
+  Equilibrium at;                      // the branch point; what is neutral on the side branch is among its zero modes
   Direction direction;
-  Vector leaving;                      // unit vector of the displacement from the branch point, within the critical modes
+  Vector leaving;                      // unit vector of the direction within the critical modes (dofs)
+  double step = 0;                     // in the metric
 };
 
-/// First equilibria of the branches that leave a branch point along its critical modes, both ways of each.
+/// The branches that leave a branch point along its critical modes, both ways of each.
 /// A simple point: along ±φ. A multiple one: Lyapunov–Schmidt; on circles in the plane of each two modes, the directions
 /// where the force along the circle vanishes; of directions that are images of each other by symmetry (the same load
-/// factor and the same energy at the same distance) one, both ways; where the force vanishes all around, the first mode.
-/// They lie as far as turns a bond by about 0.02 rad, nearer if Newton does not find them there. What could not be found
-/// is left out.  Source: Keller 1977; Allgower & Georg 1990, ch. 8.
-std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric);
+/// factor and the same energy at the same distance) one, both ways. Where the second mode costs nothing on the branch along the first
+/// one, the branch is one of a family at the same load factors: it is neutral, and the first one stands for all.
+/// The amplitude a of the first step keeps λ(a) − λ(0) within `load_step`, and the rotation of a bond within `turn` (rad). What could
+/// not be found is left out.  Source: Keller 1977; Allgower & Georg 1990, ch. 8.
+std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double turn);
 
 }  // namespace elamin

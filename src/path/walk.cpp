@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace elamin {
@@ -18,18 +19,33 @@ constexpr double largest_angle = 0.7;         // between the directions at both 
 constexpr double wanted_angle = 0.25;
 constexpr int wanted_iterations = 4;
 constexpr double largest_departure = 0.5;     // of the corrector, in parts of the step
-constexpr double least_part = 1e-8;           // of the first step: shorter ones are given up
+constexpr double largest_defect = 0.2;        // of the chord from the sum of the tangents, in parts of the chord
+constexpr double least_part = 1e-12;          // of the first step: shorter ones are given up
+constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
+constexpr double same_end = 1e-3;             // of the way: an event leads there
+constexpr double least_advance = 0.02;        // of a step that is cut back to before two branches pass by each other
 constexpr int most_shifts = 5;                // of a step that ends on an event by chance
+constexpr int halvings_at_first = 8;          // then steps are quartered
 
 int sign_of(double x) { return x < 0 ? -1 : 1; }
+
+// Zero modes that last along a branch and are no motions of rigid parts.
+void name_neutral(Stability& s) {
+  s.zero_modes.push_back(fmt::format("neutral: equilibria side by side at the same load factor ({} direction{})", s.critical, s.critical > 1 ? "s" : ""));
+  s.critical = 0;
+  s.stable = s.negative == 0;
+}
 
 }  // namespace
 
 Walk::Walk(Newton& newton, Equilibrium start, Direction direction, int negative, ContactSet closed, Metric metric, WalkOptions options)
     : newton_(newton), metric_(metric), options_(std::move(options)), current_(std::move(start)), direction_(std::move(direction)),
       negative_(negative), sign_(sign_of(direction_.load)), closed_(std::move(closed)) {
-  for (const Watch& w : options_.watches)
+  side_ = options_.sides;
+  for (std::size_t k = side_.size(); k < options_.watches.size(); ++k) {
+    const Watch& w = options_.watches[k];
     side_.push_back(options_.told.starts_with(w.name + ":") ? 0 : w.side(current_.point.state));
+  }
   constexpr double least = 1e-6;                               // of the span
   least_length_ = std::min(metric_.length, least * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
@@ -47,28 +63,45 @@ double Walk::longest() const {
 
 std::optional<Waypoint> Walk::next() {
   std::string why = "the corrector does not converge";
-  int shifts = 0;
+  int shifts = 0, refused = 0;
   step_ = std::min(step_, longest());
+  const auto shorter = [&](double s) { return ++refused > halvings_at_first ? s / 4 : s / 2; };
   for (double s = step_; s >= shortest_ && !interrupted();) {
     const Arc arc(newton_, current_, direction_, metric_);
     std::optional<Candidate> c = reach(arc, s, why);
     const bool corner = !c && (c = reach_corner(arc, s)).has_value();
     if (!c) {
-      s /= 2;
+      if (getenv("DBG")) fmt::print(stderr, "refused s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
+      s = shorter(s);
       continue;
     }
-    if (!corner && c->e.point.stability.critical > 0 && current_.point.stability.critical == 0 && shifts < most_shifts) {
+    const double change = std::abs(c->e.point.state.load_factor - current_.point.state.load_factor);
+    if (!corner && change > 1.5 * options_.load_step) {
+      s *= std::clamp(0.9 * std::sqrt(options_.load_step / change), 0.1, 0.9);
+      continue;
+    }
+    const bool ends_on_event = c->e.point.stability.critical > 0 && c->e.zero_modes.cols() > current_.zero_modes.cols();
+    if (!corner && ends_on_event && shifts < most_shifts) {
       s *= 0.87, ++shifts;                                     // an event by chance: let it be inside of a step
       continue;
     }
-    Segment segment{0, c->s, [&arc](double t, const Equilibrium& nearest) { return arc.at(t, nearest); }};
-    if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, arc, *c, why)) {
-      s /= 2;
+    if (negative_ < 0 && !look_beyond(arc, *c)) {
+      s *= just_beyond;
       continue;
     }
-    segment.b = c->s;
-    if (std::optional<Event> seen = locate_watch(options_.watches, side_, segment, current_, c->e, negative_))
-      c->s = seen->at_parameter, c->e = seen->at, c->event = std::move(seen);
+    const auto between = [&, end = c->e.point.state, length = c->s](double t, const Equilibrium& nearest) {
+      Equilibrium e = arc.at(t, nearest);
+      if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, t / length, e.point.state))
+        e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
+      return e;
+    };
+    const Segment segment{0, c->s, between, [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
+                          [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); }};
+    if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, arc, *c, why) || !find_watches(segment, *c, why)) {
+      if (getenv("DBG")) fmt::print(stderr, "events  s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
+      s = shorter(s);
+      continue;
+    }
     find_stop(segment, arc, *c);
     step_ = s;
     return accept(std::move(*c), arc);
@@ -85,10 +118,32 @@ std::optional<Waypoint> Walk::next() {
 std::optional<Walk::Candidate> Walk::reach(const Arc& arc, double s, std::string& why) {
   Equilibrium e = arc.at(s, current_);
   if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
-  if (arc.distance(e.point.state) > largest_departure * s) return why = "the corrector moved further than the predictor", std::nullopt;
-  const Direction d = direction_of(e, metric_, direction_);
-  if (cosine(d, direction_, metric_) < std::cos(largest_angle)) return why = "the branch turns too sharply", std::nullopt;
+  if (!stays_on_branch(arc, s, e, why)) return {};
   return Candidate{s, std::move(e), {}, {}};
+}
+
+bool Walk::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const {
+  if (arc.distance(e.point.state) > largest_departure * s) return why = "the corrector moved further than the predictor", false;
+  const Direction d = direction_of(e, metric_, direction_);
+  if (cosine(d, direction_, metric_) < std::cos(largest_angle)) return why = "the branch turns too sharply", false;
+  const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state), mean = d.x + direction_.x;
+  const double load = e.point.state.load_factor - current_.point.state.load_factor, mean_load = d.load + direction_.load;
+  const double part = metric_.dot(x, load, mean, mean_load) / metric_.dot(mean, mean_load, mean, mean_load);
+  const Vector off = x - part * mean;
+  const double off_load = load - part * mean_load;
+  if (std::sqrt(metric_.dot(off, off_load, off, off_load)) > largest_defect * std::sqrt(metric_.dot(x, load, x, load)))
+    return why = "the branch bends too sharply, or there is another one beside it", false;
+  return true;
+}
+
+// Of a branch that leaves a branch point: whether the index is the same right behind it as at the candidate.
+bool Walk::look_beyond(const Arc& arc, const Candidate& c) {
+  const Equilibrium near = arc.at(just_beyond * c.s, current_);
+  if (!near.point.report.converged()) return false;
+  const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, direction_).load >= 0; };
+  if (near.point.stability.negative != c.e.point.stability.negative || rises(near) != rises(c.e)) return false;
+  negative_ = near.point.stability.negative, sign_ = rises(near) ? 1 : -1;
+  return true;
 }
 
 // Or, where the branch may end or turn in a corner, the corner.
@@ -108,9 +163,10 @@ Walk::Candidate Walk::with_contact(Candidate c, ContactChange change) const {
   event.before = negative_;                                     // after: when it is known that nothing comes before
   event.closed = std::move(change.after), event.what = std::move(change.what);
   event.beyond = std::move(change.beyond), event.onward = change.onward;
+  event.at_parameter = c.s;
   c.e = std::move(change.at);
   event.at = c.e;
-  c.event = std::move(event);
+  c.events = {std::move(event)};
   return c;
 }
 
@@ -131,21 +187,56 @@ bool Walk::find_critical(Segment segment, const Arc& arc, Candidate& c, std::str
   const auto slope = [&](const Equilibrium& e) { return direction_of(e, metric_, arc.direction()).load; };
   const bool turns = sign_of(slope(c.e)) != sign_;
   if (after == negative_ && !turns) {
-    if (c.event) c.event->after = c.event->beyond ? c.event->beyond->point.stability.negative : after;
-    if (c.event && c.event->beyond && c.event->onward == -sign_) c.event->kind = EventKind::limit;
+    if (c.events.empty()) return true;
+    Event& contact = c.events.front();
+    contact.after = contact.beyond ? contact.beyond->point.stability.negative : after;
+    if (contact.beyond && contact.onward == -sign_) contact.kind = EventKind::limit;
     return true;
   }
   std::optional<Event> event;
   if (after != negative_) {
-    event = locate_crossing(newton_, segment, current_, negative_, c.e);
+    Crossing crossing = locate_crossing(newton_, segment, current_, negative_, c.e, turns);
+    event = std::move(crossing.event);
+    if (event && !joins(*event, c.e, arc)) event.reset();
+    if (event && !singular_ && !joins(*event, current_, arc)) event.reset();
+    if (!event && crossing.before && crossing.before_parameter > least_advance * c.s &&
+        stays_on_branch(arc, crossing.before_parameter, *crossing.before, why)) {
+      c = {crossing.before_parameter, std::move(*crossing.before), {}, {}};
+      return true;
+    }
   } else if (sign_of(slope(current_)) == sign_) {
-    event = locate_arrival(newton_, segment, current_, c.e, slope, [&](const State& state) { return arc.position(state); });
+    event = locate_arrival(newton_, segment, current_, c.e, slope);
   }
-  if (!event || event->modes.cols() == 0) return why = "a change of stability could not be located", false;
-  if ((event->kind == EventKind::limit) != turns && std::abs(after - negative_) <= event->modes.cols() && !event->arrival)
-    return why = "what happens at a change of stability could not be told", false;
+  if (!event || event->modes.cols() == 0) return why = "the Morse index changes, but there is no limit point and no branch point between: two branches pass by each other", false;
   c.s = event->at_parameter, c.e = event->at;
-  c.event = std::move(event);
+  c.events = {std::move(*event)};
+  return true;
+}
+
+// A step and its two parts meet: from the event the branch leads to an end of the segment.
+bool Walk::joins(const Event& event, const Equilibrium& end, const Arc& arc) const {
+  const Arc from(newton_, event.at, direction_of(event.at, metric_, arc.direction()), metric_);
+  State state;
+  if (!from.correct(state, from.position(end.point.state), event.at).converged()) return false;
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const auto apart = [&](const State& a, const State& b) {
+    const Vector x = kinematics.difference(a, b);
+    const double load = b.load_factor - a.load_factor;
+    return std::sqrt(metric_.dot(x, load, x, load));
+  };
+  const double way = apart(event.at.point.state, end.point.state);
+  return apart(state, end.point.state) <= same_end * std::max(way, same_end * std::abs(arc.position(end.point.state)));
+}
+
+bool Walk::find_watches(Segment segment, Candidate& c, std::string& why) {
+  segment.b = c.s;
+  bool missed = false;
+  std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, c.e, negative_, missed);
+  if (missed) return why = "where an observable reaches its value could not be located", false;
+  if (seen.empty()) return true;
+  const bool before = seen.front().at_parameter < c.s - coincide * segment.b;
+  if (before) c.s = seen.front().at_parameter, c.e = seen.front().at, c.events.clear();
+  std::move(seen.begin(), seen.end(), std::back_inserter(c.events));
   return true;
 }
 
@@ -160,7 +251,7 @@ void Walk::find_stop(Segment segment, const Arc& arc, Candidate& c) {
   }
   if (!first) return;
   segment.b = c.s;
-  std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& e) { return e.point.state.load_factor - *first; });
+  const std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& e) { return e.point.state.load_factor - *first; });
   const Equilibrium& guess = near ? near->at : c.e;
   Equilibrium e = continue_to(newton_, guess, *first);
   if (!e.point.report.converged()) {
@@ -169,7 +260,7 @@ void Walk::find_stop(Segment segment, const Arc& arc, Candidate& c) {
   }
   const double s = arc.position(e.point.state);
   if (s < 0 || s > c.s * (1 + 1e-6)) return;
-  c.s = s, c.e = std::move(e), c.event.reset(), c.stop = first;
+  c.s = s, c.e = std::move(e), c.events.clear(), c.stop = first;
 }
 
 // Positions must not weigh less than the load factor, or the steps would be load steps: L ≤ Λ |dx/dλ|.
@@ -183,42 +274,40 @@ void Walk::weigh(const Equilibrium& e, Direction& direction) {
 }
 
 Waypoint Walk::accept(Candidate c, const Arc& arc) {
-  const bool ordinary = !c.event && !c.stop, corner = c.event && c.event->beyond.has_value();
-  Direction next = direction_of(corner ? *c.event->beyond : c.e, metric_, arc.direction());
-  if (corner && c.event->onward != 0 && sign_of(next.load) != c.event->onward) next.x = -next.x, next.load = -next.load;
+  const Event* event = c.events.empty() || c.events.front().kind == EventKind::watch ? nullptr : &c.events.front();
+  const bool ordinary = c.events.empty() && !c.stop, corner = event && event->beyond.has_value();
+  const bool critical = event && !corner && (event->kind == EventKind::limit || event->kind == EventKind::branch);
+  if (!event && c.e.point.stability.critical > 0) name_neutral(c.e.point.stability);
+  Direction next = direction_of(corner ? *event->beyond : c.e, metric_, arc.direction());
+  if (corner && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
   last_stop_ = c.stop;
   if (corner) {
-    negative_ = c.event->after;
+    negative_ = event->after;
     sign_ = sign_of(next.load);
-  } else if (c.event && (c.event->kind == EventKind::limit || c.event->kind == EventKind::branch)) {
-    if (c.event->arrival) next = arc.direction();               // on along the side branch, to its other half
-    if (c.event->kind == EventKind::limit) sign_ = -sign_;
-    if (c.event->arrival) sign_ = -sign_;
-    if (c.event->arrival || c.event->kind == EventKind::limit) next.load = std::copysign(next.load, sign_);   // else rounding's
-    negative_ = c.event->after;
+  } else if (critical) {
+    if (event->arrival) next = arc.direction();                 // on along the side branch, to its other half
+    if (event->kind == EventKind::limit) sign_ = -sign_;
+    if (event->arrival) sign_ = -sign_;
+    if (event->arrival || event->kind == EventKind::limit) next.load = std::copysign(next.load, sign_);   // else rounding's
+    negative_ = event->after;
   } else {
     negative_ = c.e.point.stability.negative;
     sign_ = sign_of(next.load);
   }
-  closed_ = c.event && (corner || c.event->kind == EventKind::contact) ? c.event->closed : closed_contacts(newton_.energy(), c.e.point.state);
-  for (std::size_t k = 0; k < side_.size(); ++k) {
-    side_[k] = c.event && c.event->watch == static_cast<int>(k) ? -side_[k] : options_.watches[k].side(c.e.point.state);
-  }
+  singular_ = critical;
+  closed_ = event && (corner || event->kind == EventKind::contact) ? event->closed : closed_contacts(newton_.energy(), c.e.point.state);
+  pass_watches(options_.watches, c.events, c.e.point.state, side_);
   if (ordinary) {                                               // the next step from how this one went
     const double angle = std::acos(std::clamp(cosine(next, direction_, metric_), -1.0, 1.0));
     const double ease = std::exp2((wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
     step_ = c.s * std::clamp(std::min(ease, wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
   }
   if (ordinary) weigh(c.e, next);
-  current_ = c.e;
-  if (corner) {
-    current_ = *c.event->beyond;
-    step_ = std::min(step_, longest());
-  }
+  current_ = corner ? *event->beyond : c.e;
+  if (corner) step_ = std::min(step_, longest());
   current_.point.stability.critical = 0;                        // what is singular here has been told
   direction_ = std::move(next);
-  if (c.event) c.event->at = c.e;
-  return {std::move(c.e), std::move(c.event), c.stop};
+  return {std::move(c.e), std::move(c.events), c.stop};
 }
 
 }  // namespace elamin

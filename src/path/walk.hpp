@@ -15,24 +15,32 @@ struct WalkOptions {
   bool contacts = true;
   std::vector<double> stops;           // load factors at which it stops on the way
   std::vector<Watch> watches;
+  std::vector<double> sides;           // of every watch: observable − value from the start on, 0: not known; none: as the state tells
   std::string told;                    // label of the event that it begins at: a watch's own side is not known there
   double step = 0, shortest = 0;       // of the first step, in the metric; 0: as long as the limits above let it be
 };
 
-/// What a step led to: the next equilibrium, an event before it, or a stop.
+/// What a step led to: the next equilibrium, what happens there, or a stop.
 struct Waypoint {
   Equilibrium at;
-  std::optional<Event> event;          // then `at` is the event's
+  std::vector<Event> events;           // all at this point, the one that decides how the branch goes on first
   std::optional<double> stop;          // the load factor of the stop that was met
 };
 
 /// Follows a branch, stable or not, through limit points and over branch points. Steps are as long as the corrector's
-/// iterations (4 are aimed at), the turn of the branch's direction (0.25 rad) and the options allow, and are shortened
-/// where the corrector leaves the tangent by more than half a step, where the direction turns too far, where an event
-/// cannot be resolved.
+/// iterations (4 are aimed at), the change of the branch's direction (0.25 rad) and the options allow.
+///
+/// A step from a to b is taken to have stayed on its branch where
+/// - the corrector leaves the tangent at a by no more than half a step;
+/// - the chord is parallel to the sum of the tangents at a and b, as it is, up to the third order in the step, on a smooth curve;
+/// - the Morse index and the sign of dλ/ds are the same at a and b, or their change is explained by an event between them from which
+///   the branch leads back to a and on to b. The determinant of the bordered matrix [H c; t_x/L² t_λ/Λ²] keeps its sign on a smooth
+///   branch (Keller 1977), so a step onto a branch that only passes by, as beside a pitchfork that a small force has unfolded, shows as a
+///   change of the index for which there is no event: the step is cut back to the last equilibrium before that change.
 class Walk {
  public:
-  /// From an equilibrium along a direction; negative: the Morse index beyond it; closed: the contacts.
+  /// From an equilibrium along a direction; negative: the Morse index beyond it, −1: not known, as at a branch point that a side branch
+  /// leaves; closed: the contacts.
   Walk(Newton& newton, Equilibrium start, Direction direction, int negative, ContactSet closed, Metric metric, WalkOptions options);
 
   /// The next waypoint; nothing where the branch cannot be followed any further: why() says why.
@@ -54,15 +62,19 @@ class Walk {
   struct Candidate {
     double s;
     Equilibrium e;
-    std::optional<Event> event;
+    std::vector<Event> events;
     std::optional<double> stop;
   };
   double longest() const;
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   std::optional<Candidate> reach_corner(const Arc& arc, double s);
+  bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
+  bool look_beyond(const Arc& arc, const Candidate& c);
   Candidate with_contact(Candidate c, ContactChange change) const;
   bool find_contact(const Segment& segment, Candidate& c, std::string& why);
   bool find_critical(Segment segment, const Arc& arc, Candidate& c, std::string& why);
+  bool joins(const Event& event, const Equilibrium& end, const Arc& arc) const;
+  bool find_watches(Segment segment, Candidate& c, std::string& why);
   void find_stop(Segment segment, const Arc& arc, Candidate& c);
   void weigh(const Equilibrium& e, Direction& direction);
   Waypoint accept(Candidate c, const Arc& arc);
@@ -73,6 +85,7 @@ class Walk {
   Equilibrium current_;
   Direction direction_;
   int negative_, sign_;                // Morse index, and of dλ/ds, from here on
+  bool singular_ = false;              // it stands at a limit point or branch point
   ContactSet closed_;
   std::vector<double> side_;           // of every watch: observable − value from here on
   std::optional<double> last_stop_;    // where it stands, if at a stop

@@ -147,7 +147,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   }
 }
 
-Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most, const Plane* plane) {
+Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most, Plane* plane) {
   const Stopwatch watch;
   const Kinematics& kinematics = energy_.kinematics();
   Report report;
@@ -166,9 +166,13 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     return report;
   };
   Vector column;                                                // ∂g/∂λ
+  double off = 0;                                               // the plane's condition
+  const auto look = [&](const State& at) {
+    if (plane && plane->condition) off = plane->condition(at, *plane);
+  };
   const auto solve = [&](const Vector& g) -> Factors::Bordered {
     if (!plane) return {-factors_.solve_holding(g), 0.0};
-    return factors_.solve_bordered(column, plane->row, plane->corner, -g, 0);
+    return factors_.solve_bordered(column, plane->row, plane->corner, -g, -off);
   };
   const auto move = [&](State& to, const Factors::Bordered& step, double part) {
     if (plane) kinematics.prescribe(to, to.load_factor + part * step.delta);
@@ -181,13 +185,14 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     ++report.evaluations;
     record(report, moved, 0);
     if (guided) report.residual = energy_.relative(free_gradient());
-    const bool settled = report.residual <= options_.tolerance;
+    look(state);
+    const bool settled = report.residual <= options_.tolerance && std::abs(off) <= (plane ? plane->close : 0.0);
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
     factors_.factorize_holding(held);
     if (plane) column = energy_.load_derivative();
     if (settled) {
-      if (!guided) polish(state, report, [&](State& next) { move(next, solve(energy_.gradient()), 1); });
+      if (!guided) polish(state, report, [&](State& next) { look(next), move(next, solve(energy_.gradient()), 1); });
       return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
     }
     const Factors::Bordered step = solve(energy_.gradient());

@@ -21,11 +21,15 @@ enum class Pace { long_steps, downhill };
 
 /// A hyperplane across a branch, in the space of positions and load factor, through the state that a corrector begins at:
 ///   row · Δx + corner Δλ = 0.
-/// The correction's size is |(Δx, Δλ)|² = |Δx|²/length² + Δλ²/load².
+/// The correction's size is |(Δx, Δλ)|² = |Δx|²/length² + Δλ²/load². With a `condition` it is the surface c(x, λ) = 0 instead, row and
+/// corner being ∂c/∂x and ∂c/∂λ.
 struct Plane {
   Vector row;                      // dofs
   double corner = 0;
   double length = 1, load = 1;
+  /// c at a state, which puts its derivatives there into row and corner; converged means |c| ≤ close, too.
+  std::function<double(const State&, Plane&)> condition = {};
+  double close = 0;
   bool guided = false;             // forces along held directions are not asked to vanish: they guide the state
 };
 
@@ -58,7 +62,7 @@ class Newton {
   /// led here from, if one did. With a `plane` the load factor is an unknown too, and the state moves on the plane.
   /// Not converged if the steps do not shrink, or after `most` iterations.
   Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr,
-                 int most = std::numeric_limits<int>::max(), const Plane* plane = nullptr);
+                 int most = std::numeric_limits<int>::max(), Plane* plane = nullptr);
 
   /// Moves the state from a saddle down along ± direction (dofs), sign as given, until the energy rises or what is
   /// glued turns by a third of a radian. False if no lower energy is found.
