@@ -75,6 +75,8 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   const auto end = [&](Status status, std::string why) {
     report.factorizations = factors_.factorizations() - factorizations_before;
     report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
+    if (status == Status::not_converged)
+      if (const std::string what = obstacle(energy_, state); !what.empty()) why += "; " + what;
     return finish(state, report, {status, std::move(why)});
   };
   double shift = 0;                                             // the last one: a guess for the next

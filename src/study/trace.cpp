@@ -79,6 +79,8 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
   newton.energy().evaluate(state, false);
   if (report.converged() && !std::isfinite(newton.energy().last_terms().total()))
     report.status = Status::not_converged, report.why = not_finite(newton.energy(), state);
+  if (report.converged())
+    if (const std::string what = gone_through(newton.energy(), state); !what.empty()) report.status = Status::not_converged, report.why = what;
   if (report.status == Status::not_converged && interrupted()) report.status = Status::interrupted, report.why = "interrupted";
   if (report.status == Status::not_converged)
     if (const std::string what = obstacle(newton.energy(), state); report.why.find(what) == std::string::npos) report.why += "; " + what;

@@ -3,9 +3,13 @@
 #include "scratch_directory.hpp"
 #include "study/results_of.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <numbers>
+#include <thread>
+#include <unistd.h>
 
 namespace {
 
@@ -83,6 +87,19 @@ TEST_CASE("a wall too soft for a weight is named", "[study][ends]") {
     CHECK(e.says("the centre of particle 1 of 'g' is pressed"));
     CHECK(e.says("the wall 'w'"));
   }
+  // Held from falling by a beam, on the wrong side of the wall.
+  const std::string beam = "[[beam]]\nname = \"b\"\nparticles = 8\nfrom = [0, 0, 0.6]\nto = [7, 0, 0.6]\ndiameter = 1\nyoungs_modulus = 1e3\ndensity = 1\n"
+                           "[[group]]\nname = \"end\"\nof = \"b\"\nfirst = 2\n[[support]]\ngroup = \"end\"\n[[gravity]]\nacceleration = [0, 0, -9.81]\n" +
+                           wall("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]", 1e-3);
+  for (const std::string& method : methods) {
+    const Ended e = run(beam, with(method));
+    INFO(method << " " << e.answer.text);
+    CHECK(e.answer.status == 2);
+    CHECK(e.says("is pressed"));
+  }
+  const Ended path = run(beam + "[path]\nsteps = 2\n");
+  CHECK(path.answer.status == 2);
+  CHECK(path.says("the wall 'w'"));
 }
 
 TEST_CASE("a beam whose centres lie on the floor rises from it", "[study][ends]") {
@@ -411,5 +428,30 @@ TEST_CASE("a path that gets nowhere ends with a sentence", "[study][ends]") {
     CHECK(e.answer.status == 2);
     CHECK(e.path.size() >= 10);
     CHECK(run(onto + "[study]\ntype = \"equilibrium\"\n", with(method)).answer.status == 2);
+  }
+}
+
+TEST_CASE("a second signal ends the program at once, whatever it is at", "[study][ends]") {
+  const ScratchDirectory scratch;                               // building half a million particles takes longer than the test
+  const std::string file = scratch.file("p.toml", "[[sheet]]\nname = \"s\"\nshape = \"rectangle\"\nsize = [700, 700]\nspacing = 1\nyoungs_modulus = 1\n"
+                                                  "[[support]]\ngroup = \"s\"\ndirections = \"z\"\n[[group]]\nname = \"a\"\nof = \"s\"\nfirst = 2\n"
+                                                  "[[support]]\ngroup = \"a\"\n[study]\ntype = \"equilibrium\"\n");
+  using namespace std::chrono;
+  for (const int second : {SIGINT, SIGTERM}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(ELAMIN_PROGRAM, ELAMIN_PROGRAM, file.c_str(), "--quiet", "-o", (scratch / "out").c_str(), nullptr);
+      _exit(127);
+    }
+    std::this_thread::sleep_for(milliseconds(300));
+    const auto begin = steady_clock::now();
+    kill(child, SIGINT);
+    std::this_thread::sleep_for(milliseconds(150));
+    kill(child, second);
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+    CHECK(duration<double>(steady_clock::now() - begin).count() < 5);
   }
 }
