@@ -94,6 +94,8 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   std::optional<Halt> halt;
   while (!(halt = iterate(state, descent))) ++descent.report.iterations;
   effort.tell(descent.report);
+  if (halt->status == Status::not_converged)
+    if (const std::string what = obstacle(energy_, state); !what.empty()) halt->why += "; " + what;
   return finish(state, descent.report, *halt);
 }
 
