@@ -94,6 +94,8 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   std::optional<Halt> halt;
   while (!(halt = iterate(state, descent))) ++descent.report.iterations;
   effort.tell(descent.report);
+  if (halt->status == Status::not_converged)
+    if (const std::string what = obstacle(energy_, state); !what.empty()) halt->why += "; " + what;
   return finish(state, descent.report, *halt);
 }
 
@@ -212,7 +214,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
   };
   Vector column;                                                // ∂g/∂λ
   double off = 0;                                               // the plane's condition
-  const auto look = [&](const State& at) {
+  const auto see = [&](const State& at) {
     if (plane && plane->condition) off = plane->condition(at, *plane);
   };
   const auto solve = [&](const Vector& g) -> Factors::Bordered {
@@ -230,7 +232,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     ++report.evaluations;
     record(report, moved, 0);
     if (guided) report.residual = energy_.relative(free_gradient());
-    look(state);
+    see(state);
     const bool settled = report.residual <= options_.tolerance && std::abs(off) <= (plane ? plane->close : 0.0);
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
@@ -240,7 +242,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     }
     if (plane) column = energy_.load_derivative();
     if (settled) {
-      if (!guided) polish(state, report, [&](State& next) { look(next), move(next, solve(energy_.gradient()), 1); });
+      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, solve(energy_.gradient()), 1); });
       return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
     }
     const Factors::Bordered step = solve(energy_.gradient());

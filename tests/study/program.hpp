@@ -13,10 +13,11 @@ struct Answer {
   std::string text;        // standard output and error
 };
 
-/// Runs `elamin ARGUMENTS` through the shell.
-inline Answer elamin_says(const std::string& arguments) {
+/// Runs `elamin ARGUMENTS` through the shell; `seconds` of processor time at the most, unless 0.
+inline Answer elamin_says(const std::string& arguments, int seconds = 0) {
   Answer answer;
-  std::FILE* pipe = popen(("'" ELAMIN_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
+  const std::string limit = seconds > 0 ? "ulimit -t " + std::to_string(seconds) + "; " : "";
+  std::FILE* pipe = popen((limit + "'" ELAMIN_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer;
   for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) answer.text.append(buffer.data(), n);
   const int status = pclose(pipe);

@@ -1,0 +1,502 @@
+// Paths of tests/path/cases, each in several numbers of steps and by both methods where that makes sense: they go on to their end, and
+// what happens on them is what theory, symmetry or the other runs say.
+#include "catch.hpp"
+#include "scratch_directory.hpp"
+#include "study/results_of.hpp"
+#include "study/truss.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double located = 1e-9;                 // events, relative
+
+std::string case_file(const std::string& name) { return std::string(ELAMIN_ROOT) + "/tests/path/cases/" + name + ".toml"; }
+
+/// A run of a case, changed by settings such as "path.steps=20".
+struct Run {
+  explicit Run(const std::string& name, const std::vector<std::string>& settings = {}) {
+    std::string arguments = "'" + case_file(name) + "' --quiet -o '" + (scratch / "out") + "'";
+    for (const std::string& s : settings) arguments += " --set '" + s + "'", what += s + " ";
+    answer = elamin_says(arguments, 60);
+    if (!std::filesystem::exists(scratch / "out/path.csv")) return;
+    path = table_of(scratch / "out/path.csv");
+    for (const TableRow& row : path)
+      if (row.text("label").find(':') != std::string::npos) events.push_back(row);
+    std::ifstream(scratch / "out/summary.json") >> summary;
+    if (std::filesystem::exists(scratch / "out/contacts.csv")) contacts = table_of(scratch / "out/contacts.csv");
+    for (const TableRow& row : table_of(scratch / "out/events.csv")) located_rows[row.text("label")] = row;
+  }
+  double end() const { return path.empty() ? NAN : path.back()["lambda"]; }
+  std::vector<TableRow> of(const std::string& kind) const {
+    std::vector<TableRow> found;
+    for (const TableRow& row : events)
+      if (row.text("label").starts_with(kind + ":")) found.push_back(row);
+    return found;
+  }
+  std::vector<TableRow> on_branch(int k) const {
+    std::vector<TableRow> found;
+    for (const TableRow& row : path)
+      if (row["branch"] == k) found.push_back(row);
+    return found;
+  }
+  int branches() const {
+    double most = 0;
+    for (const TableRow& row : path) most = std::max(most, row["branch"]);
+    return static_cast<int>(most);
+  }
+  std::string told() const {
+    std::string all;
+    for (const TableRow& row : events) all += row.text("label") + " " + row.text("lambda") + ", ";
+    return all;
+  }
+
+  ScratchDirectory scratch;
+  std::string what;
+  Answer answer;
+  std::vector<TableRow> path, events, contacts;
+  std::map<std::string, TableRow> located_rows;  // of events.csv, by label
+  nlohmann::json summary;
+};
+
+std::string kind_of(const TableRow& row) { return row.text("label").substr(0, row.text("label").find(':')); }
+std::string steps(int n) { return "path.steps=" + std::to_string(n); }
+const std::string arcs = "path.method=\"arc_length\"", load_steps = "path.method=\"load_steps\"", follow = "path.when_unstable=\"follow\"",
+                  jump = "path.when_unstable=\"jump\"";
+
+/// Done, at this load factor exactly.
+#define CHECK_ENDS_AT(run, load)                                         \
+  do {                                                                   \
+    INFO((run).what << "| " << (run).answer.text << "| " << (run).told()); \
+    CHECK((run).answer.status == 0);                                     \
+    CHECK((run).end() == (load));                                        \
+  } while (false)
+
+/// The same kinds of events at the same load factors, up to a first fall.
+void same_events(const Run& a, const Run& b) {
+  INFO(a.what << ": " << a.told() << "\n" << b.what << ": " << b.told());
+  for (std::size_t k = 0; k < std::max(a.events.size(), b.events.size()); ++k) {
+    REQUIRE(k < a.events.size());
+    REQUIRE(k < b.events.size());
+    if (kind_of(a.events[k]) == "jump" && kind_of(b.events[k]) == "jump") return;
+    CHECK(kind_of(a.events[k]) == kind_of(b.events[k]));
+    CHECK(a.events[k]["lambda"] == Approx(b.events[k]["lambda"]).epsilon(located));
+  }
+}
+
+/// Every contact event says what touches, and something has no gap there.
+void contacts_are_told(const Run& run, double size) {
+  for (const TableRow& event : run.of("contact")) {
+    const std::string& label = event.text("label");
+    INFO(run.what << label << " at " << event.text("lambda"));
+    CHECK(run.located_rows.at(label).text("what") != "");
+    double least = INFINITY;
+    for (const TableRow& c : run.contacts)
+      if (c.text("label") == label) least = std::min(least, std::abs(c["gap"]));
+    CHECK(least <= 1e-9 * size);
+  }
+}
+
+/// Falls begin at an event and lose energy.
+void falls_are_right(const Run& run) {
+  for (std::size_t k = 0; k < run.path.size(); ++k) {
+    const TableRow& row = run.path[k];
+    if (!row.text("label").starts_with("jump:")) continue;
+    INFO(run.what << row.text("label") << " at " << row.text("lambda") << ": " << run.located_rows.at(row.text("label")).text("what"));
+    REQUIRE(k > 0);
+    CHECK(row.text("parent") != "");
+    CHECK(row.text("parent") == run.path[k - 1].text("label"));
+    CHECK(row["negative"] == 0);
+    double from = 0, to = 0;
+    REQUIRE(std::sscanf(run.located_rows.at(row.text("label")).text("what").c_str(), "from energy %lf to %lf", &from, &to) == 2);
+    CHECK(to <= from);
+  }
+}
+
+/// Of a straight chain of n links between hinges: the shortening at which it buckles, P a = 4B sin²(π/2n), P = 2K(q₀ − a).
+double hinged_shortening(int n, double length, double EA, double EI) {
+  const double q0 = length / n, K = EA / (2 * q0), mu = 4 * EI / q0 * std::pow(std::sin(pi / (2 * n)), 2);
+  const double a = q0 * (1 + std::sqrt(1 - 2 * mu / (K * q0 * q0))) / 2;
+  return n * mu / (2 * K * a);
+}
+
+}  // namespace
+
+TEST_CASE("beams bend to the side that they are pushed to, whatever the steps", "[paths][wrong_side_two_beams]") {
+  const Run fine("two_beams_pushed", {steps(200)});
+  CHECK_ENDS_AT(fine, 1);
+  REQUIRE(fine.of("contact").size() >= 1);
+  for (const auto& settings : std::vector<std::vector<std::string>>{{steps(5)}, {steps(17)}, {steps(20)}, {steps(60)}, {steps(17), arcs, jump}, {steps(50), arcs, jump}}) {
+    const Run run("two_beams_pushed", settings);
+    CHECK_ENDS_AT(run, 1);
+    same_events(run, fine);
+    falls_are_right(run);
+    if (run.path.empty()) continue;
+    for (const TableRow& row : run.path) {
+      if (row.text("label") == "contact:1") break;              // until they touch
+      INFO(run.what << row.text("label") << " at " << row.text("lambda"));
+      CHECK((row.text("label") == "" || row.text("label") == "initial"));
+      CHECK(row["thin_x"] >= 0);
+      CHECK(row["thick_x"] <= 0);
+    }
+  }
+}
+
+TEST_CASE("a small side force unfolds the pitchfork: no event, whatever the steps", "[paths][imperfect_arc]") {
+  const Run fine("column_pushed", {steps(200), load_steps, jump});
+  CHECK_ENDS_AT(fine, 3);
+  for (const int n : {7, 17, 50, 100, 200})
+    for (const auto& way : std::vector<std::vector<std::string>>{{arcs, follow}, {load_steps, jump}}) {
+      const Run run("column_pushed", {steps(n), way[0], way[1]});
+      CHECK_ENDS_AT(run, 3);
+      INFO(run.what << run.told());
+      CHECK(run.events.empty());
+      if (run.path.empty()) continue;
+      for (const TableRow& row : run.path) CHECK(row["negative"] == 0);
+      CHECK(run.path.back()["x"] > 0);
+      CHECK(run.path.back()["x"] == Approx(fine.path.back()["x"]).epsilon(1e-8));
+    }
+}
+
+TEST_CASE("a ring with the least supports has a double branch point, on the circle", "[paths][ring101_13]") {
+  for (const int n : {5, 13, 50, 200})
+    for (const std::string& method : {arcs, load_steps}) {
+      const Run run("ring_least_supports", {steps(n), method, follow});
+      CHECK_ENDS_AT(run, 1.3);
+      INFO(run.what << run.told());
+      CHECK(run.events.size() == 1);
+      if (run.of("branch").empty()) continue;
+      const TableRow event = run.located_rows.at("branch:1");
+      CHECK(event["lambda"] == Approx(1).epsilon(located));
+      CHECK(event["multiplicity"] == 2);
+      CHECK(run.path.back()["negative"] == 2);
+      // Positions: id molecule x y z … in the data file's section Atoms.
+      std::ifstream file(run.scratch / "out/states/branch-1.data");
+      std::vector<std::array<double, 2>> at;
+      bool atoms = false;
+      for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("Atoms")) atoms = true;
+        else if (atoms && !line.empty() && std::isalpha(line[0])) break;
+        double id, type, x, y;
+        if (atoms && std::sscanf(line.c_str(), "%lf %lf %lf %lf", &id, &type, &x, &y) == 4) at.push_back({x, y});
+      }
+      REQUIRE(at.size() == 101);
+      double cx = 0, cy = 0, least = INFINITY, most = 0;
+      for (const auto& [x, y] : at) cx += x / 101, cy += y / 101;
+      for (const auto& [x, y] : at) least = std::min(least, std::hypot(x - cx, y - cy)), most = std::max(most, std::hypot(x - cx, y - cy));
+      CHECK(most - least <= 1e-7 * most);
+    }
+}
+
+TEST_CASE("an oval that may lie in any direction is one branch", "[paths][ring_any_direction]") {
+  const ScratchDirectory scratch;
+  const Answer answer = elamin_says("verify --quiet '" + case_file("ring_any_direction") + "' -o '" + (scratch / "out") + "'", 120);
+  INFO(answer.text);
+  CHECK(answer.status == 0);
+  for (const auto& entry : std::filesystem::directory_iterator(scratch / "out")) {
+    if (!entry.is_directory()) continue;
+    const std::vector<TableRow> path = table_of(entry.path().string() + "/path.csv");
+    double branches = 0;
+    int met = 0, half = 0;
+    for (const TableRow& row : path) branches = std::max(branches, row["branch"]), met += row.text("label") == "met:1", half += row.text("label").starts_with("half:");
+    INFO(entry.path().string());
+    CHECK(branches == 1);
+    CHECK(met == 1);
+    CHECK(half == 1);
+  }
+}
+
+TEST_CASE("a slender column is followed along its side branches", "[paths][column_switched_stiff]") {
+  for (const int n : {20, 50}) {
+    const ScratchDirectory scratch;
+    const Answer answer = elamin_says("verify --quiet '" + case_file("column_switched") + "' -o '" + (scratch / "out") + "' --set " + steps(n), 60);
+    INFO(n << ": " << answer.text);
+    CHECK(answer.status == 0);
+    for (const auto& entry : std::filesystem::directory_iterator(scratch / "out")) {
+      if (!entry.is_directory()) continue;
+      const std::vector<TableRow> path = table_of(entry.path().string() + "/path.csv");
+      std::map<double, TableRow> last;
+      for (const TableRow& row : path) last[row["branch"]] = row;
+      INFO(entry.path().string());
+      REQUIRE(last.size() == 3);
+      CHECK(last[1].text("label") == "bent:1");
+      CHECK(last[2].text("label") == "bent:2");
+      CHECK(last[1]["w"] == Approx(-last[2]["w"]).epsilon(1e-8));
+    }
+  }
+}
+
+TEST_CASE("the ends of a column meet and pass each other", "[paths][elastica_ends_pass]") {
+  for (const int n : {20, 50}) {
+    const ScratchDirectory scratch;
+    const Answer answer = elamin_says("verify --quiet '" + case_file("elastica_ends_pass") + "' -o '" + (scratch / "out") + "' --set " + steps(n), 60);
+    INFO(n << ": " << answer.text);
+    CHECK(answer.status == 0);
+  }
+}
+
+TEST_CASE("two events at one point are both told, at one load factor", "[paths][two_events_lost]") {
+  for (const int n : {3, 5, 17, 20, 50, 200}) {
+    const Run run("events_at_once", {steps(n), arcs, follow});
+    CHECK_ENDS_AT(run, 1);
+    INFO(run.what << run.told());
+    REQUIRE(run.of("a").size() == 1);
+    REQUIRE(run.of("b").size() == 1);
+    CHECK(run.of("a")[0]["lambda"] == Approx(truss_load(0.25)).epsilon(located));
+    CHECK(run.of("b")[0]["lambda"] == Approx(truss_load(0.25)).epsilon(located));
+    CHECK(run.of("limit").size() == 2);
+  }
+}
+
+TEST_CASE("two events about one value come once each at every crossing", "[paths][two_events_loop]") {
+  const Run bowed("events_twins_bowed");
+  CHECK_ENDS_AT(bowed, 1);
+  const std::string start = "path.start=\"" + (bowed.scratch / "out/states/final.data") + "\"";
+  for (const int n : {17, 50, 100}) {
+    const Run run("events_twins", {steps(n), start});
+    INFO(run.what << run.answer.text << run.told());
+    CHECK(run.answer.status == 0);
+    REQUIRE(!run.path.empty());
+    CHECK(run.on_branch(0).back()["lambda"] == 1);
+    CHECK(run.branches() >= 1);
+    for (int k = 0; k <= run.branches(); ++k) {
+      const std::vector<TableRow> rows = run.on_branch(k);
+      std::vector<double> a, b;
+      int crossings = 0;
+      double side = 0;
+      for (const TableRow& row : rows) {
+        if (row.text("label").starts_with("a:")) a.push_back(row["lambda"]);
+        else if (row.text("label").starts_with("b:")) b.push_back(row["lambda"]);
+        else {
+          if (side * row["y"] < 0) ++crossings;
+          side = row["y"];
+        }
+      }
+      INFO("branch " << k);
+      CHECK(crossings >= 1);
+      CHECK(a.size() == static_cast<std::size_t>(crossings));
+      REQUIRE(a.size() == b.size());
+      for (std::size_t i = 0; i < a.size(); ++i) CHECK(std::abs(a[i] - b[i]) <= located);
+    }
+  }
+}
+
+TEST_CASE("events on the first segment of a side branch are located", "[paths][event_first_segment]") {
+  // The apex at (x, y), feet at (∓1, 0): Σ (1 − r₀/r)(x ± 1) = 0 across gives y, Σ 2K (r₀/r − 1) y the load.
+  const double K = 0.12940952255126038, r0 = std::hypot(1, 3.7320508075688772935);
+  const auto part = [&](double x, double y) { return 1 - r0 / std::hypot(x, y); };
+  const auto across = [&](double x, double y) { return part(x + 1, y) * (x + 1) + part(x - 1, y) * (x - 1); };
+  const auto load = [&](double x) {
+    double low = 3, high = 3.7;
+    REQUIRE(across(x, low) * across(x, high) < 0);
+    for (int k = 0; k < 100; ++k) ((across(x, (low + high) / 2) < 0) == (across(x, low) < 0) ? low : high) = (low + high) / 2;
+    return -2 * K * low * (part(x + 1, low) + part(x - 1, low));
+  };
+  for (const int n : {5, 20, 50, 200}) {
+    const Run run("events_on_side_branch", {steps(n)});
+    INFO(run.what << run.answer.text << run.told());
+    CHECK(run.answer.status == 0);
+    for (const auto& [name, x] : std::vector<std::pair<std::string, double>>{{"s0_001", 0.001}, {"s0_003", 0.003}, {"s0_01", 0.01}, {"s0_03", 0.03}, {"s0_1", 0.1}, {"s0_3", 0.3}}) {
+      INFO(name << ", expected at " << load(x));
+      const std::vector<TableRow> found = run.of(name);
+      REQUIRE(!found.empty());
+      double off = INFINITY;
+      for (const TableRow& row : found) {
+        CHECK(row["x"] == Approx(x).epsilon(located));
+        off = std::min(off, std::abs(row["lambda"] / load(x) - 1));
+      }
+      CHECK(off <= located);
+    }
+  }
+}
+
+TEST_CASE("a hard contact at the end of a step is an event", "[paths][hard_contact_event_lost]") {
+  for (const int n : {3, 4, 6, 7, 8, 9, 10, 11, 13, 50, 200}) {
+    const Run run("hard_lid", {steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    INFO(run.what << run.told());
+    REQUIRE(run.events.size() == 1);
+    CHECK(run.of("contact").size() == 1);
+    CHECK(run.events[0]["lambda"] == Approx(0.5).epsilon(located));
+    CHECK(run.path.back()["energy"] == Approx(0.25).epsilon(1e-9));     // K e², e half the way of the lid
+  }
+}
+
+TEST_CASE("a strip meets a stop: every contact is one", "[paths][strip_spurious_contact]") {
+  const Run fine("strip_meets_stop", {steps(100)});
+  CHECK_ENDS_AT(fine, 1);
+  for (const auto& settings : std::vector<std::vector<std::string>>{{steps(17)}, {steps(40)}, {steps(60)}, {steps(100)}, {steps(50), arcs, jump}}) {
+    const Run run("strip_meets_stop", settings);
+    CHECK_ENDS_AT(run, 1);
+    contacts_are_told(run, 1e-3);
+    falls_are_right(run);
+    same_events(run, fine);
+  }
+}
+
+TEST_CASE("a beam is followed along stiff walls", "[paths][contact_stiff_arc_length]") {
+  const Run soft("beam_stiff_walls", {steps(50), "wall.left.effective_modulus=1e10", "wall.right.effective_modulus=1e10"});
+  CHECK_ENDS_AT(soft, 2);
+  std::vector<Run> runs;
+  for (const int n : {20, 50, 100}) {
+    const Run run("beam_stiff_walls", {steps(n)});
+    CHECK_ENDS_AT(run, 2);
+    contacts_are_told(run, 1e-3);
+    INFO(run.what << run.told());
+    CHECK(run.branches() == 2);
+    CHECK(run.of("contact").size() >= 2);
+    for (int k = 1; k <= run.branches(); ++k) CHECK(run.on_branch(k).back()["lambda"] == 2);
+  }
+}
+
+TEST_CASE("a ring that floats between hard plates is pressed", "[paths][ring_free_between_plates]") {
+  for (const int n : {20, 50}) {
+    const Run run("ring_between_hard_plates", {steps(n)});
+    CHECK_ENDS_AT(run, 0.8);
+    INFO(run.what << run.told());
+    // Before the lid is there nothing says how high the ring lies.
+    CHECK(run.of("contact").size() >= 1);
+    if (run.path.empty()) continue;
+    const std::string log = text_of(run.scratch / "out/log.txt");
+    CHECK(log.find("translation") != std::string::npos);
+    CHECK(run.path.back()["touching"] >= 1);
+    CHECK(run.path.back()["force"] > 0);
+  }
+}
+
+TEST_CASE("boxes are pushed over an edge by both methods", "[paths][boxes_overhang_arc_length]") {
+  std::vector<double> first, tips;
+  for (const int n : {17, 40, 100})
+    for (const std::string& method : {arcs, load_steps}) {
+      const Run run("boxes_overhang", {steps(n), method, "path.to=0.32"});
+      CHECK_ENDS_AT(run, 0.32);
+      INFO(run.what << run.told());
+      REQUIRE(run.of("contact").size() == 2);
+      CHECK(run.of("contact")[1]["lambda"] == Approx(0.31875).epsilon(3e-6));
+      first.push_back(run.of("contact")[0]["lambda"]), tips.push_back(run.of("contact")[1]["lambda"]);
+      CHECK(first.back() == Approx(first.front()).epsilon(located));
+      CHECK(tips.back() == Approx(tips.front()).epsilon(located));
+    }
+}
+
+TEST_CASE("an arch in space is told to want a plane", "[paths][arch_without_plane]") {
+  const Answer check = elamin_says("check '" + case_file("arch_without_plane") + "'");
+  INFO(check.text);
+  CHECK(check.status == 0);
+  CHECK(check.text.find("sign") != std::string::npos);            // that rest angles have none in space
+  const Run run("arch_without_plane");
+  INFO(run.answer.text);
+  CHECK(run.answer.status == 2);
+  REQUIRE(!run.path.empty());
+  CHECK(run.summary["message"].get<std::string>().find("plane") != std::string::npos);
+  const Run in_plane("arch_without_plane", {"plane=\"xz\""});
+  CHECK_ENDS_AT(in_plane, 15);
+  REQUIRE(in_plane.of("limit").size() == 2);
+  CHECK(in_plane.of("limit")[1]["lambda"] == Approx(-0.6963091405).epsilon(1e-9));
+}
+
+TEST_CASE("a side branch begins at its branch point and ends at `to`", "[paths][branch_leaps_past_end]") {
+  const double critical = hinged_shortening(20, 1, 1e6, 1) / 1.4804e-5;
+  for (const int n : {3, 5, 17, 20, 50, 200}) {
+    const Run run("column_slender_branches", {steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    INFO(run.what << run.told());
+    REQUIRE(run.events.size() == 1);
+    CHECK(run.of("branch").size() == 1);
+    CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(located));
+    REQUIRE(run.branches() == 2);
+    for (int k = 1; k <= 2; ++k) {
+      for (const TableRow& row : run.on_branch(k)) {
+        CHECK(row["lambda"] >= critical * (1 - 1e-9));
+        CHECK(row["lambda"] <= 1);
+        CHECK(row["negative"] == 0);
+      }
+      CHECK(run.on_branch(k).back()["lambda"] == 1);
+    }
+    CHECK(run.on_branch(1).back()["w"] == Approx(-run.on_branch(2).back()["w"]).epsilon(1e-8));
+    CHECK(std::abs(run.on_branch(1).back()["w"]) == Approx(2 / pi * std::sqrt((1 - critical) * 1.4804e-5)).epsilon(1e-2));
+  }
+}
+
+TEST_CASE("a lid meets a grain that rests, by both methods", "[paths][grain_lid_arc_length]") {
+  // Overlaps δ = (3F/4E√r)^⅔ at both walls.
+  const auto overlap = [](double force) { return std::pow(0.75 * force / (1e3 * std::sqrt(0.5)), 2.0 / 3); };
+  const double critical = (0.01 + overlap(1e-3)) / 0.02;
+  double low = 0, high = 1e3;
+  for (int k = 0; k < 200; ++k) ((overlap((low + high) / 2) + overlap((low + high) / 2 + 1e-3) < 0.01) ? low : high) = (low + high) / 2;
+  for (const int n : {3, 5, 10, 17, 50, 200})
+    for (const std::string& method : {arcs, load_steps}) {
+      const Run run("grain_under_lid", {steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      INFO(run.what << run.told());
+      REQUIRE(run.events.size() == 1);
+      CHECK(run.of("contact").size() == 1);
+      CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(located));
+      CHECK(std::abs(run.path.back()["force"]) == Approx(low).epsilon(1e-8));
+      contacts_are_told(run, 1);
+    }
+}
+
+TEST_CASE("a lid that meets four corners at once is one event", "[paths][box_lid_contact_twice]") {
+  for (const int n : {3, 5, 11, 17, 50, 200})
+    for (const std::string& method : {arcs, load_steps}) {
+      const Run run("box_under_lid", {steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      INFO(run.what << run.told());
+      REQUIRE(run.events.size() == 1);
+      CHECK(run.of("contact").size() == 1);
+      CHECK(run.events[0]["lambda"] == Approx(0.5).epsilon(located));     // 0.1 down, of 0.2
+      contacts_are_told(run, 1);
+      int corners = 0;
+      for (const TableRow& c : run.contacts) corners += c.text("label") == "contact:1" && c.text("second") == "lid";
+      CHECK(corners == 4);
+    }
+}
+
+TEST_CASE("a column in space falls from a double branch point, whatever the steps", "[paths][column_twelve_jump]") {
+  const double mu = 4 * std::pow(std::sin(pi / 10), 2), d = 1e-3, E = 0.96e6, K = pi * E * d / 8, B = pi * E * d * d * d / 64;     // 8 are free
+  const double a = d * (1 + std::sqrt(1 - 2 * B * mu / (K * d * d))) / 2, critical = 9 * (B * mu / (2 * K * a)) / 0.74e-3;
+  for (const int particles : {8, 12, 13})
+    for (const int n : {5, 40, 49, 50, 51, 60, 100, 200}) {
+      if (particles != 12 && n != 40) continue;
+      const Run run("column_short_falls", {steps(n), "beam.column.particles=" + std::to_string(particles)});
+      CHECK_ENDS_AT(run, 1);
+      falls_are_right(run);
+      INFO(run.what << run.told());
+      REQUIRE(run.events.size() == 2);
+      REQUIRE(run.of("branch").size() == 1);
+      CHECK(run.of("jump").size() == 1);
+      if (particles == 12) CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(located));
+      CHECK(run.located_rows.at("branch:1")["multiplicity"] == 2);
+      CHECK(run.path.back()["negative"] == 0);
+    }
+}
+
+TEST_CASE("every fall of two beams has its event and loses energy", "[paths][jump_gains_energy]") {
+  for (const int n : {50, 100, 200}) {
+    const Run run("two_beams_fall", {steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    falls_are_right(run);
+    contacts_are_told(run, 6.7e-6);
+  }
+}
+
+TEST_CASE("a ball floats until it is touched", "[paths][free_ball]") {
+  for (const int n : {3, 10, 17, 50}) {
+    const Run run("ball_between_two", {steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    INFO(run.what << run.told());
+    CHECK(run.of("jump").empty());
+    REQUIRE(!run.path.empty());
+    CHECK(text_of(run.scratch / "out/log.txt").find("touches nothing") != std::string::npos);
+    CHECK(run.path.back()["negative"] == 0);
+    // In the end both press it alike, 1.7 apart: two overlaps of 0.15, U = 8/15 E √R δ^{5/2}, R = 1/4.
+    CHECK(run.path.back()["energy"] == Approx(2 * 8.0 / 15 * 0.5 * std::pow(0.15, 2.5)).epsilon(1e-9));
+  }
+}
