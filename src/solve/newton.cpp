@@ -174,7 +174,7 @@ std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step
       step = *bent, part = part_of(state, step), alpha = part.first;
       continue;
     }
-    if (alpha < limits::least_part * part.first)
+    if (!(alpha > limits::least_part * part.first))                 // or where nothing of the step is free
       return Halt{Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
           std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",
           descent.report.residual)};
