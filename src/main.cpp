@@ -12,10 +12,28 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <ctime>
+
+#include <unistd.h>
 
 namespace {
 
-extern "C" void on_interrupt(int) { elamin::interrupt_requested = true; }
+// The first signal asks, a second one ends at once. Some senders give one signal twice, to the process and to its group.
+extern "C" void on_interrupt(int) {
+  constexpr double one_signal = 0.05;           // seconds
+  static volatile std::sig_atomic_t asked = 0;
+  static timespec first;
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (asked) {
+    const double since = static_cast<double>(now.tv_sec - first.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec);
+    if (since > one_signal) _exit(elamin::exit_interrupted);
+    return;
+  }
+  first = now;
+  asked = 1;
+  elamin::interrupt_requested = true;
+}
 
 const char* const description =
     "elamin: static equilibria of elastic structures made of glued particles.\n"
@@ -27,7 +45,7 @@ const char* const description =
     "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
-    "130 interrupted.\n"
+    "130 interrupted (Ctrl-C; a second one ends at once).\n"
     "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: README.md and problems/.\n";
 
 }  // namespace
@@ -83,7 +101,7 @@ int main(int argc, char** argv) {
     for (const std::string& s : set) settings.push_back(parse_setting(s));
     options.settings = energy.settings = comparison.settings = settings;
     options.file = energy.file = comparison.file = file;
-    if (*energy_app) return energy_command(energy), exit_done;
+    if (*energy_app) return energy_command(energy);
     if (*check_app) return check_command(file, settings), exit_done;
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);

@@ -90,7 +90,7 @@ class Relaxation {
 
   Report run() {
     const Stopwatch watch;
-    look();
+    if (energy_.dofs() > 0) look();
     if (converging() && energy_.model().bodies.empty()) fast();
     if (converging()) exact();
     finish();

@@ -243,21 +243,30 @@ void Assembler::multiply(const Field& v, Field& out) {
   gather(products_, out);
 }
 
-double Assembler::quadratic_form(const Field& v) const {
+Form Assembler::form(const Field& u, const Field& v) const {
   ExactSum sum;
+  double size = 0;
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const ElementGroup& group = *groups_[k];
     for (int e = 0; e < group.elements(); ++e) {
-      double local[most_local], product[most_local];
-      relative_motion(v, group.stencil(e), group.anchored(), local);
-      packed_product(hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size(), local,
-                     group.gradient_size(), product);
+      double left[most_local], right[most_local];
+      relative_motion(u, group.stencil(e), group.anchored(), left);
+      relative_motion(v, group.stencil(e), group.anchored(), right);
+      const int first = group.anchored() ? 0 : 3;
       double q = 0;
-      for (int i = group.anchored() ? 0 : 3; i < group.gradient_size(); ++i) q += local[i] * product[i];
+      for (int r = first; r < group.gradient_size(); ++r) {
+        const double* row = hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size() + ElementGroup::packed(r, 0);
+        for (int c = first; c < r; ++c) {
+          q += row[c] * (left[r] * right[c] + left[c] * right[r]);
+          size += std::abs(row[c]) * (std::abs(left[r] * right[c]) + std::abs(left[c] * right[r]));
+        }
+        q += row[r] * left[r] * right[r];
+        size += std::abs(row[r] * left[r] * right[r]);
+      }
       sum.add(q);
     }
   }
-  return sum.value();
+  return {sum.value(), size};
 }
 
 double Assembler::largest_element_force() const {

@@ -14,6 +14,14 @@ struct GatherList {
   std::vector<std::int64_t> index;
 };
 
+/// uᵀHv, a sum over the elements, and the sum of the sizes of all that is added to form it,
+///   size = Σ_e |u_e|ᵀ |H_e| |v_e|,   u_e, v_e the parts of u and v that the element sees:
+/// a few ε times it bound what rounding does to the value, however much of it cancels (Higham 2002, Accuracy and Stability of
+/// Numerical Algorithms, §3.1).
+struct Form {
+  double value = 0, size = 0;
+};
+
 /// Everything that depends on the topology alone is made once, here; evaluations overwrite values only.
 class Assembler {
  public:
@@ -42,7 +50,8 @@ class Assembler {
   /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
   void multiply(const Field& v, Field& out);
   /// vᵀHv in the same way, summed with compensation: relative error about ε N² for the bending mode of N particles.
-  double quadratic_form(const Field& v) const;
+  double quadratic_form(const Field& v) const { return form(v, v).value; }
+  Form form(const Field& u, const Field& v) const;
   /// Largest force of one element on one site, from the last evaluation: the scale of internal forces.
   double largest_element_force() const;
 

@@ -1,5 +1,6 @@
 #include "energy/body_passage.hpp"
 
+#include "core/interrupt.hpp"
 #include "core/near_pairs.hpp"
 #include "energy/body_groups.hpp"
 #include "laws/rounded/closest.hpp"
@@ -106,6 +107,7 @@ double free_body_passage(const Model& model, const BodyRules& rules, const State
     return t >= 0 && model.rounded[t].formulation != RoundedFormulation::lammps && model.rounded[t].kernel.normal > 0;
   };
   for (const auto& [i, j] : near_pairs(middle, radii, bars)) {
+    if (interrupted()) return 0;
     const RoundedBody a = way.at(i, 0), b = way.at(j, 0);
     const double speed = (way.move().col(i) - way.move().col(j)).norm() + way.turning(i, a) + way.turning(j, b);
     part = std::min(part, advance(part, speed, [&](double s) { return core_separation(way.at(i, s), way.at(j, s)); }));

@@ -210,7 +210,20 @@ bool Energy::loads_scaled() const {
 Vector Energy::multiply(const Vector& v) const {
   Field product;
   assembler_->multiply(kinematics_.extend(v), product);
-  return kinematics_.restrict(product);
+  Vector hv = kinematics_.restrict(product);
+  const SparseMatrix& h = hessian();
+  for (const int d : idle_) hv[d] += h.valuePtr()[h.outerIndexPtr()[d]] * v[d];
+  return hv;
+}
+
+Form Energy::form(const Vector& u, const Vector& v) const {
+  Form form = assembler_->form(kinematics_.extend(u), kinematics_.extend(v));
+  const SparseMatrix& h = hessian();
+  for (const int d : idle_) {
+    const double part = h.valuePtr()[h.outerIndexPtr()[d]] * u[d] * v[d];
+    form.value += part, form.size += std::abs(part);
+  }
+  return form;
 }
 
 double Energy::relative(const Vector& force) const {

@@ -1,7 +1,9 @@
 #include "energy/passage.hpp"
 
+#include "core/interrupt.hpp"
 #include "core/near_pairs.hpp"
 #include "energy/wall_group.hpp"
+#include "laws/frustum.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double keep = 0.8;                   // of the distance, at least
 constexpr double chunk = 10;                   // movement looked at in one go, in smallest distances of touch
+constexpr double most_pieces = 100;            // looked at: a step of a thousand such distances is no step to an equilibrium nearby
 
 // Distance at which a pair touches; 0: it feels nothing.
 double touching(const Model& model, const ContactRules& rules, int i, int j) {
@@ -35,9 +38,11 @@ double among_particles(const Model& model, const ContactRules& rules, const Stat
   for (int i = 0; i < model.particles(); ++i)
     if (rules.reach(i) > 0) fastest = std::max(fastest, u.col(i).norm()), smallest = std::min(smallest, 2 * rules.reach(i));
   if (fastest == 0) return 1;
-  const double width = std::min(1.0, chunk * smallest / fastest);
+  const double width = std::min(1.0, chunk * smallest / fastest), looked_at = std::min(1.0, most_pieces * width);
   std::vector<double> radii(model.particles(), 0.0);
-  for (double begin = 0; begin < 1; begin += width) {
+  for (int piece = 0; piece * width < looked_at; ++piece) {
+    const double begin = piece * width;
+    if (begin > 0 && interrupted()) return begin;
     for (int i = 0; i < model.particles(); ++i)
       if (rules.reach(i) > 0) radii[i] = rules.reach(i) + width / 2 * u.col(i).norm();
     double least = std::numeric_limits<double>::infinity();
@@ -46,43 +51,61 @@ double among_particles(const Model& model, const ContactRules& rules, const Stat
       const Vec3 d = (from.at(j) - from.at(i)).hi;
       least = std::min(least, root(d, u.col(j) - u.col(i), keep * std::min(d.norm(), touching(model, rules, i, j))));
     }
-    if (least <= begin + width) return std::min(1.0, least);
+    if (least <= begin + width) return std::min(looked_at, least);
   }
-  return 1;
+  return looked_at;
 }
 
 // Distance of the particle's centre to the wall's surface; infinity where the wall does not see it.
 double distance(const Wall& wall, double load_factor, const ExactVector& x, double r) {
-  std::array<WallTouch, WallContact::most_faces> faces;
-  const int n = wall_at(wall, load_factor).touches(x, r, std::numeric_limits<double>::infinity(), faces);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < n; ++k) nearest = std::min(nearest, faces[k].gap + r);
-  return nearest;
+  constexpr double aside = 1e-9;                                 // in radii: on an axis or at a centre a curved wall has no direction
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const WallContact now = wall_at(wall, load_factor);
+  const auto nearest = [&](const ExactVector& at) {
+    std::array<WallTouch, WallContact::most_faces> faces;
+    const int n = now.touches(at, r, infinity, faces);
+    double least = infinity;
+    for (int k = 0; k < n; ++k) least = std::min(least, faces[k].gap + r);
+    return least;
+  };
+  const double here = nearest(x);
+  if (std::isfinite(here) || !on_side(now.region, now.inside, x)) return here;
+  return nearest(ExactVector{x.hi + aside * r * Vec3::Ones(), x.lo});
+}
+
+// The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches.
+double at_wall(const Model& model, const Wall& wall, int p, const State& from, double turn, const Vec3& u, double speed, double most) {
+  constexpr int most_advances = 200;
+  constexpr double on_surface = 1e-9, off_surface = 1e-6;        // in radii
+  const double r = model.diameter[p] / 2;
+  const auto at = [&](double s) {
+    ExactVector x = from.at(p);
+    x.hi += s * u;
+    return distance(wall, from.load_factor + s * turn, x, r);
+  };
+  double here = at(0), s = 0;
+  if (!(speed > 0) || !std::isfinite(here)) return most;
+  if (here <= on_surface * r) {                                  // no distance to live on: it may leave, or slide along what is flat
+    const double first = here;
+    s = std::min(most, off_surface * r / speed), here = at(s);
+    if (here == first) return most;
+    if (!(here > first) || !std::isfinite(here)) return 0;
+  }
+  const double floor = keep * std::min(here, r);
+  for (int k = 0; k < most_advances && s < most; ++k) {
+    const double room = here - floor;
+    if (room <= 1e-3 * floor && k > 0) break;
+    s += room / speed;
+    if (s < most) here = at(s);
+  }
+  return std::min(s, most);
 }
 
 double at_wall(const Model& model, const Wall& wall, const State& from, const State& to, const Field& u) {
-  constexpr int most = 200;
   const double turn = to.load_factor - from.load_factor;
   const double wall_speed = std::abs(wall.scaling.rate * turn) * (wall.displacement.norm() + std::abs(wall.radius_change));
   double least = 1;
-  for (const int p : wall.particles) {
-    const double speed = u.col(p).norm() + wall_speed, r = model.diameter[p] / 2;
-    if (speed == 0) continue;
-    const double first = distance(wall, from.load_factor, from.at(p), r);
-    if (!std::isfinite(first)) continue;
-    const double floor = keep * std::min(first, r);
-    double s = 0, here = first;
-    for (int k = 0; k < most && s < least; ++k) {
-      const double room = here - floor;
-      if (room <= 1e-3 * floor && k > 0) break;
-      s += room / speed;
-      if (s >= least) break;
-      ExactVector x = from.at(p);
-      x.hi += s * u.col(p);
-      here = distance(wall, from.load_factor + s * turn, x, r);
-    }
-    least = std::min(least, s);
-  }
+  for (const int p : wall.particles) least = at_wall(model, wall, p, from, turn, u.col(p), u.col(p).norm() + wall_speed, least);
   return least;
 }
 

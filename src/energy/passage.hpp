@@ -4,12 +4,13 @@
 
 namespace elamin {
 
-/// Largest s in (0, 1] so that on the straight way from → to, up to s, no two particles that feel each other come nearer
+/// Largest s in [0, 1] so that on the straight way from → to, up to s, no two particles that feel each other come nearer
 /// than 0.8 min(r, ρ), r their distance at `from`, ρ the distance of touch, and no particle's centre comes nearer to a wall
 /// it feels than 0.8 min(d, radius), d its distance at `from`. Walls move with the load factor. So overlaps grow by a
 /// fifth of their bound at most, and nothing is on the other side of anything afterwards.
 /// Pairs: exact, from the smaller root of |x_ij + s u_ij| = floor. Walls: conservative advancement, as the distance to a
-/// surface changes no faster than the particle moves (Mirtich 1996).
+/// surface changes no faster than the particle moves (Mirtich 1996). Of a step longer than a thousand of the smallest distances
+/// of touch only so much is looked at, and no more is free. 0: a centre lies on a wall and would go through it.
 double free_passage(const Model& model, const ContactRules& rules, const State& from, const State& to);
 
 }  // namespace elamin

@@ -1,10 +1,15 @@
 #include "energy/step_limits.hpp"
 
+#include "core/near_pairs.hpp"
+#include "energy/wall_group.hpp"
+#include "laws/frustum.hpp"
 #include "model/entities.hpp"
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace elamin {
@@ -18,6 +23,15 @@ std::string name_of(const Model& model, int entity) {
   for (const Structure& s : model.structures)
     if (const int first = body ? s.first_body : s.first; k >= first && k < first + (body ? s.bodies : s.count)) name += " of '" + s.name + "'";
   return name;
+}
+
+bool is_free(const Kinematics& kinematics, int particle) {
+  return kinematics.dof(particle, 0) >= 0 || kinematics.dof(particle, 1) >= 0 || kinematics.dof(particle, 2) >= 0;
+}
+
+std::string pressed_at_wall(const Model& model, int particle, const char* how, const Wall& wall) {
+  return fmt::format("the centre of {} is pressed {} the wall '{}'; a contact that bears the force needs a larger modulus",
+                     name_of(model, particle), how, wall.name);
 }
 
 }  // namespace
@@ -67,6 +81,57 @@ std::string escaped(const Model& model, const State& state, double far) {
     if ((state.bodies[b].position.hi - model.start.bodies[b].position.hi).cwiseAbs().maxCoeff() > far)
       return name_of(model, model.particles() + static_cast<int>(b));
   return "";
+}
+
+std::string gone_through(const Energy& energy, const State& state) {
+  for (const Wall& wall : energy.model().walls) {
+    if (!(wall.effective_modulus > 0) || wall.region.any_open()) continue;
+    const Region now = wall_at(wall, state.load_factor).region;
+    for (const int p : wall.particles)
+      if (is_free(energy.kinematics(), p) && !on_side(now, wall.inside, state.at(p))) return pressed_at_wall(energy.model(), p, "through", wall);
+  }
+  return "";
+}
+
+std::string obstacle(const Energy& energy, const State& state) {
+  constexpr double pressed = 1e-3;                               // of the distance of touch: far beyond what Hertz's law is for
+  constexpr double at_cutoff = 1e-6;                             // of it: where a search for a minimum ends that runs into a jump
+  const Model& model = energy.model();
+  const Kinematics& kinematics = energy.kinematics();
+  const auto apart = [&](int i, int j) { return (state.at(j) - state.at(i)).hi.norm(); };
+  const auto both = [&](int i, int j) { return fmt::format("{} and {}", name_of(model, i), name_of(model, j)); };
+  for (const Bond& b : model.bonds)
+    if (apart(b.particles[0], b.particles[1]) == 0)
+      return both(b.particles[0], b.particles[1]) + ", which are glued, are in one place, where bonds and angles have no direction";
+  for (const Angle& a : model.angles)
+    for (const int end : {a.particles[0], a.particles[2]})
+      if (apart(a.particles[1], end) == 0) return both(a.particles[1], end) + " are in one place, where their angle has no direction";
+  if (const std::string what = gone_through(energy, state); !what.empty()) return what;
+  for (int w = 0; w < static_cast<int>(model.walls.size()); ++w)
+    for (const int p : model.walls[w].particles) {
+      const double r = model.diameter[p] / 2;
+      if (model.walls[w].effective_modulus > 0 && is_free(kinematics, p) && energy.gap(p, -1, w, state) + r <= pressed * r)
+        return pressed_at_wall(model, p, "onto", model.walls[w]);
+    }
+  const ContactRules& rules = energy.contact_rules();
+  if (!rules.any()) return "";
+  std::vector<double> radii(model.particles());
+  for (int p = 0; p < model.particles(); ++p) radii[p] = rules.reach(p) * (1 + 2 * at_cutoff);
+  std::string found;
+  for (const auto& [i, j] : near_pairs(state.position, radii, [&](int a, int b) { return is_free(kinematics, a) || is_free(kinematics, b); })) {
+    const double d = apart(i, j);
+    if (const int t = rules.hertz(i, j); t >= 0 && model.contacts[t].effective_modulus > 0 && d <= pressed * (model.diameter[i] + model.diameter[j]) / 2)
+      return fmt::format("the centres of {} are pressed onto each other; a contact that bears the force needs a larger modulus", both(i, j));
+    const int t = rules.lj(i, j);
+    if (t < 0 || !found.empty()) continue;
+    const PairContact& lj = model.contacts[t];
+    if (!(std::abs(d - lj.cutoff) <= at_cutoff * lj.cutoff)) continue;
+    const double s = std::pow(lj.sigma / lj.cutoff, 6), jump = 4 * lj.epsilon * s * (1 - s);
+    if (jump != 0)
+      found = fmt::format("{} are at the cutoff of law \"lj\", {:.6g}, where its energy jumps by {:.3g} and there is no equilibrium; with a larger "
+                          "cutoff the jump is smaller", both(i, j), lj.cutoff, std::abs(jump));
+  }
+  return found;
 }
 
 std::string falling(const Energy& energy) {

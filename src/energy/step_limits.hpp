@@ -21,4 +21,11 @@ std::string escaped(const Model& model, const State& state, double far);
 /// The first grain that a force drives and no stiffness holds, at the last evaluation with Hessian; else "".
 std::string falling(const Energy& energy);
 
+/// Which free particle is on the other side of a wall, "the centre of … is pressed through the wall '…'; …"; else "".
+std::string gone_through(const Energy& energy, const State& state);
+
+/// What no solver gets over at this state, one phrase with what to try: a centre that is pressed onto a wall or onto another one, two
+/// particles at the cutoff of a cohesion whose energy jumps there, glued ones in one place; "" if nothing of that is there.
+std::string obstacle(const Energy& energy, const State& state);
+
 }  // namespace elamin

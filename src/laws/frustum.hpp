@@ -3,6 +3,8 @@
 #include "laws/exact_geometry.hpp"
 #include "laws/region.hpp"
 
+#include <algorithm>
+
 namespace elamin {
 
 /// x − face; a face at infinity is infinitely far.
@@ -40,7 +42,8 @@ struct Frustum {
     return straight ? a : a * height - p.above_lo * rise;
   }
 
-  bool contains(const AxialPoint& p) const { return p.above_lo.hi >= 0 && p.above_hi.hi <= 0 && excess(p).hi <= 0; }
+  /// Positive inside, negative outside, zero on the surface.
+  double depth(const AxialPoint& p) const { return std::min({p.above_lo.hi, -p.above_hi.hi, -excess(p).hi}); }
 };
 
 /// x in the half-plane of this cylinder or cone.
@@ -54,5 +57,11 @@ inline AxialPoint axial_point(const Region& r, const ExactVector& x) {
   p.along[r.axis] = 1;
   return p;
 }
+
+/// Of any region: positive inside, negative outside, zero on the surface; no distance.
+double depth(const Region& r, const ExactVector& x);
+
+/// Whether x is on this side of the surface, or on the surface itself, which belongs to both.
+inline bool on_side(const Region& r, bool inside, const ExactVector& x) { return inside ? depth(r, x) >= 0 : depth(r, x) <= 0; }
 
 }  // namespace elamin

@@ -2,22 +2,27 @@
 
 #include "laws/frustum.hpp"
 
+#include <algorithm>
+
 namespace elamin {
 
-bool Region::contains(const ExactVector& x) const {
-  const ExactVector from_center = x - ExactVector{center, Vec3::Zero()};
-  switch (shape) {
-    case Shape::plane: return dot(from_center, {normal, Vec3::Zero()}).hi >= 0;
-    case Shape::sphere: return (length(from_center) + (-radius)).hi <= 0;
-    case Shape::block:
-      for (int c = 0; c < 3; ++c)
-        if (offset(x[c], lo[c]).hi < 0 || offset(x[c], hi[c]).hi > 0) return false;
-      return true;
+double depth(const Region& r, const ExactVector& x) {
+  const ExactVector from_center = x - ExactVector{r.center, Vec3::Zero()};
+  switch (r.shape) {
+    case Shape::plane: return dot(from_center, {r.normal, Vec3::Zero()}).hi;
+    case Shape::sphere: return -(length(from_center) + (-r.radius)).hi;
+    case Shape::block: {
+      double least = std::numeric_limits<double>::infinity();
+      for (int c = 0; c < 3; ++c) least = std::min({least, offset(x[c], r.lo[c]).hi, -offset(x[c], r.hi[c]).hi});
+      return least;
+    }
     case Shape::cylinder:
-    case Shape::cone: return Frustum(*this).contains(axial_point(*this, x));
+    case Shape::cone: return Frustum(r).depth(axial_point(r, x));
   }
-  return false;
+  return -1;
 }
+
+bool Region::contains(const ExactVector& x) const { return depth(*this, x) >= 0; }
 
 Region Region::moved(const Vec3& d, double growth) const {
   Region r = *this;

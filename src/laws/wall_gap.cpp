@@ -65,6 +65,7 @@ class Search {
   void block_outside() {
     ExactVector nearest;                                  // from the nearest point of the closed faces to x
     Exact least{std::numeric_limits<double>::infinity(), 0};
+    int of_face = 0;
     for (int face = 0; face < 6; ++face) {
       if (region_.open[face]) continue;
       ExactVector y;
@@ -75,9 +76,10 @@ class Search {
         else if (above_hi.hi > 0) y.set(c, above_hi);
       }
       const Exact d = y.hi.allFinite() ? length(y) : Exact{std::numeric_limits<double>::infinity(), 0};
-      if (d.hi < least.hi) least = d, nearest = y;
+      if (d.hi < least.hi) least = d, nearest = y, of_face = face;
     }
-    if (!(least.hi > 0) || !near(least)) return;
+    if (!near(least)) return;
+    if (!(least.hi > 0)) return flat(least, (of_face % 2 ? 1.0 : -1.0) * Vec3::Unit(of_face / 2));
     const Vec3 n = nearest.hi / least.hi;
     Mat3 bend = -n * n.transpose();
     for (int c = 0; c < 3; ++c)
@@ -93,7 +95,7 @@ class Search {
     const AxialPoint p = axial_point(region_, x_);
     face_ = 2;
     if (!region_.open[face_])
-      if (const auto foot = side(f, p)) add(f, p, *foot, -1);
+      if (const auto foot = side(f, p, -1)) add(f, p, *foot, -1);
     face_ = 0;
     if (!region_.open[face_]) flat(p.above_lo, p.along);
     face_ = 1;
@@ -107,9 +109,9 @@ class Search {
     const auto offer = [&](const std::optional<Foot>& foot) {
       if (foot && (!nearest || (foot->distance - nearest->distance).hi < 0)) nearest = foot;
     };
-    if (!region_.open[2]) offer(side(f, p));
-    if (!region_.open[0]) offer(cap(p, p.above_lo, f.radius_lo));
-    if (!region_.open[1]) offer(cap(p, p.above_hi, f.radius_hi));
+    if (!region_.open[2]) offer(side(f, p, 1));
+    if (!region_.open[0]) offer(cap(p, p.above_lo, f.radius_lo, -1));
+    if (!region_.open[1]) offer(cap(p, p.above_hi, f.radius_hi, 1));
     if (nearest) add(f, p, *nearest, region_.shape == Shape::cone ? -1 : 1);
   }
 
@@ -139,14 +141,15 @@ class Search {
     return Foot{d, a.hi / d.hi, b.hi / d.hi, on_side, true, fraction};
   }
 
-  static std::optional<Foot> side(const Frustum& f, const AxialPoint& p) {
+  /// On the surface itself the sphere is on the side of this sign, as with `cap`.
+  static std::optional<Foot> side(const Frustum& f, const AxialPoint& p, double on_surface) {
     if (!(p.rho.hi > 0)) return {};
     const Exact from_lo = p.rho + (-f.radius_lo), from_hi = p.rho + (-f.radius_hi), excess = f.excess(p);
-    const double sign = excess.hi > 0 ? 1 : -1;
+    const double sign = excess.hi > 0 ? 1 : excess.hi < 0 ? -1 : on_surface;
     if (f.straight) {
       if (p.above_lo.hi < 0) return circle(from_lo, p.above_lo, true, 0);
       if (p.above_hi.hi > 0) return circle(from_hi, p.above_hi, true, 1);
-      return Foot{excess.hi > 0 ? excess : -excess, sign, 0, true, false, 0};
+      return Foot{sign > 0 ? excess : -excess, sign, 0, true, false, 0};
     }
     if (!(f.slant.hi > 0)) return {};
     const Exact t = (from_lo * f.rise + p.above_lo * f.height) / (f.slant * f.slant);
@@ -158,11 +161,11 @@ class Search {
   }
 
   /// The disc of this radius across the axis, b above it.
-  static std::optional<Foot> cap(const AxialPoint& p, Exact b, double radius) {
+  static std::optional<Foot> cap(const AxialPoint& p, Exact b, double radius, double on_surface) {
     if (!std::isfinite(b.hi)) return {};
     const Exact a = p.rho + (-radius);
     if (a.hi > 0) return circle(a, b, false, 0);
-    return Foot{b.hi > 0 ? b : -b, 0, b.hi > 0 ? 1.0 : -1.0, false, false, 0};
+    return Foot{b.hi > 0 ? b : -b, 0, b.hi > 0 ? 1.0 : b.hi < 0 ? -1.0 : on_surface, false, false, 0};
   }
 
   void add(const Frustum& f, const AxialPoint& p, const Foot& foot, double sign_of_curvature) {
@@ -206,8 +209,8 @@ class Search {
 
 WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVector& x, double r, double reach) {
   WallGaps found;
-  const bool contained = region.contains(x);
-  if (contained != inside && !region.any_open()) return found;
+  const bool on_side = elamin::on_side(region, inside, x), contained = on_side ? inside : !inside;
+  if (!on_side && !region.any_open()) return found;
   Search search(region, curved, x, r, reach, found);
   switch (region.shape) {
     case Shape::plane: search.plane(contained); break;

@@ -31,6 +31,7 @@ struct WallGaps {
 /// The faces of the region whose surface is not farther than `reach` from that of the sphere at x with radius r.
 /// The centre inside: every closed face by itself; outside: the one nearest point of the closed faces. Without open faces
 /// nothing where the centre is not on the wall's side; with any open face both sides act.
+/// A centre on the surface itself is on the wall's side.
 /// On the axis of a cylinder or cone and at the centre of a sphere the curved wall has no direction and does nothing.
 ///   plane, faces of a block, caps          d = n·(x − p),  ∇²d = 0
 ///   edges and corners of a block, outside  d = |y|, y the part of x − p across the edge,  ∇²d = (P − n nᵀ)/d, P its projector

@@ -1,4 +1,5 @@
 // The faces that a sphere overlaps, in plain doubles: the same as wall_gaps finds, to rounding.
+#include "laws/frustum.hpp"
 #include "laws/wall_contact.hpp"
 #include "laws/wall_gap.hpp"
 
@@ -57,7 +58,7 @@ int WallContact::presses(const Vec3& x, double r, std::array<WallPress, most_fac
     found.add(d, side / rho * y, curved ? curved_radius(r, m, side) : r);
     return found.count();
   }
-  if (!region.any_open() && region.contains(x) != inside) return left;
+  if (!region.any_open() && !on_side(region, inside, {x, Vec3::Zero()})) return left;
   std::array<WallTouch, most_faces> all;
   const int n = touches({x, Vec3::Zero()}, r, 0, all);
   for (int k = 0; k < n; ++k)

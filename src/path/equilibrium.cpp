@@ -174,7 +174,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     const bool named = inertia.zero == 0 || name_zero_modes(energy, e);
     s.critical = named ? 0 : inertia.zero;
     s.stable = s.negative == 0 && named;
-    e.tangent = held.tangent(state).q;
+    e.tangent = held.tangent(state, e.zero_modes).q;
     return e;
   }
   const Inertia inertia = newton.factors().inertia();

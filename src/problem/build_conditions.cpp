@@ -195,7 +195,8 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
     if (table.radial) {
       if (!load.bodies.empty())
         mistakes.add(table.place, "radial", fmt::format("is of particles, and \"{}\" has bodies; give force", table.group));
-      load.own = radial_forces(problem, model, table, load.particles, mistakes);
+      else
+        load.own = radial_forces(problem, model, table, load.particles, mistakes);
     } else if (table.force || table.total_force) {
       load.force = table.force ? *table.force : *table.total_force / members->count();
       stay_in_plane(problem, model, table.place, table.force ? "force" : "total_force",

@@ -96,15 +96,18 @@ class Parts {
   std::vector<bool> held_, touched_, kept_;
 };
 
-/// Of every cluster: whether dead loads and weights leave a force on it, which only a support or a wall could bear.
+/// Of every cluster: whether dead loads and weights leave a force on it, or loads on bodies a torque, which only a support or a wall
+/// could bear. (Forces that turn a cluster as a whole turn with it until they do no more.)
 std::vector<bool> driven(const Model& model, const Parts& parts) {
   struct Forces { std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()}; double size = 0; };   // scaled, constant
-  std::vector<Forces> forces(entities(model));
-  const auto add = [&](int i, const Vec3& force, const Scaling& scaling) {
-    Forces& f = forces[parts.cluster(i)];
+  std::vector<Forces> forces(entities(model)), torques(entities(model));
+  const auto add_to = [&](std::vector<Forces>& to, int i, const Vec3& force, const Scaling& scaling) {
+    Forces& f = to[parts.cluster(i)];
     f.sum[0] += scaling.rate * force, f.sum[1] += scaling.fixed * force, f.size += force.cwiseAbs().maxCoeff();
   };
+  const auto add = [&](int i, const Vec3& force, const Scaling& scaling) { add_to(forces, i, force, scaling); };
   for (const Load& l : model.loads) {
+    for (const int b : l.bodies) add_to(torques, model.particles() + b, l.torque, l.scaling);
     for (std::size_t k = 0; k < l.particles.size(); ++k) add(l.particles[k], l.on(k), l.scaling);
     for (const int b : l.bodies) add(model.particles() + b, l.force, l.scaling);
   }
@@ -113,8 +116,9 @@ std::vector<bool> driven(const Model& model, const Parts& parts) {
     for (const int b : g.bodies) add(model.particles() + b, model.bodies[b].mass * g.acceleration, g.scaling);
   }
   std::vector<bool> left(entities(model));
-  for (std::size_t k = 0; k < forces.size(); ++k)
-    for (const Vec3& sum : forces[k].sum) left[k] = left[k] || sum.cwiseAbs().maxCoeff() > 1e-9 * forces[k].size;
+  for (const auto* acting : {&forces, &torques})
+    for (std::size_t k = 0; k < acting->size(); ++k)
+      for (const Vec3& sum : (*acting)[k].sum) left[k] = left[k] || sum.cwiseAbs().maxCoeff() > 1e-9 * (*acting)[k].size;
   return left;
 }
 
@@ -125,6 +129,8 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
   if (problem.in_time()) return;           // … or a motion
   const Parts parts(model);
   const std::vector<bool> force = driven(model, parts);
+  // What floats, and nothing pulls on it, has an equilibrium for a file that asks for one; else a support has been forgotten.
+  const bool asked = problem.study_place.keys.count("type") > 0 && problem.stages.empty();
   const std::vector<int> structure = structure_of(model);
   std::vector<bool> told(model.structures.size());
   const auto tell = [&](int i, const std::string& what) {
@@ -142,7 +148,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
       if (force[parts.cluster(i)])
         tell(i, fmt::format("a force acts on {}, which nothing holds; an equilibrium needs a [[support]], a "
                             "[[wall]] or a [[contact]]", called(model, i)));
-    } else {
+    } else if (!asked || force[parts.cluster(i)]) {
       const std::string of_file =
           fmt::format("{} is connected to {} that a support holds", called(model, i), model.bodies.empty() ? "no particle" : "nothing");
       tell(i, (s.kind == "lammps" ? of_file : "none of its particles is held by a support") +

@@ -113,9 +113,21 @@ class Restart {
     } catch (const InputError& e) {
       mistakes_.add(e.mistakes());
     }
+    if (p_.in_time()) drive_on();
   }
 
  private:
+  /// Supports that move in time go on from where the state has what they hold.
+  void drive_on() {
+    for (Support& s : model_.supports) {
+      if (s.velocity.isZero(0)) continue;
+      s.displacement.setZero(), s.rotation.setZero();
+      s.reference.clear(), s.body_reference.clear();
+      for (const int p : s.particles) s.reference.push_back(model_.restart->at(p));
+      for (const int b : s.bodies) s.body_reference.push_back(model_.restart->bodies[b]);
+    }
+  }
+
   bool same(const std::vector<int>& ids, const std::vector<int>& own, const char* what) {
     if (ids == own) return true;
     mistakes_.add(p_.path.place, "start",
@@ -133,6 +145,7 @@ class Restart {
       if (!(off(own, q, there) <= 1e-6)) {
         mistakes_.add(p_.path.place, "start", fmt::format("holds body {} in another shape; it must be a state of this problem",
                                                           data.bodies[b].id));
+        model_.restart.reset();
         return false;
       }
       model_.restart->bodies.push_back({{data.body_position.col(static_cast<Eigen::Index>(b)), Vec3::Zero()}, q});

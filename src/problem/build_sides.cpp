@@ -2,6 +2,7 @@
 #include "problem/build_contacts.hpp"
 
 #include "energy/kinematics.hpp"
+#include "laws/frustum.hpp"
 #include "problem/build_bodies.hpp"
 #include "problem/build_structures.hpp"
 
@@ -27,7 +28,7 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
       const auto wrong = [&](int i) {
         return std::all_of(states.begin(), states.end(), [&](const State& state) {
           const double part = w.scaling.at(state.load_factor);
-          return w.region.moved(part * w.displacement, part * w.radius_change).contains(at(state, i)) != w.inside;
+          return !on_side(w.region.moved(part * w.displacement, part * w.radius_change), w.inside, at(state, i));
         });
       };
       const auto first = std::find_if(members.begin(), members.end(), wrong);

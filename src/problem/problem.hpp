@@ -282,6 +282,7 @@ struct Problem {
   std::vector<ViscosityTable> viscosity;
   std::vector<VelocityTable> velocities;
   StudyType study = StudyType::path;
+  TablePlace study_place;                       // of [study], where it is written
   PathTable path;
   ModesTable modes;
   SolverTable solver;

@@ -166,7 +166,7 @@ template <class IO> void describe(IO& io, ProblemFile& f) {
     p.study = io.has("dynamics") ? StudyType::dynamics : io.has("path") || io.has("stage") ? StudyType::path : io.has("modes") ? StudyType::modes : StudyType::equilibrium;
   StudyTable study{{}, p.study};
   io.table("study", study);
-  p.study = study.type;
+  p.study = study.type, p.study_place = study.place;
   io.table("path", p.path);
   io.table("modes", p.modes);
   io.table("solver", p.solver);

@@ -27,11 +27,12 @@ std::string shown(const Cell& cell, const char* format) {
 
 std::string progress_line(const PathPoint& p) {
   const std::string stability = p.stability.stable         ? "stable"
+                                : p.report.status == Status::not_converged ? "no equilibrium"
                                 : p.stability.negative > 0 ? fmt::format("unstable ({})", p.stability.negative)
                                                            : "critical";
-  return fmt::format("step {:4}  load factor {:<10.7g}  energy {:<12.6g}  residual {:.0e}  {}{}{}", p.step,
-                     p.state.load_factor, p.energy.total(), p.report.residual, stability, p.label.empty() ? "" : "  ",
-                     p.label);
+  const auto number = [](const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; };
+  return fmt::format("step {:4}  load factor {:<10.7g}  energy {:<12}  residual {}  {}{}{}", p.step, p.state.load_factor,
+                     number("{:.6g}", p.energy.total()), number("{:.0e}", p.report.residual), stability, p.label.empty() ? "" : "  ", p.label);
 }
 
 Progress::Style Progress::style_for(std::FILE* out, bool quiet) {

@@ -11,6 +11,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -28,11 +29,39 @@ std::string place(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
 }
 
-void remove_all_with(const char* extension, const std::string& directory) {
+using Files = std::set<fs::path>;
+
+fs::path located(const fs::path& file) {
+  std::error_code error;
+  return fs::weakly_canonical(file, error);
+}
+
+/// What the problem reads that lies in the directory.
+Files inputs_in(const std::string& directory, const Problem& problem) {
+  std::vector<std::string> all;
+  const auto add = [&](const std::string& data) {
+    if (data.empty()) return;
+    for (const std::string& file : {data, tail_file(data), bodies_file(data)}) all.push_back(file);
+  };
+  add(problem.path.start);
+  if (problem.lammps) add(problem.lammps->data), add(problem.lammps->bodies);
+  for (const GrainsTable& t : problem.grains) all.push_back(t.file);
+  for (const BodyTable& t : problem.bodies) all.push_back(t.molecule);
+  Files inside;
+  const fs::path top = located(directory);
+  for (const std::string& file : all) {
+    if (file.empty() || !fs::exists(file)) continue;
+    const fs::path path = located(file);
+    if (std::mismatch(top.begin(), top.end(), path.begin(), path.end()).first == top.end()) inside.insert(path);
+  }
+  return inside;
+}
+
+void remove_all_with(const char* extension, const std::string& directory, const Files& kept) {
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == extension) files.push_back(entry.path());
+    if (entry.path().extension() == extension && !kept.count(located(entry.path()))) files.push_back(entry.path());
   for (const fs::path& file : files) fs::remove(file, error);
 }
 
@@ -43,15 +72,15 @@ void create(const std::string& directory) {
 }
 
 /// Creates the directory, or empties one of an earlier run of its results.
-std::string prepared(const std::string& directory, const std::string& resolved_toml) {
+std::string prepared(const std::string& directory, const std::string& resolved_toml, const Files& kept) {
   const std::string states = place(directory, "states");
   create(directory), create(states);
   if (fs::exists(place(directory, "resolved.toml"))) {
     std::error_code error;
     for (const char* file : {"summary.json", "modes.csv", "path.csv", "events.csv", "trajectory.csv"}) fs::remove(place(directory, file), error);
-    for (const char* extension : {".data", ".json", ".csv", ".vtk"}) remove_all_with(extension, states);
+    for (const char* extension : {".data", ".json", ".csv", ".vtk"}) remove_all_with(extension, states, kept);
     for (const char* folder : {"modes", "frames"}) {
-      remove_all_with(".csv", place(directory, folder));
+      remove_all_with(".csv", place(directory, folder), kept);
       fs::remove(place(directory, folder), error);                 // where nothing else is in it
     }
   }
@@ -67,15 +96,17 @@ void append(Row& row, const Eigen::Ref<const Eigen::VectorXd>& numbers) {
 
 RunDirectory::RunDirectory(std::string directory, const Problem& problem, const Model& model,
                            const std::string& resolved_toml)
-    : record_(problem, model),
+    : inputs_(inputs_in(directory, problem)),
+      record_(problem, model),
       model_(model),
-      directory_(prepared(directory, resolved_toml)),
+      directory_(prepared(directory, resolved_toml, inputs_)),
       title_(problem.title),
       log_(place(directory_, "log.txt"), std::ios::binary),
       path_(place(directory_, problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns),
       contacts_(place(directory_, "contacts.csv"),
                 {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {
   if (!problem.in_time()) events_.emplace(place(directory_, "events.csv"), record_.events().columns);
+  for (const fs::path& file : inputs_) log(file.string() + " is read by this run and stays as it is");
 }
 
 void RunDirectory::enter(const Stage& stage, const Model& model) {
@@ -207,6 +238,7 @@ std::string RunDirectory::state_file(const std::string& label, const std::string
   std::string name = label;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
+  while (inputs_.count(located(place(place(directory_, "states"), name + ".data")))) name += "-again";
   return place(place(directory_, "states"), name + extension);
 }
 

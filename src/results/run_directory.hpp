@@ -4,7 +4,9 @@
 #include "results/record.hpp"
 #include "results/summary.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace elamin {
@@ -15,7 +17,8 @@ namespace elamin {
 class RunDirectory {
  public:
   /// Creates the directory and writes resolved.toml. Results of an earlier run in it are removed (a directory is one if
-  /// it holds a resolved.toml). problem and model must outlive this. Throws InputError if something cannot be written.
+  /// it holds a resolved.toml), but for files that the problem reads: these stay as they are, and a state of the same label is
+  /// written to states/LABEL-again.data. problem and model must outlive this. Throws InputError if something cannot be written.
   RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml);
 
   /// See Record::enter.
@@ -56,13 +59,14 @@ class RunDirectory {
   const Record& record() const { return record_; }
   const std::string& directory() const { return directory_; }
 
-  /// The file of a label's state: "branch:1" → DIR/states/branch-1.data.
+  /// The file of a label's state: "branch:1" → DIR/states/branch-1.data, unless that is an input.
   std::string state_file(const std::string& label, const std::string& extension = ".data") const;
 
  private:
   void add_picture(const std::string& label, const State& state);
   void add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches);
 
+  std::set<std::filesystem::path> inputs_;            // that lie in the directory
   Record record_;
   const Model& model_;
   std::optional<StoredStage> stage_;                  // of a path in stages

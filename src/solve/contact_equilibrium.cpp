@@ -18,8 +18,12 @@ namespace {
 constexpr double give = 1e-10;                 // δ: of the stiffness scale
 constexpr double gap_rounding = 1e-13;         // of a diameter
 constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
+constexpr int block_chances = 3;               // changes of all at once that need not lead on: Júdice & Pires, p ≤ 10
+constexpr int pivots_at_least = 20, pivots_each = 4;
+constexpr double rounding_of_rates = 1e-9;     // of the largest
 
 const char* const too_far = "there is no equilibrium near enough";
+const char* const singular = "nothing holds what can move here: the equations are singular, with any shift";
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -30,7 +34,7 @@ bool same_contacts(const std::vector<HardForce>& a, const std::vector<HardForce>
 }  // namespace
 
 // Evaluates the energy at the state, and the closed gaps; the matrix takes the values, after its pattern where that is new.
-void ContactEquilibrium::linearise(const State& state, const State* from) {
+void ContactEquilibrium::linearise(const State& state, const State* from, const Eigen::MatrixXd& held) {
   energy_.evaluate(state, true, from);
   gaps_.resize(state.hard.size());
   for (std::size_t k = 0; k < gaps_.size(); ++k)
@@ -54,28 +58,56 @@ void ContactEquilibrium::linearise(const State& state, const State* from) {
   }
   matrix_.resize(n + m, n + m);
   matrix_.setFromTriplets(entries.begin(), entries.end());
-  if (version_ != energy_.pattern_version() || !same_contacts(closed_, state.hard)) {
-    pivoted_.analyze(matrix_);
+  if (version_ != energy_.pattern_version() || !same_contacts(closed_, state.hard) || borders_.cols() != held.cols()) {
+    pivoted_.analyze(matrix_, static_cast<int>(held.cols()));
     version_ = energy_.pattern_version();
   }
   closed_ = state.hard;
+  borders_ = Eigen::MatrixXd::Zero(n + m, held.cols());
+  if (held.cols() > 0) borders_.topRows(n) = held;
 }
 
 bool ContactEquilibrium::factorize(double shift) {
   if (shift != 0)
     for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] += shift;
-  const bool done = pivoted_.factorize(matrix_);
+  const bool done = pivoted_.factorize(matrix_, 0, borders_);
   if (shift != 0)
     for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] -= shift;
   return done;
 }
 
-// p, Δf of H p − Jᵀ Δf = b, J p = c.
-ContactEquilibrium::Step ContactEquilibrium::solve(const Vector& b, const Vector& c) {
-  Vector right(b.size() + c.size());
-  right << b, scale_ * c;
+// With this shift or, where that leaves the matrix singular, with the next larger one that does not. False: none does.
+bool ContactEquilibrium::factorize_near(double shift) {
+  const double next = shift > 0 ? 4 * shift : 16 * std::max(factors_.zero_level(), epsilon * scale_);
+  return first_shift(shift, next, 4, [&](double s) { return factorize(s); }).has_value();
+}
+
+// p, Δf of H p − Jᵀ Δf + Z μ = b, J p = c, Zᵀ p = 0, or `along` for the last of the directions Z that are held.
+ContactEquilibrium::Step ContactEquilibrium::solve(const Vector& b, const Vector& c, double along) {
+  const Eigen::Index held = borders_.cols();
+  Vector right = Vector::Zero(b.size() + c.size() + held);
+  right.head(b.size()) = b, right.segment(b.size(), c.size()) = scale_ * c;
+  double unit = 0;                                              // of the borders: see PivotedFactor
+  if (held > 0)
+    for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) unit = std::max(unit, std::abs(matrix_.valuePtr()[k]));
+  if (held > 0) right[right.size() - 1] = unit * along;
   const Vector x = pivoted_.solve(right);
-  return {x.head(b.size()), -scale_ * x.tail(c.size())};
+  return {x.head(b.size()), -scale_ * x.segment(b.size(), c.size()), held > 0 ? unit * x[x.size() - 1] : 0.0};
+}
+
+// ∂c/∂λ with what is prescribed, and J p of one gap.
+double ContactEquilibrium::rate(const HardGap& gap) const {
+  double rate = gap.rate;
+  for (int i = 0; i < gap.sites; ++i) rate += gap.gradient.segment<3>(3 * i).dot(energy_.kinematics().drive(gap.site[i]));
+  return rate;
+}
+
+double ContactEquilibrium::along(const HardGap& gap, const Vector& p) const {
+  double sum = 0;
+  for (int i = 0; i < gap.sites; ++i)
+    for (int c = 0; c < 3; ++c)
+      if (const int d = energy_.kinematics().dof(gap.site[i], c); d >= 0) sum += gap.gradient[3 * i + c] * p[d];
+  return sum;
 }
 
 // The closed gap that is farthest from closed, in diameters.
@@ -86,8 +118,15 @@ double ContactEquilibrium::worst_gap(const State& state) const {
   return worst;
 }
 
-Report ContactEquilibrium::settle(State& state, double tolerance, const State* from, double reach) {
+// With `changing` the load factor moves by δ so that its gap or force vanishes:  p = p₀ + δ p₁, Δf = f₀ + δ f₁, where p₀, f₀ leave the
+// load factor as it is and p₁, f₁ are the tangent.
+Report ContactEquilibrium::newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held,
+                                  const HardForce* changing) {
   const Stopwatch watch;
+  std::size_t place = 0;                                        // of `changing` among the closed ones
+  while (changing && place < state.hard.size() && key(state.hard[place]) != key(*changing)) ++place;
+  const bool by_gap = changing && place == state.hard.size();
+  HardGap open;
   Report report;
   const State start = state;
   State previous, best;
@@ -98,9 +137,13 @@ Report ContactEquilibrium::settle(State& state, double tolerance, const State* f
     return report;
   };
   for (;; ++report.iterations) {
-    linearise(state, from);
+    linearise(state, from, held);
     ++report.evaluations;
-    const double residual = energy_.relative(energy_.gradient()), error = std::max(residual, worst_gap(state));
+    const double residual = energy_.relative(energy_.gradient());
+    double error = std::max(residual, worst_gap(state)), left = 0;
+    if (by_gap && !hard_gap(energy_.model(), *changing, state, open)) return end(Status::not_converged, "a gap is lost from sight");
+    if (by_gap) left = open.value, error = std::max(error, std::abs(left) / energy_.model().diameter[changing->particle]);
+    else if (changing) left = state.hard[place].force, error = std::max(error, energy_.relative(Vector::Constant(1, left)));
     if (!std::isfinite(error) || !std::isfinite(energy_.last_terms().total())) return end(Status::not_converged, "the energy is not finite");
     report.history.push_back({energy_.last_terms().total(), residual, moved, 0});
     const bool better = error <= least / 2;
@@ -117,16 +160,25 @@ Report ContactEquilibrium::settle(State& state, double tolerance, const State* f
     } else if (report.iterations == most_steps || worse > 6) {
       return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", residual));
     }
-    Vector gaps(static_cast<Eigen::Index>(gaps_.size()));
-    for (std::size_t k = 0; k < gaps_.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value;
-    double shift = 0;
-    while (!factorize(shift)) shift = shift > 0 ? 4 * shift : 16 * factors_.zero_level();
+    Vector gaps(static_cast<Eigen::Index>(gaps_.size())), rates(gaps.size());
+    for (std::size_t k = 0; k < gaps_.size(); ++k) {
+      gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value, rates[static_cast<Eigen::Index>(k)] = rate(gaps_[k]);
+    }
+    if (!factorize_near(0)) return interrupted() ? end(Status::interrupted, "interrupted") : end(Status::not_converged, singular);
     ++report.factorizations;
     Step step = solve(-energy_.gradient(), -gaps);
-    if (!step.p.allFinite()) return end(Status::not_converged, "the equations have no solution");
+    double change = 0;                                          // of the load factor
+    if (changing) {
+      const Step by_load = solve(-energy_.load_derivative(), -rates);
+      const Eigen::Index k = static_cast<Eigen::Index>(place);
+      change = by_gap ? -(left + along(open, step.p)) / (rate(open) + along(open, by_load.p)) : -(left + step.force[k]) / by_load.force[k];
+      step.p += change * by_load.p, step.force += change * by_load.force;
+    }
+    if (!step.p.allFinite() || !std::isfinite(change)) return end(Status::not_converged, "the equations have no solution");
     const double turn = distortion(energy_, state, step.p);
     const double part = std::min({1.0, 0.3 / std::max(turn, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
     previous = state, from = &previous;
+    if (changing) energy_.kinematics().prescribe(state, state.load_factor + part * change);
     energy_.kinematics().retract(state, step.p, part);
     moved = part * infinity_norm(step.p);
     if (energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > reach) return end(Status::not_converged, too_far);
@@ -134,12 +186,70 @@ Report ContactEquilibrium::settle(State& state, double tolerance, const State* f
   }
 }
 
-Report ContactEquilibrium::correct(State& state, double tolerance, const State* from, double reach) {
+// p = p₀ + δ p₁, δ the change of the load factor: so that no force is needed along the mode, μ₀ + δ μ₁ = 0.
+Report ContactEquilibrium::slide(State& state, const State& origin, const Vector& mode, double amount, double tolerance,
+                                 const Eigen::MatrixXd& held, double& slope) {
+  const Stopwatch watch;
+  Report report;
+  Eigen::MatrixXd borders(mode.size(), held.cols() + 1);
+  if (held.cols() > 0) borders.leftCols(held.cols()) = held;
+  borders.rightCols(1) = mode;
+  State previous = state, best;
+  const State* from = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  const double size = energy_.kinematics().smallest_size();
+  report.why = "Newton's method does not contract";
+  for (; report.iterations <= most_steps && !interrupted(); ++report.iterations) {
+    linearise(state, from, borders);
+    const double residual = energy_.relative(energy_.gradient());
+    const double left = amount - mode.dot(energy_.kinematics().difference(origin, state));
+    const double error = std::max({residual, worst_gap(state), std::abs(left) / size});
+    if (!std::isfinite(error) || !factorize_near(0)) break;
+    ++report.factorizations;
+    Vector gaps(static_cast<Eigen::Index>(gaps_.size())), rates(gaps.size());
+    for (std::size_t k = 0; k < gaps_.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = gaps_[k].value, rates[static_cast<Eigen::Index>(k)] = rate(gaps_[k]);
+    const Step by_load = solve(-energy_.load_derivative(), -rates);
+    const bool better = error <= least / 2;
+    if (error < least) {
+      const Step by_mode = solve(Vector::Zero(mode.size()), Vector::Zero(gaps.size()), 1);
+      best = state, least = error, slope = -by_mode.border / by_load.border;
+      report.residual = residual, report.energy = energy_.last_terms().total();
+    }
+    if (least <= tolerance && (!better || least <= 4 * epsilon)) {
+      state = best;
+      report.status = Status::converged, report.why = fmt::format("the residual is below {:g}", tolerance);
+      break;
+    }
+    Step step = solve(-energy_.gradient(), -gaps, left);
+    const double change = -step.border / by_load.border;
+    step.p += change * by_load.p, step.force += change * by_load.force;
+    if (!step.p.allFinite() || !std::isfinite(change)) break;
+    const double turn = distortion(energy_, state, step.p, change);
+    const double part = std::min({1.0, 0.3 / std::max(turn, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
+    previous = state, from = &previous;
+    energy_.kinematics().prescribe(state, state.load_factor + part * change);
+    energy_.kinematics().retract(state, step.p, part);
+    for (std::size_t k = 0; k < gaps_.size(); ++k) state.hard[k].force += part * step.force[static_cast<Eigen::Index>(k)];
+  }
+  report.seconds = watch.seconds();
+  return report;
+}
+
+double ContactEquilibrium::curvature(const State& state, const Vector& mode, const Eigen::MatrixXd& held) {
+  Eigen::MatrixXd borders(mode.size(), held.cols() + 1);
+  if (held.cols() > 0) borders.leftCols(held.cols()) = held;
+  borders.rightCols(1) = mode;
+  linearise(state, nullptr, borders);
+  if (!factorize_near(0)) return std::numeric_limits<double>::quiet_NaN();
+  return -solve(Vector::Zero(mode.size()), Vector::Zero(static_cast<Eigen::Index>(gaps_.size())), 1).border;
+}
+
+Report ContactEquilibrium::correct(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held) {
   const State start = state;
   Report total;
   const Stopwatch watch;
   for (int change = 0;; ++change) {
-    Report report = settle(state, tolerance, change == 0 ? from : nullptr, reach);
+    Report report = settle(state, tolerance, change == 0 ? from : nullptr, reach, held);
     total.iterations += report.iterations, total.evaluations += report.evaluations, total.factorizations += report.factorizations;
     total.history.insert(total.history.end(), report.history.begin(), report.history.end());
     total.status = report.status, total.why = report.why, total.energy = report.energy, total.residual = report.residual;
@@ -176,29 +286,65 @@ Inertia ContactEquilibrium::inertia(const State& state) {
   linearise(state, nullptr);
   const double sigma = factors_.zero_level();
   const int contacts = static_cast<int>(gaps_.size());
-  const auto negative = [&](double shift) {
-    while (!factorize(shift)) shift *= 1.5;
-    return pivoted_.negative() - contacts;
-  };
-  Inertia inertia;
-  inertia.negative = negative(sigma);
-  inertia.zero = std::max(0, negative(-sigma) - inertia.negative);
-  return inertia;
+  const auto factor_at = [&](double shift) { return first_shift(shift, 1.5 * shift, 1.5, [&](double s) { return factorize(s); }).has_value(); };
+  Inertia inertia{0, energy_.dofs()};
+  if (!factor_at(sigma)) return inertia;
+  const int below = pivoted_.negative() - contacts;
+  if (!factor_at(-sigma)) return inertia;
+  return {below, std::max(0, pivoted_.negative() - contacts - below)};
 }
 
-ContactEquilibrium::Tangent ContactEquilibrium::tangent(const State& state) {
-  linearise(state, nullptr);
+ContactEquilibrium::Tangent ContactEquilibrium::tangent(const State& state, const Eigen::MatrixXd& held) {
+  linearise(state, nullptr, held);
   Vector rates(static_cast<Eigen::Index>(gaps_.size()));
-  for (std::size_t k = 0; k < gaps_.size(); ++k) {
-    double rate = gaps_[k].rate;
-    for (int i = 0; i < gaps_[k].sites; ++i)
-      rate += gaps_[k].gradient.segment<3>(3 * i).dot(energy_.kinematics().drive(gaps_[k].site[i]));
-    rates[static_cast<Eigen::Index>(k)] = rate;
-  }
-  double shift = 0;
-  while (!factorize(shift)) shift = shift > 0 ? 4 * shift : 16 * factors_.zero_level();
+  for (std::size_t k = 0; k < gaps_.size(); ++k) rates[static_cast<Eigen::Index>(k)] = rate(gaps_[k]);
+  if (!factorize_near(0)) return {Vector::Zero(energy_.dofs()), Vector::Zero(rates.size())};
   const Step step = solve(-energy_.load_derivative(), -rates);
   return {step.p, step.force};
+}
+
+std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, const std::vector<HardForce>& slack, double direction) {
+  const auto place = [](const std::vector<HardForce>& among, const HardForce& h) {
+    return std::find_if(among.begin(), among.end(), [&](const HardForce& x) { return key(x) == key(h); });
+  };
+  const auto before = [](const HardForce& a, const HardForce& b) { return key(a) < key(b); };
+  const int most_pivots = pivots_at_least + pivots_each * static_cast<int>(slack.size());
+  std::size_t least = slack.size() + 1;                         // that were wrong so far
+  int chances = block_chances;
+  for (int pivot = 0; pivot < most_pivots && !interrupted(); ++pivot) {
+    linearise(state, nullptr);
+    // Motions that cost nothing are as soft as can be told from that: whether contacts hold them is what is asked here.
+    if (!factorize_near(16 * std::max(factors_.zero_level(), epsilon * scale_))) return {};
+    Vector rates(static_cast<Eigen::Index>(gaps_.size()));
+    for (std::size_t k = 0; k < gaps_.size(); ++k) rates[static_cast<Eigen::Index>(k)] = rate(gaps_[k]);
+    const Vector load = energy_.load_derivative();
+    const Step step = solve(-direction * load, -direction * rates);
+    if (!step.p.allFinite() || !step.force.allFinite()) return {};
+    const double motion = infinity_norm(step.p);
+    double speed = motion;
+    std::vector<HardGap> open(slack.size());
+    for (std::size_t k = 0; k < slack.size(); ++k)
+      if (hard_gap(energy_.model(), slack[k], state, open[k])) speed = std::max(speed, std::abs(rate(open[k])));
+    const double no_gap = rounding_of_rates * speed;
+    const double no_force = rounding_of_rates * std::max(infinity_norm(step.force), infinity_norm(load)) + 64 * epsilon * scale_ * motion;
+    std::vector<const HardForce*> wrong;
+    for (std::size_t k = 0; k < slack.size(); ++k) {
+      const auto at = place(state.hard, slack[k]);
+      const bool bad = at != state.hard.end() ? step.force[at - state.hard.begin()] < -no_force
+                                              : open[k].sites > 0 && along(open[k], step.p) + direction * rate(open[k]) < -no_gap;
+      if (bad) wrong.push_back(&slack[k]);
+    }
+    if (wrong.empty()) return state.hard;
+    if (wrong.size() < least) least = wrong.size(), chances = block_chances;
+    else --chances;
+    if (chances <= 0) wrong.resize(1);                          // in the order of `slack`
+    for (const HardForce* h : wrong) {
+      if (const auto at = place(state.hard, *h); at != state.hard.end()) state.hard.erase(at);
+      else state.hard.push_back({h->particle, h->other, h->wall, h->face, 0});
+    }
+    std::sort(state.hard.begin(), state.hard.end(), before);
+  }
+  return {};
 }
 
 EigenPairs ContactEquilibrium::lowest(const State& state, int count) {
@@ -206,13 +352,13 @@ EigenPairs ContactEquilibrium::lowest(const State& state, int count) {
   const int n = energy_.dofs(), contacts = static_cast<int>(gaps_.size());
   const Eigen::Index block = std::min(std::max(1, n - contacts), count + 3);
   count = std::min(count, static_cast<int>(block));
-  double shift = factors_.zero_level();                    // one that leaves nothing negative
-  while (!factorize(shift) || pivoted_.negative() > contacts) shift *= 8;
+  const double sigma = std::max(factors_.zero_level(), epsilon * scale_);       // a shift that leaves nothing negative
+  const auto positive = first_shift(sigma, 8 * sigma, 8, [&](double s) { return factorize(s) && pivoted_.negative() <= contacts; });
   Eigen::MatrixXd x(n, block), hx(n, block);
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::sin(1 + 12.9898 * static_cast<double>(i));
   const Vector none = Vector::Zero(contacts);
   Vector values = Vector::Zero(block), before;
-  for (int k = 0; k < 100; ++k) {
+  for (int k = 0; positive && k < 100 && !interrupted(); ++k) {
     for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve(x.col(j).normalized(), none).p;
     x = Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(n, block);
     for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));

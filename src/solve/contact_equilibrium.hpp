@@ -4,6 +4,8 @@
 #include "solve/report.hpp"
 
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace elamin {
 
@@ -20,36 +22,67 @@ class ContactEquilibrium {
 
   /// The stationary point with these contacts closed, forces of any sign. Not converged if the steps do not shrink. `from`: where a
   /// prediction led here from (see Energy::evaluate).
-  /// `reach`: how far coordinates may move [length]. Ends as close as rounding allows, once the residual is below the tolerance.
-  Report settle(State& state, double tolerance, const State* from = nullptr, double reach = anywhere);
+  /// `reach`: how far coordinates may move [length]. Directions in the columns of `held` (orthonormal, dofs × any number) keep their
+  /// value: motions that cost nothing. Ends as close as rounding allows, once the residual is below the tolerance.
+  Report settle(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {}) {
+    return newton(state, tolerance, from, reach, held, nullptr);
+  }
+
+  /// The same where a contact changes: the load factor is an unknown too, and what is zero there is the force of `changing`, if it is
+  /// among the closed ones, else its gap.
+  Report meet(State& state, const HardForce& changing, double tolerance, const State* from, const Eigen::MatrixXd& held) {
+    return newton(state, tolerance, from, anywhere, held, &changing);
+  }
+
+  /// The stationary point where the coordinates have moved by `amount` [length] along `mode` (dofs, normalised) since `origin`; the load
+  /// factor λ is an unknown. `slope` gets dλ/d(amount): at a limit point, where the equations at a given λ are singular and these are not, it is zero.
+  Report slide(State& state, const State& origin, const Vector& mode, double amount, double tolerance, const Eigen::MatrixXd& held, double& slope);
+
+  /// A curvature along `mode`, among the motions that keep the closed gaps: κ of  [ K v ; vᵀ 0 ] [ x ; −κ ] = [ 0 ; 1 ],  K the matrix above. It is zero
+  /// where K is singular with a critical mode that is not orthogonal to v, and smooth along the branch.   Source: Govaerts 2000, Numerical
+  /// Methods for Bifurcations of Dynamical Equilibria, §3.3.
+  double curvature(const State& state, const Vector& mode, const Eigen::MatrixXd& held);
 
   /// The same, and the right contacts: those that would pull are let go, those that would overlap are taken in, until no gap is
   /// negative and no force either, within rounding; State::hard then holds those that bear a force.
-  Report correct(State& state, double tolerance, const State* from = nullptr, double reach = anywhere);
+  Report correct(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {});
 
   /// Numbers of eigenvalues below zero and at zero of the Hessian of L among the motions that keep the closed gaps: stability, to
   /// second order.
   Inertia inertia(const State& state);
 
-  /// How the state moves with the load factor: (∂q/∂λ, ∂f/∂λ), the contacts staying closed.
+  /// How the state moves with the load factor: (∂q/∂λ, ∂f/∂λ), the contacts staying closed and the directions `held` still.
   struct Tangent { Vector q, force; };
-  Tangent tangent(const State& state);
+  Tangent tangent(const State& state, const Eigen::MatrixXd& held = {});
+
+  /// The contacts that are closed as the load factor goes on (direction 1) or back (−1) from a state where those in `slack` have
+  /// neither a gap nor a force: those of State::hard that are not among them, and of them those that the rates tell,
+  ///   ċ ≥ 0,  ḟ ≥ 0,  ċ ḟ = 0,
+  /// a linear complementarity problem: all that are wrong change sides, and where that does not lead on the first one alone, which
+  /// comes to an end at a stable equilibrium. Nothing if none are right: there the equilibrium ends.
+  /// Source: Júdice & Pires 1994, Computers Ops Res. 21, 587 (block principal pivoting); Murty 1974, Linear Algebra Appl. 9.
+  std::optional<std::vector<HardForce>> onward(State state, const std::vector<HardForce>& slack, double direction);
 
   /// The `count` lowest eigenpairs of the Hessian of L among the motions that keep the closed gaps, by block inverse iteration; good
   /// to about 1e-6 of the largest of them.
   EigenPairs lowest(const State& state, int count);
 
  private:
-  struct Step { Vector p, force; };
-  void linearise(const State& state, const State* from);
+  struct Step { Vector p, force; double border = 0; };         // of the last of the directions held
+  Report newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held, const HardForce* changing);
+  void linearise(const State& state, const State* from, const Eigen::MatrixXd& held = {});
   bool factorize(double shift);
-  Step solve(const Vector& b, const Vector& c);
+  bool factorize_near(double shift);
+  Step solve(const Vector& b, const Vector& c, double along = 0);
   double worst_gap(const State& state) const;
+  double rate(const HardGap& gap) const;
+  double along(const HardGap& gap, const Vector& p) const;
 
   Energy& energy_;
   Factors factors_;                              // for its zero_level
   PivotedFactor pivoted_;
-  int version_ = -1;                             // of the pattern that matrix_ was made for, with these contacts
+  int version_ = -1;                             // of the pattern that matrix_ was made for, with these contacts …
+  Eigen::MatrixXd borders_;                      // … and so many directions held: with zeros for the contacts
   std::vector<HardForce> closed_;
   std::vector<HardGap> gaps_;                    // theirs, at the state last linearised
   SparseMatrix matrix_;

@@ -3,10 +3,14 @@
 #include "energy/energy.hpp"
 #include "solve/cholesky.hpp"
 #include "solve/pivoted.hpp"
+#include "solve/shifts.hpp"
+
+#include <optional>
+#include <string>
 
 namespace elamin {
 
-/// Numbers of eigenvalues below zero and at zero, "zero" within the rounding of the assembled Hessian.
+/// Numbers of eigenvalues below zero and at zero, "zero" within the rounding of a form that is summed element by element.
 struct Inertia {
   int negative = 0, zero = 0;
   bool positive_definite() const { return negative == 0 && zero == 0; }
@@ -24,15 +28,20 @@ class Factors {
  public:
   explicit Factors(Energy& energy);
 
-  /// σ = 16 ε ‖H‖₁, with the stiffest bond for the norm where more than that cancels: eigenvalues within ±σ cannot be told
-  /// from zero. [force/length]
+  /// σ = 16 ε ‖H‖₁, with the stiffest bond for the norm where more than that cancels: a factor of the assembled Hessian does not tell
+  /// eigenvalues within ±σ from zero; inertia() does, and the values of lowest() and nearest_zero() are better known. [force/length]
   double zero_level() const;
-  /// By LLᵀ of H − σI alone where that succeeds, else by the pivoted inertias of H ± σI. Leaves a factor of the Hessian
-  /// within σ for solve_holding, which is of use if no eigenvalue is zero.
+  /// By LLᵀ of H − σI alone where that succeeds, or the pivoted factor of H where no eigenvalue is near zero. Else the eigenvectors
+  /// within some σ are found and the signs on their span told by forms (see inertia.cpp). Leaves what solve_holding needs, which is of use if
+  /// no eigenvalue is zero. Where there is no factor at all (see why_none), all dofs count as zero.
   Inertia inertia();
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
-  /// it positive definite; returns τ.  The factor is then in cholesky().
-  double make_positive(double guess);
+  /// it positive definite; returns τ.  The factor is then in cholesky(). None where there is no such thing: see why_none().
+  std::optional<double> make_positive(double guess);
+  /// The same from `shift` on, `growth` times larger each time: first_shift() of try_cholesky().
+  std::optional<double> make_positive_from(double shift, double growth = 2);
+  /// Why no factor of the Hessian can be made, of whatever shift: "" if one can.
+  std::string why_none() const;
   /// The `count` lowest eigenpairs, by block inverse iteration with Rayleigh–Ritz on a few guard vectors more, which
   /// finds multiple eigenvalues as such; values are Rayleigh quotients formed element by element (Energy::quadratic_form).
   /// `guess`: a shift that may make the Hessian positive definite, as of make_positive. `accuracy`: of the eigenvalues,
@@ -46,8 +55,8 @@ class Factors {
   /// Factorises the Hessian as it is, definite or not, for solutions of
   ///   H p + Z μ = b,   Zᵀ p = 0
   /// where the columns of `held` (orthonormal, dofs × m) keep still: zero modes, critical modes. H may be singular along
-  /// them.
-  void factorize_holding(const Eigen::MatrixXd& held);
+  /// them. False if there is no factor (see why_none); all solutions are then zero.
+  bool factorize_holding(const Eigen::MatrixXd& held);
   /// p of the system above; the factors must be those of factorize_holding (or of inertia, then Z is empty).
   Vector solve_holding(const Vector& b);
   /// (p, δ) of the system that has one row and one column more, in the space orthogonal to `held`,
@@ -62,23 +71,33 @@ class Factors {
   int factorizations() const { return factorizations_; }
   /// Time spent in analyses, factorisations and solves so far.
   double seconds() const {
-    return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0) + (bordered_ ? bordered_->seconds() : 0.0);
+    return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0) + (bordered_ ? bordered_->seconds() : 0.0) +
+           (beside_ ? beside_->seconds() : 0.0);
   }
   bool try_cholesky(double shift);
   bool try_pivoted(double shift);
 
  private:
-  void pivot_near(double shift);
+  bool pivot_near(double first, double next);
+  bool factorize_beside(const Eigen::MatrixXd& held, std::unique_ptr<PivotedFactor>& factor, int& version, Eigen::Index& borders);
+  using Solve = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
+  std::optional<Eigen::MatrixXd> soft_modes(double reach, const Solve& solve);
+  std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
+  Vector solve_resolved(const Vector& b);
   double smallest();
   Energy& energy_;
   double stiffest_ = 0;                          // bond with a free end [force/length]
   Cholesky cholesky_;
-  std::unique_ptr<PivotedFactor> pivoted_, bordered_;  // made when first needed
-  int cholesky_version_ = -1, pivoted_version_ = -1, bordered_version_ = -1;   // of the pattern that was analysed
-  Eigen::Index borders_ = 0;                     // of bordered_
+  std::unique_ptr<PivotedFactor> pivoted_, bordered_, beside_;  // made when first needed
+  int cholesky_version_ = -1, pivoted_version_ = -1, bordered_version_ = -1, beside_version_ = -1;   // of the pattern that was analysed
+  Eigen::Index borders_ = 0, beside_borders_ = 0;   // of bordered_, beside_
   int factorizations_ = 0;
+  struct Near {                                  // of the last inertia that needed it, as in inertia.cpp
+    Eigen::MatrixXd x, w, r, t;                  // X, H⊥⁻¹R, R, T
+    Solve outside;                               // H⊥⁻¹, or near to it
+  } near_;
   bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first
-  enum class Holder { cholesky, pivoted, bordered } holder_ = Holder::cholesky;   // of the factor of factorize_holding
+  enum class Holder { none, cholesky, pivoted, bordered, resolved } holder_ = Holder::cholesky;   // of the factor of factorize_holding
 };
 
 }  // namespace elamin

@@ -7,6 +7,7 @@ namespace elamin {
 struct IpoptOptions {
   double tolerance = 1e-10;            // residual, relative to the largest internal force
   int max_iterations = 1000;
+  double barrier = 1e-3;               // where it begins, of the largest force times the mean diameter: the smaller the nearer is what is found
 };
 
 /// Interior-point minimisation with line search, exact gradients and Hessians in their fixed pattern; hard contacts are its inequality

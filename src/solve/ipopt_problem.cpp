@@ -45,7 +45,7 @@ IpoptProblem::IpoptProblem(Energy& energy, ContactEquilibrium& equilibrium, cons
   unit_ = stiffest > 0 ? stiffest * length_ * length_ : 1;
   offset_ = energy_.last_terms().total() - energy_.last_terms().size();
   for (const HardForce& c : contacts_) force = std::max(force, c.force);
-  if (!(memory_.barrier > 0)) memory_.barrier = std::max(1e-3 * force * length_ / unit_, 1e-12);
+  if (!(memory_.barrier > 0)) memory_.barrier = std::max(options_.barrier * force * length_ / unit_, 1e-12);
   if (!(memory_.close > 0)) memory_.close = hard ? 1e-3 : std::max(1e-6, options_.tolerance);
   step_.resize(energy_.dofs());
 }

@@ -12,6 +12,7 @@ namespace elamin {
 namespace {
 
 constexpr int most_saddles = 20, most_finishing = 4;
+constexpr int most_by_newton = 20;             // iterations: the residual is at the tolerance already
 
 template <class... F> struct Cases : F... { using F::operator()...; };
 template <class... F> Cases(F...) -> Cases<F...>;
@@ -95,6 +96,17 @@ Report stable_end(Newton& newton, State& state, const std::function<Report(State
     factoring += factors.seconds() - seconds_before, total.factorizations += factors.factorizations() - factorizations_before;
     if (inertia.negative == 0) return done();
     if (left) continue;
+    if (!interrupted()) {                                       // forces that are left below the tolerance may bend what hardly has a stiffness
+      Newton sharp(energy, {.tolerance = 16 * epsilon});
+      add(total, sharp.minimise(state, Pace::long_steps, most_by_newton));
+      energy.evaluate(state);
+      total.negative = factors.inertia().negative, total.residual = energy.relative(energy.gradient());
+      if (total.negative == 0 && total.residual <= newton.tolerance()) {
+        total.status = Status::converged;
+        total.why = found.why + fmt::format("; Newton's method took it to {:.1e}, where the Hessian has no negative eigenvalue", total.residual);
+        return done();
+      }
+    }
     energy.evaluate(state);
     total.status = interrupted() ? Status::interrupted : Status::not_converged;
     total.why = interrupted() ? "interrupted" : "a saddle could not be left along its negative curvature";

@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 #include "solve/steady_bodies.hpp"
 
 #include <fmt/format.h>
@@ -13,16 +14,28 @@ namespace elamin {
 
 namespace {
 
-constexpr int most_unseen = 12;
-constexpr double shortest_part = 1.0 / 32;    // of a step of rigid bodies
-constexpr double lost = 100;                  // extents of the structure: what is that far away comes back no more
-
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 }  // namespace
 
 Newton::Newton(Energy& energy, NewtonOptions options)
     : energy_(energy), options_(options), factors_(energy), extent_(extent(energy.model())) {}
+
+// What a run costs, from here on.
+class Newton::Effort {
+ public:
+  explicit Effort(const Factors& factors) : factors_(factors), before_(factors.factorizations()), seconds_before_(factors.seconds()) {}
+  void tell(Report& report) const {
+    report.factorizations = factors_.factorizations() - before_;
+    report.seconds = watch_.seconds(), report.factor_seconds = factors_.seconds() - seconds_before_;
+  }
+
+ private:
+  const Factors& factors_;
+  const int before_;
+  const double seconds_before_;
+  const Stopwatch watch_;
+};
 
 double Newton::residual() const { return energy_.relative(energy_.gradient()); }
 
@@ -43,7 +56,7 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
   if (!std::isfinite(energy_.last_terms().total()))
     return Halt{Status::not_converged, "the energy is not finite here: particles coincide, or do not fit into a curved wall"};
   if (interrupted()) return Halt{Status::interrupted, "interrupted"};
-  if (const std::string gone = escaped(energy_.model(), state, lost * extent_); !gone.empty())
+  if (const std::string gone = escaped(energy_.model(), state, limits::lost * extent_); !gone.empty())
     return Halt{Status::not_converged, gone + " moves away without end; hold it with a [[support]], or with a wall"};
   most = std::min(most, options_.max_iterations);
   if (report.iterations < most) return {};
@@ -53,10 +66,18 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
                                                  report.residual, grain.empty() ? "" : "; " + grain + " flies freely under a force")};
 }
 
+// What no shift makes a factor of.
+std::optional<Newton::Halt> Newton::no_factor() const {
+  std::string why = factors_.why_none();
+  if (why.empty()) return {};
+  return Halt{interrupted() ? Status::interrupted : Status::not_converged, std::move(why)};
+}
+
+Newton::Halt Newton::without_factor() const { return no_factor().value_or(Halt{Status::not_converged, "no shift makes a factor of the Hessian"}); }
+
 // The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual.
 void Newton::polish(State& state, Report& report, const std::function<void(State&)>& step) {
-  constexpr int most_polishing = 4;
-  for (int k = 0; k < most_polishing && report.residual > 4 * epsilon; ++k) {
+  for (int k = 0; k < limits::most_polishing && report.residual > 4 * epsilon; ++k) {
     State next = state;
     step(next);
     energy_.evaluate(next, false);
@@ -68,106 +89,132 @@ void Newton::polish(State& state, Report& report, const std::function<void(State
 }
 
 Report Newton::minimise(State& state, Pace pace, int most) {
-  const Stopwatch watch;
-  Report report;
-  const int factorizations_before = factors_.factorizations();
-  const double factor_seconds_before = factors_.seconds();
-  const auto end = [&](Status status, std::string why) {
-    report.factorizations = factors_.factorizations() - factorizations_before;
-    report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
-    return finish(state, report, {status, std::move(why)});
-  };
-  double shift = 0;                                             // the last one: a guess for the next
-  double reach = extent_;                                       // of a step, as far as the last ones could be taken
-  int unseen = 0;                                               // steps whose change of energy rounding hid
-  State previous;
-  bool linearised = false;                                      // previous holds where the last step came from
-  const bool rigid = !energy_.model().bodies.empty();
-  for (double moved = 0; ; ++report.iterations) {
-    energy_.evaluate(state, true, linearised ? &previous : nullptr);
-    ++report.evaluations;
-    record(report, moved, shift);
-    const bool settled = report.residual <= options_.tolerance;
-    if (settled) {
-      if (linearised) energy_.evaluate(state);
-      const Inertia inertia = factors_.inertia();
-      report.negative = inertia.negative;
-      if (inertia.negative == 0) {
-        // With a zero mode the exact factor would fill the steps with its rounding.
-        factors_.try_cholesky(inertia.zero > 0 ? 100 * factors_.zero_level() : 0.0);
-        polish(state, report, [&](State& next) {
-          energy_.kinematics().retract(next, factors_.cholesky().solve(energy_.gradient()), -1);
-        });
-        return end(Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance));
-      }
-    }
-    if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
+  const Effort effort(factors_);
+  Descent descent{.pace = pace, .most = most, .reach = extent_};
+  std::optional<Halt> halt;
+  while (!(halt = iterate(state, descent))) ++descent.report.iterations;
+  effort.tell(descent.report);
+  if (halt->status == Status::not_converged)
+    if (const std::string what = obstacle(energy_, state); !what.empty()) halt->why += "; " + what;
+  return finish(state, descent.report, *halt);
+}
 
-    const Vector g = energy_.gradient();
-    steady_bodies(energy_, g);
-    bool left;
-    shift = make_convex(state, g, shift, settled, left);
-    if (left) {
-      linearised = false;
+// One iteration: look where the state is, end there if it is a minimum; else a convex model, its step, and as much of it as goes down.
+std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
+  look(state, descent);
+  const bool settled = descent.report.residual <= options_.tolerance;
+  if (std::isfinite(descent.report.energy))
+    if (const auto halt = no_factor()) return halt;
+  if (settled && is_minimum(state, descent))
+    return Halt{Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance)};
+  if (const auto halt = must_halt(state, descent.report, descent.most)) return halt;
+
+  const Vector g = energy_.gradient();
+  steady_bodies(energy_, g);
+  bool left;
+  const std::optional<double> convex = make_convex(state, g, descent.shift, settled, left);
+  if (!convex) return without_factor();
+  descent.shift = *convex;
+  if (left) {
+    descent.linearised = false;
+    return {};
+  }
+  if (settled) return Halt{Status::not_converged, "a saddle could not be left along its negative curvature"};
+  const std::optional<Step> step = step_within(descent.reach, g, descent.shift);
+  if (!step) return without_factor();
+  return advance(state, descent, *step);
+}
+
+void Newton::look(const State& state, Descent& descent) {
+  energy_.evaluate(state, true, descent.linearised ? &descent.previous : nullptr);
+  ++descent.report.evaluations;
+  record(descent.report, descent.moved, descent.shift);
+}
+
+// Whether a state with a small residual is a minimum; then its residual is taken down to rounding.
+bool Newton::is_minimum(State& state, Descent& descent) {
+  if (descent.linearised) energy_.evaluate(state);
+  const Inertia inertia = factors_.inertia();
+  descent.report.negative = inertia.negative;
+  if (inertia.negative > 0) return false;
+  // With a zero mode the exact factor would fill the steps with its rounding.
+  if (factors_.make_positive_from(inertia.zero > 0 ? limits::hold_zero_modes * factors_.zero_level() : 0.0))
+    polish(state, descent.report, [&](State& next) {
+      energy_.kinematics().retract(next, factors_.cholesky().solve(energy_.gradient()), -1);
+    });
+  return true;
+}
+
+// How far the state may go along a step, before anything is asked of the energy.
+Newton::Part Newton::part_of(const State& state, const Step& step) const {
+  const double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn);
+  return {turn * free, free};
+}
+
+// Takes as much of the step as goes down, halving it; where rounding hides the energy's change and the model is convex, Newton's step
+// itself is the best there is.
+std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step step) {
+  Part part = part_of(state, step);
+  double alpha = part.first;
+  State next;
+  const bool hidden = std::abs(step.slope) <= step.energy_rounding &&
+                      descent.shift <= limits::hold_zero_modes * factors_.zero_level() && ++descent.unseen <= limits::most_unseen;
+  if (hidden) {
+    next = state;
+    energy_.kinematics().retract(next, step.p, alpha);
+  }
+  while (!hidden && !take(state, step, alpha, descent.pace, next)) {
+    ++descent.report.evaluations;
+    if (interrupted()) return Halt{Status::interrupted, "interrupted"};
+    alpha /= 2;
+    const bool bodies = !energy_.model().bodies.empty();
+    if (bodies && alpha < limits::shortest_part * part.first && alpha * infinity_norm(step.p) > 1e-12 * extent_) {
+      const std::optional<Step> bent = shorter_step(state, descent, step, alpha);
+      if (!bent) return without_factor();
+      step = *bent, part = part_of(state, step), alpha = part.first;
       continue;
     }
-    if (settled) return end(Status::not_converged, "a saddle could not be left along its negative curvature");
-    Step step = step_within(reach, g, shift);
-    double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), first = turn * free, alpha = first;
-    State next;
-    // Where rounding hides the energy's change and the model is convex, Newton's step itself is the best there is.
-    const bool hidden = std::abs(step.slope) <= step.energy_rounding && shift <= 100 * factors_.zero_level() && ++unseen <= most_unseen;
-    if (hidden) {
-      next = state;
-      energy_.kinematics().retract(next, step.p, alpha);
-    }
-    while (!hidden && !take(state, step, alpha, pace, next)) {
-      ++report.evaluations;
-      alpha /= 2;
-      if (rigid && alpha < shortest_part * first && alpha * infinity_norm(step.p) > 1e-12 * extent_) {
-        // Contacts open and close on the way: a shorter step, bent to where they are stiff, instead of a small part of a long one.
-        reach = alpha * infinity_norm(step.p);
-        energy_.evaluate(state, true, linearised ? &previous : nullptr);
-        steady_bodies(energy_, g);
-        factors_.try_cholesky(shift);
-        step = step_within(reach, g, shift);
-        turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn), alpha = first = turn * free;
-        continue;
-      }
-      if (alpha < 1e-12 * first)
-        return end(Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
-            std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",
-            report.residual));
-    }
-    moved = alpha * infinity_norm(step.p);
-    reach = free < 0.5 ? std::min(reach, 2 * first * infinity_norm(step.p)) : std::min(std::max(reach, 4 * moved), extent_);
-    previous = state;
-    linearised = pace == Pace::long_steps;
-    state = next;
+    if (alpha < limits::least_part * part.first)
+      return Halt{Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
+          std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",
+          descent.report.residual)};
   }
+  descent.moved = alpha * infinity_norm(step.p);
+  descent.reach = part.free < 0.5 ? std::min(descent.reach, 2 * part.first * infinity_norm(step.p))
+                                  : std::min(std::max(descent.reach, 4 * descent.moved), extent_);
+  descent.previous = state;
+  descent.linearised = descent.pace == Pace::long_steps;
+  state = next;
+  return {};
+}
+
+// Contacts of bodies open and close on the way: a shorter step, bent to where they are stiff, instead of a small part of a long one.
+std::optional<Newton::Step> Newton::shorter_step(const State& state, Descent& descent, const Step& step, double alpha) {
+  descent.reach = alpha * infinity_norm(step.p);
+  energy_.evaluate(state, true, descent.linearised ? &descent.previous : nullptr);
+  steady_bodies(energy_, step.g);
+  if (!factors_.make_positive_from(descent.shift)) return {};
+  return step_within(descent.reach, step.g, descent.shift);
 }
 
 Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most, Plane* plane) {
-  const Stopwatch watch;
+  const Effort effort(factors_);
   const Kinematics& kinematics = energy_.kinematics();
   Report report;
-  const int factorizations_before = factors_.factorizations();
-  const double factor_seconds_before = factors_.seconds();
   const bool guided = plane && plane->guided && held.cols() > 0;
   const auto free_gradient = [&]() -> Vector {                  // without what guides
     const Vector& g = energy_.gradient();
     return guided ? Vector(g - held * (held.transpose() * g)) : g;
   };
   const auto end = [&](Status status, std::string why) {
-    report.factorizations = factors_.factorizations() - factorizations_before;
-    report.seconds = watch.seconds(), report.factor_seconds = factors_.seconds() - factor_seconds_before;
+    effort.tell(report);
     report = finish(state, report, {status, std::move(why)});
     report.residual = energy_.relative(free_gradient());
     return report;
   };
   Vector column;                                                // ∂g/∂λ
   double off = 0;                                               // the plane's condition
-  const auto look = [&](const State& at) {
+  const auto see = [&](const State& at) {
     if (plane && plane->condition) off = plane->condition(at, *plane);
   };
   const auto solve = [&](const Vector& g) -> Factors::Bordered {
@@ -185,14 +232,17 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     ++report.evaluations;
     record(report, moved, 0);
     if (guided) report.residual = energy_.relative(free_gradient());
-    look(state);
+    see(state);
     const bool settled = report.residual <= options_.tolerance && std::abs(off) <= (plane ? plane->close : 0.0);
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
-    factors_.factorize_holding(held);
+    if (!factors_.factorize_holding(held)) {
+      const Halt halt = without_factor();
+      return end(halt.status, halt.why);
+    }
     if (plane) column = energy_.load_derivative();
     if (settled) {
-      if (!guided) polish(state, report, [&](State& next) { look(next), move(next, solve(energy_.gradient()), 1); });
+      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, solve(energy_.gradient()), 1); });
       return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
     }
     const Factors::Bordered step = solve(energy_.gradient());

@@ -88,18 +88,41 @@ class Newton {
     Status status;
     std::string why;
   };
+  /// What one iteration of minimise() hands to the next.
+  struct Descent {
+    Pace pace;
+    int most;                    // iterations
+    double reach;                // of a step, as far as the last ones could be taken [length]
+    double shift = 0;            // the last one: a guess for the next [force/length]
+    double moved = 0;            // by the last step [length]
+    int unseen = 0;              // steps whose change of energy rounding hid
+    bool linearised = false;     // previous holds where the last step came from
+    State previous = {};
+    Report report = {};
+  };
+  /// Of a step: how much of it may be tried first, and how much of that what is in the way has left.
+  struct Part { double first, free; };
+  class Effort;
+  std::optional<Halt> iterate(State& state, Descent& descent);
+  void look(const State& state, Descent& descent);
+  bool is_minimum(State& state, Descent& descent);
+  std::optional<Halt> advance(State& state, Descent& descent, Step step);
+  std::optional<Step> shorter_step(const State& state, Descent& descent, const Step& step, double alpha);
+  Part part_of(const State& state, const Step& step) const;
   double residual() const;
   void record(Report& report, double step, double shift) const;
   Report finish(const State& state, Report report, const Halt& halt);
   std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
+  std::optional<Halt> no_factor() const;
+  Halt without_factor() const;
   double part_within_turn(const State& state, const Vector& p, double load_change = 0) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
-  Step step_within(double reach, const Vector& g, double& shift);
+  std::optional<Step> step_within(double reach, const Vector& g, double& shift);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
   bool take_downhill(const State& from, const Step& step, double alpha, State& to);
   bool take_long(const State& from, const Step& step, double alpha, State& to);
-  double make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
+  std::optional<double> make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
   void polish(State& state, Report& report, const std::function<void(State&)>& step);
 
   Energy& energy_;

@@ -1,17 +1,14 @@
 #include "solve/newton.hpp"
 
+#include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 
 #include <limits>
 
 namespace elamin {
 
 namespace {
-
-constexpr double largest_turn = 0.3;          // of a bond in one step: rotations stay within the series' reach
-constexpr double armijo = 0.1;                // part of the predicted decrease that must come true
-constexpr int most_corrections = 6;
-constexpr double contraction = 0.7;           // corrections must shrink at least so, or the step is too long
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -20,7 +17,7 @@ double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff(
 // The part of p that one step may take: turns within reach, nothing longer than the whole …
 double Newton::part_within_turn(const State& state, const Vector& p, double load_change) const {
   constexpr double tiny = std::numeric_limits<double>::min();
-  return std::min({1.0, largest_turn / std::max(distortion(energy_, state, p, load_change), tiny),
+  return std::min({1.0, limits::largest_turn / std::max(distortion(energy_, state, p, load_change), tiny),
                    extent_ / std::max(infinity_norm(p), tiny)});
 }
 
@@ -56,7 +53,7 @@ bool Newton::take_long(const State& from, const Step& step, double alpha, State&
   const double change = energy_.last_terms().total() - step.energy;
   if (!std::isfinite(change)) return false;
   if (step.hidden(alpha)) return infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g);
-  const double wanted = armijo * step.predicted(alpha);
+  const double wanted = limits::armijo * step.predicted(alpha);
   return change <= wanted || change - energy_.unpredicted(to, from) <= wanted;
 }
 
@@ -68,22 +65,24 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
     const double change = energy_.last_terms().total() - step.energy;
     if (!std::isfinite(change)) return false;
     const bool falls = step.hidden(alpha) ? infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g)
-                                          : change <= armijo * step.predicted(alpha);
+                                          : change <= limits::armijo * step.predicted(alpha);
     if (falls) return k == 0 || energy_.passage(from, to) == 1;
     Vector correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
     if (step.keep_direction) correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
     const double size = correction.norm();
-    if (!(size <= contraction * last) || k == most_corrections) return false;
+    if (!(size <= limits::contraction * last) || k == limits::most_corrections) return false;
     last = size;
     energy_.kinematics().retract(to, correction);
   }
 }
 
 // Leaves a factor of H + τI, positive definite, and returns τ. Where H is indefinite τ is of the size of its lowest
-// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`).
-double Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool& left) {
+// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`). None: there is no factor.
+std::optional<double> Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool& left) {
   left = false;
-  double shift = factors_.make_positive(guess / 4);
+  const std::optional<double> positive = factors_.make_positive(guess / 4);
+  if (!positive) return {};
+  double shift = *positive;
   const double sigma = factors_.zero_level();
   if (shift > sigma) {
     const EigenPairs lowest = settled ? factors_.lowest(1, shift) : factors_.lowest(1, shift, 0.1);
@@ -93,32 +92,26 @@ double Newton::make_convex(State& state, const Vector& g, double guess, bool set
       energy_.evaluate(state);
     }
     const double convex = shift;                                // with which there was a factor
-    shift = lowest.values[0] < 0 ? -2 * lowest.values[0] : convex;
-    while (shift < convex && !factors_.try_cholesky(shift)) shift *= 2;
-    if (shift >= convex) factors_.try_cholesky(shift = convex);
-  } else if (shift > 0) {                                       // a zero mode: rounding alone would fill the step with it
-    shift = 100 * sigma;
-    factors_.try_cholesky(shift);
+    return factors_.make_positive_from(lowest.values[0] < 0 ? std::min(-2 * lowest.values[0], convex) : convex);
   }
-  return shift;
+  return shift > 0 ? factors_.make_positive_from(limits::hold_zero_modes * sigma) : shift;   // a zero mode: rounding alone would fill the step with it
 }
 
 // The Newton step, with a shift τ so large that no dof moves by more than about `reach`: along a direction that has a force
 // but hardly a stiffness, as of a grain that must slide, the step would be of no use however it is cut.
-Newton::Step Newton::step_within(double reach, const Vector& g, double& shift) {
+std::optional<Newton::Step> Newton::step_within(double reach, const Vector& g, double& shift) {
   Step step = newton_step(g, shift);
   while (infinity_norm(step.p) > 2 * reach) {
-    shift = std::max(4 * shift, infinity_norm(g) / (4 * reach));
-    if (!factors_.try_cholesky(shift)) continue;
-    step = newton_step(g, shift);
+    const std::optional<double> stiffer = factors_.make_positive_from(std::max(4 * shift, infinity_norm(g) / (4 * reach)), 4);
+    if (!stiffer) return {};
+    step = newton_step(g, shift = *stiffer);
   }
   return step;
 }
 
 bool Newton::leave_saddle(State& state, const Vector& direction) {
   energy_.evaluate(state);
-  const double shift = std::max(-2 * energy_.quadratic_form(direction) / direction.squaredNorm(), 0.0);
-  for (double s = shift; !factors_.try_cholesky(s); s = std::max(2 * s, factors_.zero_level())) {}
+  if (!factors_.make_positive_from(-2 * energy_.quadratic_form(direction) / direction.squaredNorm())) return false;
   Step step;
   const double turn = distortion(energy_, state, direction), unit = turn > 0 ? turn : movement(energy_, direction);
   if (!(unit > 0)) return false;
@@ -130,11 +123,11 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
   step.keep_direction = true;
   if (!(step.curvature < 0)) return false;
-  const double farthest = free_part(state, step.p, largest_turn) * largest_turn;
+  const double farthest = free_part(state, step.p, limits::largest_turn) * limits::largest_turn;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
-  for (double alpha = 1e-3; alpha <= farthest; alpha *= 2) {       // as far as it goes down
+  for (double alpha = 1e-3; alpha <= farthest && !interrupted(); alpha *= 2) {       // as far as it goes down
     if (!take(state, step, alpha, Pace::downhill, next)) break;
     const double e = energy_.last_terms().total();
     if (!(e < lowest)) break;

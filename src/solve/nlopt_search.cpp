@@ -44,27 +44,24 @@ Vector NloptSearch::slope(const Vector& g) {
 }
 
 // A factor of H + τI, positive definite; τ of the size of the lowest eigenvalue where that is negative, and so large that the
-// Newton step is not longer than everything there is.
-double NloptSearch::factorise(const Vector& g) {
+// Newton step is not longer than everything there is. None: there is no factor.
+std::optional<double> NloptSearch::factorise(const Vector& g) {
   Factors& factors = newton_.factors();
-  double shift = factors.make_positive(shift_ / 4);
+  std::optional<double> shift = factors.make_positive(shift_ / 4);
   const double sigma = factors.zero_level();
-  if (shift > sigma) {
-    const double lowest = factors.lowest(1, shift, 0.1).values[0], convex = shift;
-    shift = lowest < 0 ? std::min(-2 * lowest, convex) : convex;
-    while (!factors.try_cholesky(shift)) shift *= 2;
-  } else if (shift > 0) {
-    factors.try_cholesky(shift = 100 * sigma);
+  if (shift && *shift > sigma) {
+    const double lowest = factors.lowest(1, *shift, 0.1).values[0];
+    shift = factors.make_positive_from(lowest < 0 ? std::min(-2 * lowest, *shift) : *shift);
+  } else if (shift && *shift > 0) {
+    shift = factors.make_positive_from(100 * sigma);
   }
-  while (infinity_norm(factors.cholesky().solve(g)) > 2 * reach_) {
-    shift = std::max(4 * shift, infinity_norm(g) / (4 * reach_));
-    while (!factors.try_cholesky(shift)) shift *= 2;
-  }
+  while (shift && infinity_norm(factors.cholesky().solve(g)) > 2 * reach_)
+    shift = factors.make_positive_from(std::max(4 * *shift, infinity_norm(g) / (4 * reach_)));
   return shift;
 }
 
-// The variables about the best state, where the energy has just been evaluated with its Hessian.
-void NloptSearch::begin_round(bool from_forces) {
+// The variables about the best state, where the energy has just been evaluated with its Hessian. False: there is no factor.
+bool NloptSearch::begin_round(bool from_forces) {
   base_ = best_;
   const Vector g = energy_.gradient();
   base_energy_ = energy_.last_terms().total();
@@ -73,7 +70,9 @@ void NloptSearch::begin_round(bool from_forces) {
   unit_ = 1;
   double predicted = 0;
   if (space_ == Space::preconditioned) {
-    shift_ = factorise(g);
+    const std::optional<double> shift = factorise(g);
+    if (!shift) return false;
+    shift_ = *shift;
     unit_ = predicted = slope(g).squaredNorm();
   } else {
     const SparseMatrix& h = energy_.hessian();
@@ -86,6 +85,7 @@ void NloptSearch::begin_round(bool from_forces) {
   if (!(unit_ > 0)) unit_ = 1;
   base_slope_ = slope(g);
   from_forces_ = from_forces || predicted <= seen * 16 * epsilon * energy_.last_terms().size();
+  return true;
 }
 
 void NloptSearch::keep(const State& state, double f, double residual) {
@@ -187,7 +187,10 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
                                                     algorithm.name, report_.residual));
     if (idle >= most_idle)
       return end(Status::not_converged, fmt::format("{} gains nothing more; the residual stays at {:.2g}", algorithm.name, report_.residual));
-    begin_round(idle > 0);
+    if (!begin_round(idle > 0)) {
+      const std::string why = newton_.factors().why_none();
+      return end(interrupted() ? Status::interrupted : Status::not_converged, why.empty() ? "no shift makes the Hessian positive definite" : why);
+    }
     const Optimiser optimiser(nlopt_create(algorithm.code, n));
     if (!optimiser) throw std::bad_alloc();
     if (!derivatives) nlopt_set_initial_step1(optimiser.get(), 0.5), nlopt_set_xtol_abs1(optimiser.get(), 1e-3);

@@ -40,8 +40,8 @@ class NloptSearch {
   double barred(const Vector& z, double* gradient);
   Vector step(const Vector& z);
   Vector slope(const Vector& g);
-  void begin_round(bool from_forces);
-  double factorise(const Vector& g);
+  bool begin_round(bool from_forces);
+  std::optional<double> factorise(const Vector& g);
   void optimise(nlopt_opt optimiser);
   bool must_stop();
   void keep(const State& state, double f, double residual);

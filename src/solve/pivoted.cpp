@@ -104,15 +104,18 @@ bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const E
 
 int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
 
-Vector PivotedFactor::solve(const Vector& b) {
+Vector PivotedFactor::solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
+
+Eigen::MatrixXd PivotedFactor::solve(const Eigen::MatrixXd& b) {
+  if (b.size() == 0) return b;
   const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time());
-  Vector x = Vector::Zero(mumps_->id.n);
-  x.head(b.size()) = b;
-  mumps_->id.rhs = x.data(), mumps_->id.nrhs = 1, mumps_->id.lrhs = static_cast<int>(x.size());
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mumps_->id.n, b.cols());
+  x.topRows(b.rows()) = b;
+  mumps_->id.rhs = x.data(), mumps_->id.nrhs = static_cast<int>(x.cols()), mumps_->id.lrhs = static_cast<int>(x.rows());
   mumps_->call(3);
   if (mumps_->id.infog[0] < 0) throw std::runtime_error("MUMPS: the solve failed");
-  return x.head(b.size());
+  return x.topRows(b.rows());
 }
 
 }  // namespace elamin

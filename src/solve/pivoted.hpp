@@ -30,6 +30,7 @@ class PivotedFactor {
   int negative() const;
   /// (H + shift·I)⁻¹ b; with borders p of H p + Z μ = b, Zᵀ p = 0.
   Vector solve(const Vector& b);
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b);
   /// Time spent in all calls so far, waiting for other threads included.
   double seconds() const { return seconds_; }
 

@@ -41,6 +41,7 @@ void print_model(const Problem& problem, const Model& model) {
   const bool built = problem.study == StudyType::equilibrium && !model.restart;
   const State start = built ? model.start : starting_state(problem, energy);
   fmt::print("{}", describe_contacts(model, energy, start));
+  for (const std::string& warning : doubts(model)) fmt::print("{}\n", warning);
   for (const std::string& warning : core_overlaps(model, energy, start)) fmt::print("{}\n", warning);
   for (const Group& g : model.groups)
     fmt::print("group '{}': {} particles{}\n", g.name, g.particles.size(), g.bodies.empty() ? "" : fmt::format(", {} bodies", g.bodies.size()));

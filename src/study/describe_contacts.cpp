@@ -1,6 +1,7 @@
 #include "study/describe.hpp"
 
 #include "energy/wall_group.hpp"
+#include "laws/frustum.hpp"
 #include "model/entities.hpp"
 
 #include <fmt/format.h>
@@ -112,7 +113,7 @@ std::string describe_rounded(const RoundedPair& r, const Overlaps& overlaps) {
 std::string describe_wall(const Wall& wall, const State& state, const Overlaps& overlaps) {
   const Region region = wall_at(wall, state.load_factor).region;
   int wrong = 0;
-  for (const int p : wall.particles) wrong += region.contains(state.position.col(p)) != wall.inside;
+  for (const int p : wall.particles) wrong += !on_side(region, wall.inside, state.at(p));
   const int open = static_cast<int>(std::count(region.open.begin(), region.open.end(), true));
   std::string text = fmt::format("wall '{}' of '{}': {} of {}, ", wall.name, wall.group,
                                  wall.inside ? "inside" : "outside", shape_of(region));

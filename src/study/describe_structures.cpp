@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -202,6 +203,32 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     for (const Group& g : model.groups)
       if (g.name == t.group) text += fmt::format("glue: '{}' carries {} particles of '{}'\n", t.body, g.particles.size(), t.group);
   return text;
+}
+
+std::vector<std::string> doubts(const Model& model) {
+  std::vector<std::string> lines;
+  const auto remedy = [&](const Structure& s) {
+    const auto x = model.start.position.middleCols(s.first, s.count);
+    const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+    for (const int c : {1, 2, 0})
+      if (sides[c] == 0) return fmt::format("; if it stays in its plane, write plane = \"{}\", which gives angles a sign", std::array{"yz", "xz", "xy"}[c]);
+    return std::string();
+  };
+  for (const Structure& s : model.structures) {
+    const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
+    const auto bent = [&](const Angle& a) {
+      return own(a.particles[1]) && model.angle_types[a.type].rest != pi && model.angle_types[a.type].stiffness != 0;
+    };
+    const auto slack = [&](const Bond& b) { return own(b.particles[0]) && model.bond_types[b.type].stiffness == 0; };
+    if (!model.plane_normal && std::any_of(model.angles.begin(), model.angles.end(), bent))
+      lines.push_back(fmt::format("warning: {} '{}' has rest angles that are not straight; in space an angle has no sign and is at rest on either "
+                                  "side: a path may end where the structure becomes flat{}", s.kind, s.name, remedy(s)));
+    if (const auto first = std::find_if(model.bonds.begin(), model.bonds.end(), slack); first != model.bonds.end())
+      lines.push_back(fmt::format("warning: {} of the bonds of {} '{}' have stiffness 0 and hold nothing; the first joins particles {} and {}",
+                                  std::count_if(model.bonds.begin(), model.bonds.end(), slack), s.kind, s.name, model.id[first->particles[0]],
+                                  model.id[first->particles[1]]));
+  }
+  return lines;
 }
 
 std::string describe_motions(const Model& model) {

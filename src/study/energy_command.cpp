@@ -5,6 +5,7 @@
 #include "problem/build.hpp"
 #include "problem/read.hpp"
 #include "results/table.hpp"
+#include "study/run.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
@@ -78,7 +79,7 @@ double largest_column(const Field& f) { return f.cols() ? f.colwise().norm().max
 
 }  // namespace
 
-void energy_command(const EnergyOptions& options) {
+int energy_command(const EnergyOptions& options) {
   const Problem problem = read_problem(options.file, options.settings);
   const Model model = build_model(problem);
   Energy energy(model);
@@ -91,6 +92,12 @@ void energy_command(const EnergyOptions& options) {
   const double max_force = std::max(largest_column(forces.particles), largest_column(forces.bodies));
   if (!options.forces_file.empty()) write_forces(options.forces_file, model, forces);
 
+  const auto status = [&] {
+    if (std::isfinite(terms.total()) && std::isfinite(max_force)) return exit_done;
+    fmt::print(stderr, "{}\n", not_finite(energy, state));
+    return exit_not_converged;
+  };
+  const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:24.17g}", v) : fmt::format("{:>24}", "not finite"); };
   const auto finite = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); };
   const std::pair<const char*, double> all[]{{"bond", terms.bond},         {"angle", terms.angle}, {"contact", terms.contact}, {"wall", terms.wall},
                                              {"cohesion", terms.cohesion}, {"body", terms.body},   {"external", terms.external}};
@@ -101,15 +108,17 @@ void energy_command(const EnergyOptions& options) {
     out["max_force"] = finite(max_force);
     out["particles"] = model.particles(), out["bodies"] = model.bodies.size(), out["dofs"] = energy.dofs();
     fmt::print("{}\n", out.dump());
-    return;
+    return status();
   }
   fmt::print("load factor {:.17g}\n", state.load_factor);
-  fmt::print("energy      {:24.17g}\n", terms.total());
-  for (const auto& [name, value] : all) fmt::print("  {:<10}{:24.17g}\n", name, value);
+  fmt::print("energy      {}\n", number(terms.total()));
+  for (const auto& [name, value] : all) fmt::print("  {:<10}{}\n", name, number(value));
+  if (!std::isfinite(max_force)) return status();
   if (model.bodies.empty())
     fmt::print("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
   else
     fmt::print("largest force {:.17g}\n{} particles, {} bodies, {} free dofs\n", max_force, model.particles(), model.bodies.size(), energy.dofs());
+  return status();
 }
 
 }  // namespace elamin

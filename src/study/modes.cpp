@@ -81,8 +81,9 @@ Outcome trace_modes(const Problem& problem, Newton& newton, const Sink& sink) {
   State state = starting_state(problem, newton.energy());
   newton.energy().evaluate(state);
   const Report report = newton.correct(state, assess(newton, state, {}).zero_modes);
-  const Equilibrium e = assess(newton, state, report);
+  Equilibrium e = assess(newton, state, report);
   if (!report.converged()) {
+    e.point.stability.stable = false;                     // nothing is known of an equilibrium
     sink.point(e.point, true);
     return {report.status, report.why};
   }

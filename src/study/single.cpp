@@ -11,13 +11,17 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace elamin {
 
 namespace {
 
+std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
+
 std::string log_line(const PathPoint& p) {
-  std::string line = fmt::format("step {} {} load factor {:.17g} energy {:.17g} residual {:.3g} iterations {} negative {} zero {}: {}",
-                                 p.step, p.label, p.state.load_factor, p.energy.total(), p.report.residual,
+  std::string line = fmt::format("step {} {} load factor {:.17g} energy {} residual {} iterations {} negative {} zero {}: {}",
+                                 p.step, p.label, p.state.load_factor, number("{:.17g}", p.energy.total()), number("{:.3g}", p.report.residual),
                                  p.report.iterations, p.stability.negative, p.stability.zero, p.report.why);
   for (const std::string& name : p.stability.zero_modes) line += "; zero mode: " + name;
   return line;
@@ -48,7 +52,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     if (last && point.label.empty()) point.label = "final";
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
       const Iteration& i = point.report.history[k];
-      results.log(fmt::format("  iteration {} energy {:.10g} residual {:.3g} step {:.3g} shift {:.3g}", k, i.energy, i.residual, i.step, i.shift));
+      results.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy), number("{:.3g}", i.residual),
+                              number("{:.3g}", i.step), number("{:.3g}", i.shift)));
     }
     results.log(log_line(point));
     const std::vector<Touch> touches = observed_touches(*energy, point.state, results.record().observables());
@@ -66,6 +71,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         results.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
                                 stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), model.bonds.size(),
                                 model.angles.size(), energy->dofs(), energy->hessian().nonZeros()));
+        if (setup == 0)
+          for (const std::string& warning : doubts(model)) results.log(warning);
         if (setup == 0)
           for (const std::string& warning : core_overlaps(model, *energy, model.restart.value_or(model.start))) results.log(warning);
         if (setup == 0) setup = total.seconds();

@@ -1,5 +1,7 @@
 #include "study/trace.hpp"
 
+#include "core/interrupt.hpp"
+#include "energy/step_limits.hpp"
 #include "path/equilibrium.hpp"
 #include "study/dynamics.hpp"
 #include "study/modes.hpp"
@@ -8,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace elamin {
 
@@ -21,8 +24,11 @@ Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
   Equilibrium e = assess(newton, state, {});
   e.point.report.residual = newton.energy().relative(newton.energy().gradient());
   e.point.report.status = Status::converged;
+  const bool finite = std::isfinite(e.point.energy.total());
+  if (!finite) e.point.report.status = Status::not_converged, e.point.stability.stable = false;
   sink.point(e.point, true);
-  return {Status::converged, "energies and forces of the state in the file"};
+  if (finite) return {Status::converged, "energies and forces of the state in the file"};
+  return {Status::not_converged, not_finite(newton.energy(), state)};
 }
 
 // Whether supports and walls can go from one state to the other at once: no bond turns or stretches far, and nothing passes
@@ -69,8 +75,17 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
   State state = model.restart ? starting_state(problem, newton.energy()) : model.start;
   if (!model.restart) newton.energy().kinematics().prescribe(state, state.load_factor);     // what is constant, in full
   const Corrector minimum = minimiser_of(problem, newton);
-  const Report report = model.restart ? minimum(state) : bring(newton, state, starting_load_factor(problem), minimum);
+  Report report = model.restart ? minimum(state) : bring(newton, state, starting_load_factor(problem), minimum);
+  newton.energy().evaluate(state, false);
+  if (report.converged() && !std::isfinite(newton.energy().last_terms().total()))
+    report.status = Status::not_converged, report.why = not_finite(newton.energy(), state);
+  if (report.converged())
+    if (const std::string what = gone_through(newton.energy(), state); !what.empty()) report.status = Status::not_converged, report.why = what;
+  if (report.status == Status::not_converged && interrupted()) report.status = Status::interrupted, report.why = "interrupted";
+  if (report.status == Status::not_converged)
+    if (const std::string what = obstacle(newton.energy(), state); report.why.find(what) == std::string::npos) report.why += "; " + what;
   Equilibrium e = assess(newton, state, report);
+  if (!report.converged()) e.point.stability.stable = false;
   sink.point(e.point, true);
   return {report.status, report.why};
 }
@@ -79,6 +94,11 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
 
 double starting_load_factor(const Problem& problem) {
   return problem.path.start_lambda.value_or(problem.study == StudyType::path ? problem.path.from : 1.0);
+}
+
+std::string not_finite(const Energy& energy, const State& state) {
+  const std::string what = obstacle(energy, state);
+  return "the energy is not finite here: " + (what.empty() ? "particles coincide, or do not fit into a curved wall" : what);
 }
 
 State starting_state(const Problem& problem, const Energy& energy) {

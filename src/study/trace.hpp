@@ -37,6 +37,9 @@ double starting_load_factor(const Problem& problem);
 /// the load factor puts them.
 State starting_state(const Problem& problem, const Energy& energy);
 
+/// A sentence: the energy is not finite at the state, and why.
+std::string not_finite(const Energy& energy, const State& state);
+
 /// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from.
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink);
 

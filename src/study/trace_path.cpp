@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <map>
 
 namespace elamin {
@@ -106,6 +108,49 @@ class Numbers {
   PathPoint last_;
 };
 
+// Whether a path gets anywhere: its driver takes one point after the other, as long as there is one.
+class Headway {
+ public:
+  explicit Headway(const PathTable& path) : span_(std::abs(path.to - path.from)) {}
+
+  /// A sentence once `look_back` points have moved nothing, or as many falls have hardly changed the load factor; else "".
+  std::string lost(const PathPoint& point) {
+    const double here = point.state.load_factor;
+    if (!before_ || ++points_ == look_back) {
+      if (before_ && std::abs(here - before_->load_factor) <= nothing * span_ && farthest(*before_, point.state) <= nothing)
+        return fmt::format("the path makes no more headway at load factor {:.10g}: {} points have not moved it", here, look_back);
+      before_ = point.state, points_ = 0;
+    }
+    if (!point.label.starts_with("jump:")) return "";
+    falls_.push_back(here);
+    if (falls_.size() <= look_back) return "";
+    falls_.pop_front();
+    const auto [least, most] = std::minmax_element(falls_.begin(), falls_.end());
+    if (*most - *least > little * span_) return "";
+    return fmt::format("the structure falls again and again near load factor {:.10g}, {} times from {:.10g} on: something floats and is pushed along; "
+                       "hold it with a [[support]], or give it another [[contact]]", here, look_back, *least);
+  }
+
+ private:
+  static constexpr std::size_t look_back = 200;      // far more points than the finest halving of a step asks for
+  static constexpr double nothing = 1e-12;           // of the way from `from` to `to`, of the largest coordinate: a point's rounding
+  static constexpr double little = 1e-3;             // of the way: two hundred falls on it would be 10⁵ in all
+
+  static double farthest(const State& a, const State& b) {
+    double moved = a.position.size() ? displacement(a, b).cwiseAbs().maxCoeff() : 0, size = a.position.size() ? a.position.cwiseAbs().maxCoeff() : 0;
+    for (std::size_t k = 0; k < a.bodies.size(); ++k) {
+      moved = std::max({moved, (b.bodies[k].position - a.bodies[k].position).hi.norm(), b.bodies[k].rotation.angularDistance(a.bodies[k].rotation)});
+      size = std::max(size, a.bodies[k].position.hi.norm());
+    }
+    return size > 0 ? moved / size : moved;
+  }
+
+  double span_;
+  std::optional<State> before_;
+  std::size_t points_ = 0;
+  std::deque<double> falls_;
+};
+
 }  // namespace
 
 Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
@@ -125,8 +170,19 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     Model in_stage = model_in(stage, all, start);
     before = std::move(run);
     run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, held ? std::nullopt : stored);
+    const bool by_newton = problem.solver.method == "newton" || any_hard(run->model);
+    if (k == first && !by_newton)
+      sink.note(fmt::format("the path's start, its events and the stability of its points are a matter of Newton's method; solver.method = "
+                            "\"{}\" finds the equilibria between them", problem.solver.method));
     bool begun = false;
-    while (std::optional<PathPoint> point = run->path->next()) {
+    Headway headway(run->stage.path);
+    std::string broken;                                // why the path is not gone on with
+    while (std::optional<PathPoint> point = broken.empty() ? run->path->next() : std::nullopt) {
+      if (!std::isfinite(point->energy.total())) {
+        broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
+        break;
+      }
+      broken = headway.lost(*point);
       if (held) {
         if (!begun && held->label.empty()) held->label = before->stage.name;
         sink.point(*held, false);
@@ -138,6 +194,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       for (const std::string& note : run->path->notes()) sink.note(note);
     }
     outcome = {run->path->status(), run->path->why()};
+    if (!broken.empty()) outcome = {Status::not_converged, broken};
     if (!run->stage.name.empty()) outcome.why = run->stage.name + ": " + outcome.why;
     if (!begun) run = std::move(before);               // the last point belongs to the stage before
     if (outcome.status != Status::converged || !begun) break;

@@ -193,6 +193,10 @@ TEST_CASE("no step passes through anything", "[energy][contact]") {
   CHECK(fly(0, Vec3(5, 0, 0)) == 1);
   CHECK(fly(0, Vec3(-1000, 0, 0)) == 1);
   CHECK(fly(0, Vec3(20, 4, 0)) == 1);                         // past it
+  CHECK(fly(0, Vec3(1e15, 0, 0)) == Approx((10 - 0.8 * 1.5) / 1e15).epsilon(1e-12));
+  const double away = 1e15 * fly(0, Vec3(-1e15, 0, 0));        // nothing is in the way, as far as it looks
+  CHECK(away >= 500);
+  CHECK(away < 1e5);
   CHECK(fly(2, Vec3(0, 0, -4000)) == Approx((40 - std::sqrt(0.64 - 0.36)) / 4000).epsilon(1e-12));
   SECTION("through no wall either, however thin") {
     Wall wall;

@@ -1,0 +1,191 @@
+// Signs of eigenvalues that the assembled Hessian cannot tell.
+//
+// A chain of N links stretches EA L²/EI times less willingly than it bends, and bends in its shortest wave N⁴ times less willingly than
+// in its longest: the eigenvalue that decides its stability may be 10¹⁰ … 10¹⁶ times smaller than ‖H‖, and H, summed and rounded, knows
+// it to ε ‖H‖ only. Forms vᵀHv of smooth v, summed element by element from differences of v, know it far better (Energy::form). So let the
+// columns of X, orthonormal, span the eigenvectors whose sign is in doubt, and X⊥ what is orthogonal to them. In the basis (X, X⊥)
+//   H = [ S  Rᵀ ]       S = XᵀHX,   R = HX − XS,
+//       [ R  H⊥ ]
+// and by Haynsworth's theorem (1968, Linear Algebra Appl. 1, 73) the inertia of H is that of H⊥ and of its Schur complement
+//   T = S − Rᵀ H⊥⁻¹ R,
+// for any X whatever. H⊥ has no small eigenvalue: a factor of H with borders X tells its inertia. T is small; S is formed element by
+// element, and RᵀH⊥⁻¹R is of second order in the error of X (Parlett 1980, The Symmetric Eigenvalue Problem, §11.7), so that it need not be
+// known well; X ← X − H⊥⁻¹R makes it vanish. An eigenvalue of T is zero if it is within the error of its own form (Form::size, ε) plus a part of
+// the second-order term plus what forces out of balance, g, leave of a motion that costs nothing: it goes on a curve, a rotation at the rate φ on
+// one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ.
+#include "core/interrupt.hpp"
+#include "energy/step_limits.hpp"
+#include "solve/factors.hpp"
+#include "solve/limits.hpp"
+#include "solve/ritz.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+
+// The eigenvectors to eigenvalues within ± reach, near enough to span them, by block inverse iteration with a factor near zero; none if
+// there are too many.
+std::optional<Eigen::MatrixXd> Factors::soft_modes(double reach, const Solve& solve) {
+  constexpr int most = 12, least = 4;                           // iterations
+  const int n = energy_.dofs();
+  for (int block = std::min(n, 6);; block = std::min(n, 2 * block)) {
+    Eigen::MatrixXd x = starting_block(n, block);
+    Eigen::Index inside = 0, before = -1;
+    Vector values;
+    for (int k = 0; k < most && !interrupted(); ++k) {
+      x = orthonormal(solve(x));
+      values = rotate_to_ritz(energy_, x);
+      inside = (values.array().abs() <= reach).count();
+      if (std::exchange(before, inside) == inside && k >= least) break;
+    }
+    if (inside < block || block == n) {
+      Eigen::MatrixXd soft(n, inside);
+      for (Eigen::Index j = 0, k = 0; j < block; ++j)
+        if (std::abs(values[j]) <= reach) soft.col(k++) = x.col(j);
+      return soft;
+    }
+    if (block >= limits::most_doubtful || interrupted()) return {};
+  }
+}
+
+// Signs of the eigenvalues in the span of X, and of the rest; leaves what solve_holding needs. None: there is no factor. `positive`: there
+// is a Cholesky factor F of H + σI. Then H⊥ is positive definite, its eigenvalues are beyond 4σ, and F on X⊥ is H⊥ to a quarter:
+//   H⊥⁻¹ b ≈ F⁻¹b − Y (XᵀY)⁻¹ XᵀF⁻¹b,   Y = F⁻¹X.
+std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
+  constexpr int most = 12;
+  constexpr double part = 1 / limits::doubtful;                 // to which the second-order term is known
+  int below = 0;
+  if (positive) {
+    const Eigen::MatrixXd y = cholesky_.solve(x);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(x.transpose() * y);
+    near_.outside = [this, x, y, lu](const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
+      const Eigen::MatrixXd z = cholesky_.solve(b);
+      return z - y * lu.solve(x.transpose() * z);
+    };
+  } else {
+    if (!factorize_beside(x, beside_, beside_version_, beside_borders_)) return {};
+    below = beside_->negative() - static_cast<int>(x.cols());
+    near_.outside = [this](const Eigen::MatrixXd& b) { return beside_->solve(b); };
+  }
+  const double out_of_balance = energy_.gradient().norm();
+  Inertia inertia;
+  for (int k = 0;; ++k) {
+    const Eigen::Index m = x.cols();
+    Eigen::MatrixXd s(m, m), r(x.rows(), m), w(x.rows(), m);
+    Vector size(m), turn(m);
+    for (Eigen::Index j = 0; j < m; ++j) {
+      r.col(j) = energy_.multiply(x.col(j));
+      for (Eigen::Index i = 0; i <= j; ++i) {
+        const Form form = energy_.form(x.col(i), x.col(j));
+        s(i, j) = s(j, i) = form.value;
+        if (i == j) size[j] = form.size;
+      }
+      turn[j] = distortion(energy_, energy_.evaluated(), x.col(j));
+    }
+    r -= x * s;
+    r -= x * (x.transpose() * r);
+    w = near_.outside(r);
+    w -= x * (x.transpose() * w);
+    const Eigen::MatrixXd product = r.transpose() * w, second = (product + product.transpose()) / 2;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(s - second);
+    const Eigen::MatrixXd& v = small.eigenvectors();
+    const Eigen::MatrixXd weight = v.cwiseAbs2().transpose();
+    const Vector rounding = limits::form_rounding * epsilon * (weight * size) + 2 * out_of_balance * (weight * turn);
+    const Vector unknown = (v.transpose() * second * v).diagonal().cwiseAbs();
+    const Vector error = rounding + part * unknown;
+    const Vector& t = small.eigenvalues();
+    inertia = {below, 0};
+    bool clear = true;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      if (std::abs(t[j]) <= error[j]) ++inertia.zero;
+      else if (t[j] < 0) ++inertia.negative;
+      clear = clear && (std::abs(t[j]) > error[j] || unknown[j] <= rounding[j]);
+    }
+    near_.x = x, near_.w = w, near_.r = r, near_.t = s - second;
+    if (clear || k == most || interrupted()) return inertia;
+    x = orthonormal((x - w) * v);
+  }
+}
+
+Inertia Factors::inertia() {
+  const double sigma = zero_level();
+  const Inertia unknown{0, energy_.dofs()};
+  if (energy_.dofs() == 0) return {};
+  const auto by_cholesky = [&](const Eigen::MatrixXd& b) { return cholesky_.solve(b); };
+  const auto by_pivoted = [&](const Eigen::MatrixXd& b) { return pivoted().solve(b); };
+  std::optional<Eigen::MatrixXd> soft;
+  bool looked = false, positive = false;
+  if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
+    holder_ = Holder::pivoted;
+    if (smallest() > 2 * limits::doubtful * sigma) return {pivoted().negative(), 0};   // the factor stays for solutions
+    soft = soft_modes(limits::doubtful * sigma, by_pivoted), looked = true;
+  }
+  if (!looked) {
+    indefinite_ = false;
+    holder_ = Holder::cholesky;
+    if (try_cholesky(-sigma)) return {};
+    holder_ = Holder::none;
+    if ((positive = try_cholesky(sigma))) soft = soft_modes(limits::doubtful * sigma, by_cholesky);
+    else if (pivot_near(0, sigma)) soft = soft_modes(limits::doubtful * sigma, by_pivoted);
+    else return unknown;
+  }
+  Inertia inertia;
+  if (soft && soft->cols() == 0) {
+    if (!pivot_near(0, sigma)) return unknown;
+    holder_ = Holder::pivoted;
+    inertia.negative = pivoted().negative();
+  } else if (soft) {
+    const std::optional<Inertia> resolved = resolve(*soft, positive);
+    if (!resolved) return unknown;
+    inertia = *resolved;
+    holder_ = Holder::resolved;
+  } else {                                                      // too many: what a factor cannot tell is zero
+    if (!pivot_near(sigma, 1.5 * sigma)) return unknown;
+    inertia.negative = pivoted().negative();
+    if (!pivot_near(-sigma, -1.5 * sigma)) return unknown;
+    inertia.zero = std::max(0, pivoted().negative() - inertia.negative);
+    holder_ = Holder::pivoted;
+  }
+  indefinite_ = inertia.negative > 0;
+  return inertia;
+}
+
+// Of the eigenvalues' absolute values the least, by inverse iteration with the pivoted factor: good to a factor of two or so,
+// and where one is zero to rounding, as small as that.
+double Factors::smallest() {
+  Vector x = starting_block(energy_.dofs(), 1).col(0).normalized();
+  double estimate = 0;
+  for (int k = 0; k < 3; ++k) {
+    x = pivoted().solve(x);
+    estimate = 1 / x.norm();
+    x *= estimate;
+  }
+  return estimate;
+}
+
+// H⁻¹ b in the basis (X, X⊥), refined with products formed element by element.
+Vector Factors::solve_resolved(const Vector& b) {
+  const Eigen::MatrixXd& x = near_.x;
+  const Eigen::FullPivLU<Eigen::MatrixXd> t(near_.t);
+  const auto once = [&](const Vector& right) -> Vector {
+    Vector y = near_.outside(right);
+    y -= x * (x.transpose() * y);
+    const Vector c = t.solve(x.transpose() * right - near_.r.transpose() * y);
+    return y + (x - near_.w) * c;
+  };
+  constexpr int most = 8;
+  Vector p = once(b), before;
+  for (int k = 0; k < most; ++k) {
+    const Vector correction = once(b - energy_.multiply(p));
+    if (before.size() > 0 && !(correction.norm() < before.norm() / 2)) break;
+    p += correction, before = correction;
+    if (correction.norm() <= limits::refined * p.norm()) break;
+  }
+  return p;
+}
+
+}  // namespace elamin

@@ -1,0 +1,45 @@
+#pragma once
+// The constants of this folder that decide something, each with its reason. [1] unless told otherwise.
+#include "core/types.hpp"
+
+namespace elamin::limits {
+
+/// σ = rounding · ε ‖H‖₁: what a factor of the assembled Hessian may be wrong by. Its entries are sums of a few rounded terms (a dozen ε),
+/// and the backward error of a sparse factorisation stays below ε ‖H‖₁ in practice (Higham 2002, §10.1 bounds it by the height of the
+/// elimination tree times that).
+constexpr double rounding = 16;
+/// Eigenvalues up to so many σ are looked at one by one: beyond, a factor cannot be wrong about a sign.
+constexpr double doubtful = 4;
+/// As many of them at most; a heap of loose grains has more, and all are zero.
+constexpr int most_doubtful = 40;
+/// Error of a form Σ_e u_eᵀ H_e v_e, in ε · Σ_e |u_e|ᵀ |H_e| |v_e|: three roundings in an entry of an element's Hessian, two in a
+/// difference of the vector on either side, one in each product.
+constexpr double form_rounding = 8;
+
+/// Of a solution that is refined: predictors need no more.
+constexpr double refined = 1e-8;
+
+/// A zero mode, whose stiffness is rounding, is held by so many σ while Newton steps are taken: the steps' rounding along it, ‖g‖ε/σ,
+/// stays below theirs elsewhere, and the modes that decide the convergence are stiffer by far.
+constexpr double hold_zero_modes = 100;
+
+/// Newton's steps. Bonds turn by so much at most in one [rad]: the series of cos and sin are good to one part in a hundred there.
+constexpr double largest_turn = 0.3;
+/// Part of the predicted decrease that must come true (Nocedal & Wright 2006, §3.1, with room for what contacts add).
+constexpr double armijo = 0.1;
+/// Simplified Newton corrections that bend one step back; each must shrink to this part of the one before, or the step is too long.
+constexpr int most_corrections = 6;
+constexpr double contraction = 0.7;
+/// Newton steps in one run that are taken unseen, where rounding hides the change of energy: as many as quadratic convergence from 1e-8
+/// and a few sets of contacts need.
+constexpr int most_unseen = 12;
+/// Of a step of rigid bodies, before a shorter one is computed anew: five halvings.
+constexpr double shortest_part = 1.0 / 32;
+/// Of any step: beyond, positions do not change.
+constexpr double least_part = 1e-12;
+/// Simplified steps that take a small residual down to rounding; each halves it at least, the second is mostly the last.
+constexpr int most_polishing = 4;
+/// Extents of the structure: what is that far away comes back no more.
+constexpr double lost = 100;
+
+}  // namespace elamin::limits
