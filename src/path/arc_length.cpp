@@ -1,5 +1,6 @@
 #include "path/arc_length.hpp"
 
+#include "path/cause.hpp"
 #include "path/jump.hpp"
 #include "path/start.hpp"
 
@@ -13,7 +14,7 @@ namespace elamin {
 namespace {
 
 constexpr double least_length = 1e-6;         // of the extent
-constexpr double beyond_event = 0.1;          // of a load step: where a jump is made
+constexpr double beyond_event = 1e-3;         // of the range of load factors: where a jump is made
 constexpr double same_point = 1e-6;           // of the structure's displacement scale: one branch point met twice
 
 double range_of(const PathOptions& o) { return o.to - o.from; }
@@ -121,7 +122,11 @@ void ArcLength::advance() {
   std::optional<Waypoint> waypoint = walk_->next();
   if (!waypoint) {
     const std::string together = collapsed(newton_.energy().model(), walk_->at().point.state);
-    if (walk_->status() != Status::not_converged || together.empty()) return end(walk_->status(), walk_->why());
+    if (walk_->status() != Status::not_converged) return end(walk_->status(), walk_->why());
+    if (together.empty()) {
+      const std::string cause = cause_at(newton_, walk_->at());
+      return end(Status::not_converged, walk_->why() + (cause.empty() ? "" : "; " + cause));
+    }
     return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", walk_->at().point.state.load_factor, together));
   }
   show(std::move(*waypoint));
@@ -175,7 +180,7 @@ bool ArcLength::lose_stability(Event& event) {
     return false;
   }
   std::string what;
-  Equilibrium landed = jump_from(newton_, event, at + beyond_event * range_of(options_) / options_.steps, what);
+  Equilibrium landed = jump_from(newton_, event, at + beyond_event * range_of(options_), what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
   if (!landed.point.report.converged()) {
     end(landed.point.report.status, landed.point.report.why);

@@ -270,17 +270,27 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 }
 
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {
+  constexpr double close_values = 1e-6;       // lengths that a symmetry makes equal
   Eigen::MatrixXd left = modes, chosen(modes.rows(), 0);
   while (left.cols() > 0) {
     Vector best = left.col(0);
-    for (int c = 0; c < 3 && left.cols() > 1; ++c) {        // the part of the span that moves along this axis most
+    bool told = left.cols() == 1;
+    for (int c = 0; c < 3 && !told; ++c) {                  // the part of the span that moves along this axis most
       Eigen::MatrixXd along = left;
       for (int d = 0; d < kinematics.dofs(); ++d)
         if (kinematics.coordinate_of(d) != c) along.row(d).setZero();
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(along, Eigen::ComputeThinV);
       if (svd.singularValues()[0] < 0.5) continue;
       best = left * svd.matrixV().col(0);
+      told = svd.singularValues()[1] < (1 - close_values) * svd.singularValues()[0];
       break;
+    }
+    if (!told) {                                            // all alike: the one that moves a single coordinate most, the first such
+      const Vector reach = left.rowwise().norm();
+      const double most = reach.maxCoeff();
+      Eigen::Index d = 0;
+      while (reach[d] < (1 - close_values) * most) ++d;
+      best = left * left.row(d).transpose();
     }
     best.normalize();
     const double sum = best.sum();

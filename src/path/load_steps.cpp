@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "path/arc_length.hpp"
+#include "path/cause.hpp"
 #include "path/jump.hpp"
 #include "path/locate.hpp"
 #include "path/start.hpp"
@@ -19,7 +20,8 @@ constexpr int finest = 20;                          // halvings of a step
 constexpr int explore_first = 3, explore_again = 6; // halvings after which the branch is explored in arc length, and every so many more
 constexpr int most_explored = 400;                  // steps in arc length then
 constexpr std::int64_t whole = std::int64_t(1) << finest;
-constexpr double beyond_event = 0.1;                // of the way to the next step: where a jump is made
+constexpr double beyond_event = 0.1;                // of the way to the next step: where a branch point is passed
+constexpr double fall_beyond = 1e-3;                // of the range of load factors: where a fall begins
 
 }  // namespace
 
@@ -118,7 +120,8 @@ void LoadSteps::step() {
       return;
     }
     if (options_.when_unstable == WhenUnstable::jump && fall(target)) return;
-    const std::string why = candidate.point.report.converged() ? "an event could not be located" : candidate.point.report.why;
+    std::string why = candidate.point.report.converged() ? "an event could not be located" : candidate.point.report.why;
+    if (const std::string cause = cause_at(newton_, current_); !cause.empty()) why += "; " + cause;
     return end(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}", here,
                                                   std::abs(target - here), why));
   }
@@ -273,7 +276,7 @@ bool LoadSteps::fall(double target) {
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().passage(current_.point.state, state) < 1) return false;
   const Report report = newton_.minimise(state, Pace::downhill);
-  if (!report.converged()) return false;
+  if (!report.converged() || !(report.energy < before)) return false;
   note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
                    at, before, report.energy));
   Equilibrium landed = assess(newton_, state, report);
@@ -284,7 +287,8 @@ bool LoadSteps::fall(double target) {
 
 // Just past the event the branch has turned unstable or ended: the state falls to the minimum below.
 void LoadSteps::jump(const Event& event, double target) {
-  const double at = event.at.point.state.load_factor, past = at + beyond_event * (target - at);
+  const double at = event.at.point.state.load_factor;
+  const double past = at + std::copysign(std::min(fall_beyond * std::abs(options_.to - options_.from), std::abs(target - at) / 2), target - at);
   std::string what;
   Equilibrium landed = jump_from(newton_, event, past, what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));

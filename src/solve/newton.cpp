@@ -134,7 +134,16 @@ void Newton::look(const State& state, Descent& descent) {
 // Whether a state with a small residual is a minimum; then its residual is taken down to rounding.
 bool Newton::is_minimum(State& state, Descent& descent) {
   if (descent.linearised) energy_.evaluate(state);
-  const Inertia inertia = factors_.inertia();
+  Inertia inertia = factors_.inertia();
+  if (inertia.negative > 0 && factors_.make_positive(0)) {
+    // The forces that are left may tilt a motion that costs nothing: what remains without them counts.
+    const double before = descent.report.residual;
+    polish(state, descent.report, [&](State& next) {
+      energy_.kinematics().retract(next, factors_.cholesky().solve(energy_.gradient()), -1);
+    });
+    energy_.evaluate(state);
+    if (descent.report.residual < before) inertia = factors_.inertia();
+  }
   descent.report.negative = inertia.negative;
   if (inertia.negative > 0) return false;
   // With a zero mode the exact factor would fill the steps with its rounding.

@@ -1,0 +1,58 @@
+#include "path/cause.hpp"
+
+#include "model/entities.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+constexpr double flat = 1e-3;                 // rad: an angle that passes π
+constexpr double bent = 1e-9;                 // rad: a rest angle that is not straight
+constexpr double touching = 1e-6;             // of a diameter: a gap that is about to open or to close
+constexpr double soft = 1e-6;                 // of the largest stiffness: an eigenvalue about to vanish
+
+std::string flat_angle(const Model& model, const State& state) {
+  if (model.plane_normal) return "";
+  for (const Angle& a : model.angles) {
+    if (std::abs(model.angle_types[a.type].rest - pi) <= bent) continue;
+    const auto [i, j, k] = a.particles;
+    const Vec3 u = (state.at(i) - state.at(j)).hi.normalized(), v = (state.at(k) - state.at(j)).hi.normalized();
+    if (u.cross(v).norm() > flat || u.dot(v) > 0) continue;
+    return fmt::format("the angle at particle {} is flat here, and rest angles have no sign in space; in a plane they have: give the file "
+                       "plane = \"xy\", \"xz\" or \"yz\"", model.id[j]);
+  }
+  return "";
+}
+
+std::string changing_contact(Energy& energy, const State& state) {
+  const Model& model = energy.model();
+  double smallest = 0;
+  for (int e = 0; e < entities(model); ++e) smallest = smallest == 0 ? size_of(model, e) : std::min(smallest, size_of(model, e));
+  for (const Touch& t : energy.touches(state, touching * smallest))
+    if (std::abs(t.gap) <= touching * size_of(model, t.particle))
+      return fmt::format("{} just touches {} here; where contacts are much stiffer than what they press on, more path.steps or a softer contact may do",
+                         called(model, t.particle), t.wall >= 0 ? "wall " + model.walls[t.wall].name : called(model, t.other));
+  return "";
+}
+
+}  // namespace
+
+std::string cause_at(Newton& newton, const Equilibrium& last) {
+  Energy& energy = newton.energy();
+  const State& state = last.point.state;
+  if (std::string why = flat_angle(energy.model(), state); !why.empty()) return why;
+  if (std::string why = changing_contact(energy, state); !why.empty()) return why;
+  if (energy.dofs() == 0) return "";
+  energy.evaluate(state);
+  const double stiffest = newton.factors().zero_level() / (16 * epsilon);
+  const EigenPairs lowest = newton.factors().lowest(std::min(energy.dofs(), last.point.stability.negative + 1));
+  if (lowest.values.size() > 0 && lowest.values.cwiseAbs().minCoeff() <= soft * stiffest)
+    return "a limit point or branch point is near, and branches run close to each other; more path.steps may do, or a larger imperfection, or none";
+  return "";
+}
+
+}  // namespace elamin
