@@ -1113,7 +1113,8 @@ void events_column(Case& test) {
 void column_passes(Case& test) {
   Random& random = test.random;
   Column c = random_column(random, Ends::hinged, true, true, 1e4, 1e8);
-  while (c.particles > 120) c = random_column(random, Ends::hinged, true, true, 1e4, 1e8);
+  // Of a few links the angles become so large that their moment B sin φ yields: the load has a limit on the way.
+  while (c.particles > 120 || c.particles < 24) c = random_column(random, Ends::hinged, true, true, 1e4, 1e8);
   const File f = written(c, "The ends of a column pass each other");
   const double critical = built_critical(test, c, f);
   Way way{.method = PathMethod::arc_length, .steps = random.whole_decades(5, 200), .to = random.between(2.3, 3) * critical, .when_unstable = "follow", .branches = 1};
