@@ -31,7 +31,7 @@ double largest_eigenvalue(Energy& energy, const InverseMass& mass, int& iteratio
   std::vector<double> diagonal, beside;
   double upper = 0;
   for (iterations = 1; iterations <= most_iterations; ++iterations) {
-    Vector w = mass.root(energy.multiply(mass.root(v)));
+    Vector w = mass.root(energy.multiply(mass.root(v), false));
     diagonal.push_back(w.dot(v));
     w -= diagonal.back() * v;
     if (!beside.empty()) w -= beside.back() * before;

@@ -207,10 +207,11 @@ bool Energy::loads_scaled() const {
   return !scaled_load_.isZero(0) || groups_[body_loads]->moves() || std::any_of(model_.pressures.begin(), model_.pressures.end(), pushes);
 }
 
-Vector Energy::multiply(const Vector& v) const {
+Vector Energy::multiply(const Vector& v, bool anchored) const {
   Field product;
   assembler_->multiply(kinematics_.extend(v), product);
   Vector hv = kinematics_.restrict(product);
+  if (!anchored) return hv;
   const SparseMatrix& h = hessian();
   for (const int d : idle_) hv[d] += h.valuePtr()[h.outerIndexPtr()[d]] * v[d];
   return hv;

@@ -60,7 +60,7 @@ class Energy {
   bool loads_scaled() const;
   /// H v (dofs), vᵀHv and uᵀHv formed from differences of u and v element by element: more digits than the assembled Hessian has.
   /// Idle dofs have the stiffness that they have in hessian().
-  Vector multiply(const Vector& v) const;
+  Vector multiply(const Vector& v, bool anchored = true) const;
   double quadratic_form(const Vector& v) const { return form(v, v).value; }
   Form form(const Vector& u, const Vector& v) const;
   /// Where the last evaluation with Hessian was.

@@ -18,6 +18,7 @@ namespace elamin {
 namespace {
 
 constexpr double together = 1e-10;            // of the size: gaps that vanish at one load factor
+constexpr double rounding = 1e-13;            // of the size: of a gap
 constexpr double together_in_step = 1e-9;     // … or of its change over the step
 constexpr double beside = 1e-9;               // of the size: where one side of a corner is looked at
 constexpr double along_chord = 0.1;           // of the step: beyond its ends, where a gap that vanishes at one of them may be found
@@ -162,7 +163,7 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   Energy& energy = newton.energy();
   Plane plane;
   plane.length = std::max(way.norm(), 1e-300), plane.load = std::max(std::abs(load_change), 1e-300);
-  plane.close = 1e-13 * size_of(energy.model(), key.particle);
+  plane.close = rounding * size_of(energy.model(), key.particle);
   bool defined = true;
   plane.condition = [&](const State& at, Plane& p) {
     defined = defined && slope(energy, key, at, load_change, p.row, p.corner);
@@ -246,9 +247,9 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     }
   }
   change.at = at ? std::move(*at) : assess(newton, found, report);
-  const Vector way = kinematics.difference(a.point.state, found);
   std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
-  tell(newton, change, std::move(now), changed, way, found.load_factor - a.point.state.load_factor);
+  const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
+  tell(newton, change, std::move(now), changed, chord, b.point.state.load_factor - a.point.state.load_factor);
   return change;
 }
 
@@ -256,7 +257,6 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
-  if (model.bodies.empty()) return {};
   const State& from = a.point.state;
   double reach = 0, walls = 0;
   const Field moves = kinematics.extend(way);
@@ -270,12 +270,12 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   for (const Touch& t : energy.touches(from, reach))
     for (const bool within : {false, true}) {
       const ContactKey key{t.particle, t.other, t.wall, t.feature, within};
-      if (t.feature < 0 || (within && attraction_range(model, energy.body_rules(), t.key()) == 0)) continue;
+      if (within && (t.feature < 0 || attraction_range(model, energy.body_rules(), t.key()) == 0)) continue;
       candidates.insert(key);
       const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
       const bool closed = before.count(key) > 0;
       const bool at = std::abs(here) <= together * size_of(model, key.particle);
-      if (at ? (there < 0) == closed : (here < 0) != closed) continue;
+      if (at ? (there < 0) == closed || std::abs(there) <= rounding * size_of(model, key.particle) : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);
       if (part >= 0 && part <= 1.5 && part < least) least = part, first = key;
     }

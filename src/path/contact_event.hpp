@@ -38,7 +38,7 @@ struct ContactChange {
 std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
                                             const Equilibrium& b);
 
-/// A corner that is ahead: the equilibrium at which the first contact of bodies changes on the way along the tangent of `a`, up to the
+/// A corner that is ahead: the equilibrium at which the first contact changes on the way along the tangent of `a`, up to the
 /// part 1 of the way (dofs) and change of the load factor, found without equilibria beyond, of which there may be none: by
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
 std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);

@@ -269,6 +269,42 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return both;
 }
 
+// How modes change the angles of a model in a plane, angles × modes [1]: unlike displacements the same whatever holds a ring in its plane.
+Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
+  const Model& model = energy.model();
+  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(model.plane_normal ? static_cast<Eigen::Index>(model.angles.size()) : 0, modes.cols());
+  if (change.rows() == 0) return change;
+  const Vec3 normal = Vec3::Unit(*model.plane_normal);
+  const auto rotation = [&](int i, int j, const Field& v) {
+    const Vec3 d = (state.at(j) - state.at(i)).hi;
+    return normal.dot(d.cross(Vec3(v.col(j) - v.col(i)))) / d.squaredNorm();
+  };
+  for (Eigen::Index m = 0; m < modes.cols(); ++m) {
+    const Field v = energy.kinematics().extend(modes.col(m));
+    for (std::size_t k = 0; k < model.angles.size(); ++k) {
+      const auto [i, j, l] = model.angles[k].particles;
+      change(static_cast<Eigen::Index>(k), m) = rotation(j, l, v) - rotation(i, j, v);
+    }
+  }
+  return change;
+}
+
+Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
+  if (modes.cols() != 2) return canonical_modes(energy.kinematics(), modes);
+  const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
+  if (change.rows() == 0) return canonical_modes(energy.kinematics(), modes);
+  constexpr double alike = 1e-6;
+  const Vector size = change.rowwise().norm();
+  const double most = size.maxCoeff();
+  Eigen::Index k = 0;
+  while (size[k] < (1 - alike) * most) ++k;
+  if (!(most > 0)) return canonical_modes(energy.kinematics(), modes);
+  Eigen::MatrixXd both(modes.rows(), 2);
+  both.col(0) = (modes * change.row(k).transpose()).normalized();
+  both.col(1) = modes * Eigen::Vector2d(-change(k, 1), change(k, 0)).normalized();
+  return both;
+}
+
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {
   constexpr double close_values = 1e-6;       // lengths that a symmetry makes equal
   Eigen::MatrixXd left = modes, chosen(modes.rows(), 0);

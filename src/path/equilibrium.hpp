@@ -36,4 +36,8 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 /// first one follows x as much as the span can, else y, else z, and each has a positive sum or leading entry.
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes);
 
+/// The same for the modes of an event. Two of them in a plane: the first is the one that bends a single angle most, the first such angle,
+/// so that where a ring buckles the branch of it is symmetric about a particle.
+Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
+
 }  // namespace elamin

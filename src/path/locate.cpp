@@ -62,7 +62,7 @@ Eigen::MatrixXd critical_modes(Newton& newton, Equilibrium& e, int index, double
       modes.rightCols(1) = pairs.vectors.col(j);
     }
   if (modes.cols() > 0) modes = newton.factors().nearest_zero(modes, known).vectors;
-  return canonical_modes(newton.energy().kinematics(), modes);
+  return symmetric_modes(newton.energy(), e.point.state, modes);
 }
 
 // Zero modes of the branch: those that both ends have.

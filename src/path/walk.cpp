@@ -24,6 +24,7 @@ constexpr double least_part = 1e-12;          // of the first step: shorter ones
 constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;             // of the way: an event leads there
 constexpr double least_advance = 0.02;        // of a step that is cut back to before two branches pass by each other
+constexpr double first_over = 0.01, least_over = 1e-9;   // of a load step: beyond a contact that makes a corner
 constexpr int most_shifts = 5;                // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;          // then steps are quartered
 
@@ -47,6 +48,8 @@ void name_neutral(Stability& s) {
 Walk::Walk(Newton& newton, Equilibrium start, Direction direction, int negative, ContactSet closed, Metric metric, WalkOptions options)
     : newton_(newton), metric_(metric), options_(std::move(options)), current_(std::move(start)), direction_(std::move(direction)),
       negative_(negative), sign_(sign_of(direction_.load)), closed_(std::move(closed)) {
+  at_contact_ = options_.told.starts_with("contact:");
+  singular_ = negative_ < 0 || options_.told.starts_with("limit:") || options_.told.starts_with("branch:");
   side_ = options_.sides;
   for (std::size_t k = side_.size(); k < options_.watches.size(); ++k) {
     const Watch& w = options_.watches[k];
@@ -76,6 +79,11 @@ std::optional<Waypoint> Walk::next() {
     const Arc arc(newton_, current_, direction_, metric_);
     std::optional<Candidate> c = reach(arc, s, why);
     const bool corner = !c && (c = reach_corner(arc, s)).has_value();
+    if (!c && at_contact_ && (c = step_over_contact())) {
+      Candidate over = std::move(*c);
+      step_ = s;
+      return accept(std::move(over), arc);
+    }
     if (!c) {
       if (getenv("DBG")) fmt::print(stderr, "refused s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
       s = shorter(s);
@@ -152,6 +160,22 @@ bool Walk::look_beyond(const Arc& arc, const Candidate& c) {
   return true;
 }
 
+// Beyond a contact that has just changed, in the direction in which the load factor was going; nothing happens in between.
+std::optional<Walk::Candidate> Walk::step_over_contact() {
+  at_contact_ = false;                                          // one try
+  const double here = current_.point.state.load_factor;
+  for (double part = first_over; part >= least_over; part /= 10) {
+    Equilibrium e = continue_to(newton_, current_, here + sign_ * part * options_.load_step);
+    if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
+    if (closed_contacts(newton_.energy(), e.point.state) != closed_) continue;
+    const auto passes = [&](std::size_t k) { return side_[k] * options_.watches[k].side(e.point.state) < 0; };
+    bool any = false;
+    for (std::size_t k = 0; k < side_.size(); ++k) any = any || passes(k);
+    if (!any) return Candidate{0, std::move(e), {}, {}, true};
+  }
+  return {};
+}
+
 // Or, where the branch may end or turn in a corner, the corner.
 std::optional<Walk::Candidate> Walk::reach_corner(const Arc& arc, double s) {
   if (!options_.contacts) return {};
@@ -199,6 +223,9 @@ bool Walk::find_critical(Segment segment, const Arc& arc, Candidate& c, std::str
     if (contact.beyond && contact.onward == -sign_) contact.kind = EventKind::limit;
     return true;
   }
+  // What was neutral to rounding, and held, turns out to have a sign: no event.
+  const Eigen::Index resolved = current_.zero_modes.cols() - c.e.zero_modes.cols();
+  if (!turns && c.events.empty() && neutral_ > 0 && resolved > 0 && std::abs(after - negative_) <= resolved) return true;
   std::optional<Event> event;
   if (after != negative_) {
     Crossing crossing = locate_crossing(newton_, segment, current_, negative_, c.e, turns);
@@ -288,9 +315,11 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
   const Event* event = c.events.empty() || c.events.front().kind == EventKind::watch ? nullptr : &c.events.front();
   const bool ordinary = c.events.empty() && !c.stop, corner = event && event->beyond.has_value();
   const bool critical = event && !corner && (event->kind == EventKind::limit || event->kind == EventKind::branch);
-  if (!event && c.e.point.stability.critical > 0) name_neutral(c.e.point.stability);
+  neutral_ = !event ? c.e.point.stability.critical : 0;
+  if (neutral_ > 0) name_neutral(c.e.point.stability);
   Direction next = direction_of(corner ? *event->beyond : c.e, metric_, arc.direction());
   if (corner && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
+  const int sign = sign_;
   last_stop_ = c.stop;
   if (corner) {
     negative_ = event->after;
@@ -308,14 +337,23 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
   singular_ = critical;
   closed_ = event && (corner || event->kind == EventKind::contact) ? event->closed : closed_contacts(newton_.energy(), c.e.point.state);
   pass_watches(options_.watches, c.events, c.e.point.state, side_);
-  if (ordinary) {                                               // the next step from how this one went
+  at_contact_ = event && event->kind == EventKind::contact;
+  if (c.over) {                                                 // positions weigh as the load factor does from here on
+    metric_.length = std::max(metric_.length, metric_.load * c.e.tangent.norm());
+    next = direction_of(c.e, metric_, {Vector::Zero(next.x.size()), sign * metric_.load});
+    sign_ = sign;
+  } else if (ordinary) {                                        // the next step from how this one went
     const double angle = std::acos(std::clamp(cosine(next, direction_, metric_), -1.0, 1.0));
     const double ease = std::exp2((wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
     step_ = c.s * std::clamp(std::min(ease, wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
   }
-  if (ordinary) weigh(c.e, next);
+  if (ordinary && !c.over) weigh(c.e, next);
   current_ = corner ? *event->beyond : c.e;
   if (corner) step_ = std::min(step_, longest());
+  if (c.over) {
+    direction_ = next;
+    step_ = longest(), shortest_ = std::min(shortest_, least_part * step_);
+  }
   current_.point.stability.critical = 0;                        // what is singular here has been told
   direction_ = std::move(next);
   return {std::move(c.e), std::move(c.events), c.stop};

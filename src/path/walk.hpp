@@ -30,6 +30,9 @@ struct Waypoint {
 /// Follows a branch, stable or not, through limit points and over branch points. Steps are as long as the corrector's
 /// iterations (4 are aimed at), the change of the branch's direction (0.25 rad) and the options allow.
 ///
+/// Where a contact is made that is much stiffer than what it presses on, the branch has a corner that no step resolves: beyond the event
+/// the next equilibrium is then found by a small step of the load factor, with the same contacts closed and the same Morse index.
+///
 /// A step from a to b is taken to have stayed on its branch where
 /// - the corrector leaves the tangent at a by no more than half a step;
 /// - the chord is parallel to the sum of the tangents at a and b, as it is, up to the third order in the step, on a smooth curve;
@@ -64,10 +67,12 @@ class Walk {
     Equilibrium e;
     std::vector<Event> events;
     std::optional<double> stop;
+    bool over = false;                 // a contact that has just been made or lost, in one step of the load factor
   };
   double longest() const;
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   std::optional<Candidate> reach_corner(const Arc& arc, double s);
+  std::optional<Candidate> step_over_contact();
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
   bool look_beyond(const Arc& arc, const Candidate& c);
   Candidate with_contact(Candidate c, ContactChange change) const;
@@ -85,7 +90,9 @@ class Walk {
   Equilibrium current_;
   Direction direction_;
   int negative_, sign_;                // Morse index, and of dλ/ds, from here on
-  bool singular_ = false;              // it stands at a limit point or branch point
+  int neutral_ = 0;                    // zero modes of it that are no motions of rigid parts
+  bool singular_ = false;              // it stands at a limit point or branch point …
+  bool at_contact_ = false;            // … or where a contact is made or lost
   ContactSet closed_;
   std::vector<double> side_;           // of every watch: observable − value from here on
   std::optional<double> last_stop_;    // where it stands, if at a stop

@@ -1,5 +1,6 @@
 // Every event that the problems of problems/ run into, held against its own equations.
 #include "catch.hpp"
+#include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
 #include "path/arc.hpp"
 #include "problem/sweep.hpp"
@@ -40,6 +41,21 @@ Found found_by(const PreparedRun& run) {
 std::string kind_of(const PathPoint& p) { return p.label.substr(0, p.label.find(':')); }
 bool located(const PathPoint& p) { return p.label.find(':') != std::string::npos && kind_of(p) != "jump"; }
 
+// What is left of a force when hard contacts that bear one take what they can: less its part in the span of the gaps' gradients.
+Vector beside_contacts(const Energy& energy, const State& state, Vector force) {
+  Eigen::MatrixXd gradients(force.size(), 0);
+  for (const HardForce& h : state.hard) {
+    HardGap gap;
+    if (!hard_gap(energy.model(), h, state, gap)) continue;
+    Field g = Field::Zero(3, energy.kinematics().sites());
+    for (int i = 0; i < gap.sites; ++i) g.col(gap.site[i]) += gap.gradient.segment<3>(3 * i);
+    gradients.conservativeResize(Eigen::NoChange, gradients.cols() + 1);
+    gradients.rightCols(1) = energy.kinematics().restrict(g);
+  }
+  if (gradients.cols() > 0) force -= gradients * gradients.colPivHouseholderQr().solve(force);
+  return force;
+}
+
 // Null vectors: orthonormal, H φ = 0, and the load does work along that of a limit point, along none of a branch point.
 // Slender structures bend so much more easily than they stretch that H φ is small beside H for any bending φ: so φ·Hφ is
 // held against what it is one point before or after too.
@@ -53,8 +69,9 @@ void check_modes(const std::vector<PathPoint>& points, std::size_t at, Energy& e
   std::vector<double> left;
   for (int k = 0; k < p.multiplicity; ++k) {
     const Vector mode = p.modes.col(k);
-    CAPTURE(k, energy.multiply(mode).norm() / stiffness, mode.dot(rate) / rate.norm());
-    CHECK(energy.multiply(mode).norm() <= 1e-8 * stiffness);
+    const Vector product = beside_contacts(energy, p.state, energy.multiply(mode));
+    CAPTURE(k, product.norm() / stiffness, mode.dot(rate) / rate.norm());
+    CHECK(product.norm() <= 1e-8 * stiffness);
     if (kind_of(p) == "limit") CHECK(std::abs(mode.dot(rate)) > 1e-5 * rate.norm());
     else CHECK(std::abs(mode.dot(rate)) <= 1e-5 * rate.norm());
     left.push_back(std::abs(energy.quadratic_form(mode)));
