@@ -229,7 +229,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     const double t = report.converged() ? segment.parameter(state) : segment.a;
     const double part = (t - segment.a) / (change.at_parameter - segment.a);
     const bool between = report.converged() && part > -along_chord && part < 1 + along_chord &&
-                         beside_chord(kinematics, a.point.state, found, part, state) && energy.passage(a.point.state, state) == 1;
+                         beside_chord(kinematics, a.point.state, found, state) && energy.passage(a.point.state, state) == 1;
     if (between) {
       found = state, change.at_parameter = t, at.reset();
     } else {                                                    // slowly, along the branch

@@ -21,6 +21,7 @@ constexpr int explore_first = 3, explore_again = 6; // halvings after which the 
 constexpr int most_explored = 400;                  // steps in arc length then
 constexpr std::int64_t whole = std::int64_t(1) << finest;
 constexpr double beyond_event = 0.1;                // of the way to the next step: where a branch point is passed
+constexpr double same_load = 1e-13;                 // of the range: load factors that are one
 constexpr double fall_beyond = 1e-3;                // of the range of load factors: where a fall begins
 
 }  // namespace
@@ -80,7 +81,8 @@ void LoadSteps::settle(Equilibrium at, double load_factor, const std::vector<Eve
   side_.resize(options_.watches.size(), 0);
   pass_watches(options_.watches, passed, current_.point.state, side_);
   interval_start_ = load_factor, done_ = 0;
-  if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
+  const double range = options_.to - options_.from;              // an event may lie a rounding beyond
+  if (interval_ < targets_.size() && (load_factor - targets_[interval_]) / range >= -same_load) ++interval_;
 }
 
 void LoadSteps::step() {
@@ -95,7 +97,7 @@ void LoadSteps::step() {
   Equilibrium candidate = continue_to(newton_, current_, target, options_.correct);
   const auto between = [&, end = candidate.point.state](double t, const Equilibrium& nearest) {
     Equilibrium e = continue_to(newton_, nearest, t);
-    if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, (t - here) / (target - here), e.point.state))
+    if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, e.point.state))
       e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
     return e;
   };
@@ -109,7 +111,7 @@ void LoadSteps::step() {
     if (accepted) candidate = contact->at, segment.b = contact->at_parameter;
   }
   if (accepted && candidate.point.stability.negative != negative_) {
-    event = locate_crossing(newton_, segment, current_, negative_, candidate, false).event;
+    event = locate_crossing(newton_, segment, current_, negative_, candidate, false);
     accepted = event && event->kind == EventKind::branch && leads_to(newton_, event->at, candidate) && leads_to(newton_, event->at, current_);
   }
   if (!accepted) {
@@ -171,7 +173,7 @@ void LoadSteps::meet(ContactChange change, double target) {
   const double here = event.at.point.state.load_factor;
   if (change.beyond) {
     event.after = change.beyond->point.stability.negative;
-    if (change.onward * (target - here) < 0) event.kind = EventKind::limit;
+    if (change.onward * (options_.to - options_.from) < 0) event.kind = EventKind::limit;
   }
   if (event.kind == EventKind::limit) return lose_stability(std::move(event), target);
   halvings_ = 0;
@@ -288,7 +290,14 @@ bool LoadSteps::fall(double target) {
 // Just past the event the branch has turned unstable or ended: the state falls to the minimum below.
 void LoadSteps::jump(const Event& event, double target) {
   const double at = event.at.point.state.load_factor;
-  const double past = at + std::copysign(std::min(fall_beyond * std::abs(options_.to - options_.from), std::abs(target - at) / 2), target - at);
+  const double range = options_.to - options_.from;
+  double next = target;                                         // ahead, where the event is at a target
+  for (const double t : targets_)
+    if ((t - at) / range > same_load) {
+      next = t;
+      break;
+    }
+  const double past = at + std::copysign(std::min(fall_beyond * std::abs(range), std::abs(next - at) / 2), range);
   std::string what;
   Equilibrium landed = jump_from(newton_, event, past, what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));

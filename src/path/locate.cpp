@@ -118,17 +118,18 @@ Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eige
 
 }  // namespace
 
-Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns) {
+std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns) {
   const int after = b.point.stability.negative;
   const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
   const std::optional<bool> told = std::abs(after - before) == 1 ? std::optional(turns) : std::nullopt;
   const Eigen::MatrixXd known = persistent(a, b);
   Equilibrium first = a, second = b;
   first.zero_modes = second.zero_modes = known;
-  const auto done = [&](Event event, double parameter) {
+  const auto done = [&](Event event, double parameter) -> std::optional<Event> {
     event.at_parameter = parameter, event.before = before;
     event.after = before + (after > before ? 1 : -1) * std::max(1, static_cast<int>(event.modes.cols()));
-    return event.modes.cols() > 0 ? Crossing{std::move(event), {}, 0} : Crossing{};
+    if (event.modes.cols() == 0) return {};
+    return event;
   };
   Sample lower{segment.a, eigenvalue(newton, first, index), first};
   if (std::abs(lower.f) <= newton.factors().zero_level() && a.point.stability.critical > 0)       // a is the event itself
@@ -137,16 +138,15 @@ Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibri
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   const double resolution = 1e-13 * std::abs(segment.b - segment.a);
-  const bool was_negative = lower.f < 0;
   // A force that is left along the critical modes breaks the branch point: then there is none.
   const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
-  const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && e.point.report.residual <= rounding; };
+  const bool limit = turns && told;
+  const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && (limit || e.point.report.residual <= rounding); };
   const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
-  Crossing jumps;
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     // At a branch point the equations are regular with the critical modes held where the branch has them.
     Equilibrium e;
-    const Eigen::MatrixXd modes = turns && told ? Eigen::MatrixXd() : soft_modes(from.e, 2 * std::abs(from.f), known);
+    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, 2 * std::abs(from.f), known);
     newton.energy().evaluate(from.e.point.state);
     if (modes.cols() > 0 && (told || work_along(modes, newton.energy().load_derivative()) <= orthogonal)) {
       State state = between(t).state;
@@ -157,10 +157,9 @@ Crossing locate_crossing(Newton& newton, const Segment& segment, const Equilibri
     if (!good(e)) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
     const double value = critical_value(newton, e, index);
-    if ((value < 0) == was_negative && (!jumps.before || t > jumps.before_parameter)) jumps.before = e, jumps.before_parameter = t;
     return Sample{t, value, std::move(e)};
   });
-  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return jumps;
+  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return {};
   Event event = finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   return done(std::move(event), zero->t);
@@ -276,7 +275,7 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     if (!before.point.report.converged() || !after.point.report.converged()) return {};
     if (before.point.stability.negative == after.point.stability.negative) continue;
     const Segment along = segment_of_loads(newton, load - part, load + part);
-    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, false).event;
+    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, false);
     if (!event || event->kind == EventKind::limit) return {};
     event->at_parameter = segment.parameter(event->at.point.state);
     if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};

@@ -26,10 +26,11 @@ Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, c
                          double t);
 
 /// Whether an equilibrium computed between two of a branch lies beside their chord: on another branch it would not.
-inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, double part, const State& between) {
-  constexpr double widest = 0.5;       // of the chord: a branch that is resolved bends less
-  const Vector chord = kinematics.difference(a, b);
-  return (kinematics.difference(a, between) - part * chord).norm() <= widest * chord.norm();
+inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, const State& between) {
+  constexpr double widest = 0.5;       // of the chord, to the side and beyond its ends: a branch that is resolved bends less
+  const Vector chord = kinematics.difference(a, b), way = kinematics.difference(a, between);
+  const double length = chord.norm(), along = length > 0 ? way.dot(chord) / (length * length) : 0.0;
+  return along >= -widest && along <= 1 + widest && (way - along * chord).norm() <= widest * length;
 }
 
 }  // namespace elamin

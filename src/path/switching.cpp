@@ -34,8 +34,11 @@ class Switch {
     kinematics().retract(state, along, amplitude);
     Plane plane{along / (metric_.length * metric_.length), 0, metric_.length, metric_.load};
     plane.guided = others.cols() > 0;
-    return newton_.correct(state, side_by_side(zero(), others), nullptr, 30, &plane);
+    return newton_.correct(state, side_by_side(side_by_side(zero(), family_), others), nullptr, 30, &plane);
   }
+
+  /// From here on these directions keep still: along them lie the equilibria of one family.
+  void hold(const Eigen::MatrixXd& family) { family_ = family; }
 
   /// A bond turned by one radian, or a particle moved by its diameter, is amplitude one over this.
   double turn(const Vector& along) const {
@@ -92,6 +95,7 @@ class Switch {
   const Event& event_;
   Metric metric_;
   double load_step_, turn_;
+  Eigen::MatrixXd family_;
 };
 
 // Angles in [0, π) at which the force along the circle vanishes; only 0 where it vanishes everywhere.
@@ -140,7 +144,7 @@ Eigen::MatrixXd neutral(const Beside& side, const Eigen::MatrixXd& modes, const 
 }  // namespace
 
 std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double turn) {
-  const Switch s(newton, branch_point, metric, load_step, turn);
+  Switch s(newton, branch_point, metric, load_step, turn);
   const Eigen::MatrixXd& modes = branch_point.modes;
   std::vector<Vector> rays_found;
   Eigen::MatrixXd family(modes.rows(), 0);
@@ -151,8 +155,10 @@ std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point,
   };
   if (modes.cols() > 1)
     if (const auto first = s.leave(modes.col(0), s.amplitude(modes.col(0), others(0)))) family = neutral(*first, modes, branch_point.at.zero_modes);
-  if (modes.cols() == 1 + family.cols()) rays_found.push_back(modes.col(0));
-  else {
+  if (modes.cols() == 1 + family.cols()) {
+    rays_found.push_back(modes.col(0));
+    s.hold(family);
+  } else {
     family.resize(Eigen::NoChange, 0);
     for (Eigen::Index i = 0; i < modes.cols(); ++i)
       for (Eigen::Index j = i + 1; j < modes.cols(); ++j)
@@ -161,7 +167,7 @@ std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point,
   }
   std::vector<Beside> found;
   for (const Vector& ray : rays_found) {
-    const double longest = s.amplitude(ray, family);
+    const double longest = s.amplitude(ray, {});
     const std::optional<Beside> one = s.leave(ray, longest), other = s.leave(-ray, longest);
     const auto known = [&](const Beside& side) {
       return std::any_of(found.begin(), found.end(), [&](const Beside& f) { return images(newton.energy().kinematics(), branch_point.at, side, f); });

@@ -23,8 +23,9 @@ constexpr double largest_defect = 0.2;        // of the chord from the sum of th
 constexpr double least_part = 1e-12;          // of the first step: shorter ones are given up
 constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;             // of the way: an event leads there
-constexpr double least_advance = 0.02;        // of a step that is cut back to before two branches pass by each other
 constexpr double first_over = 0.01, least_over = 1e-9;   // of a load step: beyond a contact that makes a corner
+constexpr double same_mode = 0.9;             // cosine between a neutral mode and what it has become a step further
+constexpr double next_to_nothing = 1e-6;      // of the next stiffness
 constexpr int most_shifts = 5;                // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;          // then steps are quartered
 
@@ -50,6 +51,7 @@ Walk::Walk(Newton& newton, Equilibrium start, Direction direction, int negative,
       negative_(negative), sign_(sign_of(direction_.load)), closed_(std::move(closed)) {
   at_contact_ = options_.told.starts_with("contact:");
   singular_ = negative_ < 0 || options_.told.starts_with("limit:") || options_.told.starts_with("branch:");
+  if (negative_ < 0) neutral_ = current_.zero_modes;
   side_ = options_.sides;
   for (std::size_t k = side_.size(); k < options_.watches.size(); ++k) {
     const Watch& w = options_.watches[k];
@@ -85,7 +87,6 @@ std::optional<Waypoint> Walk::next() {
       return accept(std::move(over), arc);
     }
     if (!c) {
-      if (getenv("DBG")) fmt::print(stderr, "refused s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
       s = shorter(s);
       continue;
     }
@@ -103,16 +104,15 @@ std::optional<Waypoint> Walk::next() {
       s *= just_beyond;
       continue;
     }
-    const auto between = [&, end = c->e.point.state, length = c->s](double t, const Equilibrium& nearest) {
+    const auto between = [&, end = c->e.point.state](double t, const Equilibrium& nearest) {
       Equilibrium e = arc.at(t, nearest);
-      if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, t / length, e.point.state))
+      if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, e.point.state))
         e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
       return e;
     };
     const Segment segment{0, c->s, between, [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
                           [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); }};
     if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, arc, *c, why) || !find_watches(segment, *c, why)) {
-      if (getenv("DBG")) fmt::print(stderr, "events  s {:.3g}/{:.3g} at {:.10g}: {}\n", s, shortest_, current_.point.state.load_factor, why);
       s = shorter(s);
       continue;
     }
@@ -133,6 +133,7 @@ std::optional<Walk::Candidate> Walk::reach(const Arc& arc, double s, std::string
   Equilibrium e = arc.at(s, current_);
   if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
   if (!stays_on_branch(arc, s, e, why)) return {};
+  carry_neutral(e);
   return Candidate{s, std::move(e), {}, {}};
 }
 
@@ -158,6 +159,29 @@ bool Walk::look_beyond(const Arc& arc, const Candidate& c) {
   if (near.point.stability.negative != c.e.point.stability.negative || rises(near) != rises(c.e)) return false;
   negative_ = near.point.stability.negative, sign_ = rises(near) ? 1 : -1;
   return true;
+}
+
+// A family of equilibria may cost a little to move along, as a polygon's does that stands for a ring: it stays neutral, and held, as long
+// as that is next to nothing beside the next stiffness.
+void Walk::carry_neutral(Equilibrium& e) {
+  Stability& s = e.point.stability;
+  if (neutral_.cols() == 0 || e.zero_modes.cols() >= neutral_.cols()) return;
+  newton_.energy().evaluate(e.point.state);
+  const EigenPairs pairs = newton_.factors().lowest(s.negative + static_cast<int>(neutral_.cols()) + 1);
+  const Eigen::Index count = pairs.values.size();
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Vector& v = pairs.vectors.col(j);
+    if ((neutral_.transpose() * v).norm() < same_mode) continue;
+    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
+    double next = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < count; ++i)
+      if (i != j) next = std::min(next, std::abs(pairs.values[i]));
+    if (!(std::abs(pairs.values[j]) <= next_to_nothing * next) || !std::isfinite(next)) continue;
+    e.zero_modes = side_by_side(e.zero_modes, v);
+    ++s.zero, ++s.critical;
+    s.stable = false;
+    if (pairs.values[j] < 0) --s.negative, s.negative_rigid = std::min(s.negative_rigid, s.negative);
+  }
 }
 
 // Beyond a contact that has just changed, in the direction in which the load factor was going; nothing happens in between.
@@ -225,18 +249,14 @@ bool Walk::find_critical(Segment segment, const Arc& arc, Candidate& c, std::str
   }
   // What was neutral to rounding, and held, turns out to have a sign: no event.
   const Eigen::Index resolved = current_.zero_modes.cols() - c.e.zero_modes.cols();
-  if (!turns && c.events.empty() && neutral_ > 0 && resolved > 0 && std::abs(after - negative_) <= resolved) return true;
+  if (!turns && c.events.empty() && neutral_.cols() > 0 && resolved > 0 && std::abs(after - negative_) <= resolved) return true;
   std::optional<Event> event;
   if (after != negative_) {
-    Crossing crossing = locate_crossing(newton_, segment, current_, negative_, c.e, turns);
-    event = std::move(crossing.event);
-    if (event && !joins(*event, c.e, arc)) event.reset();
-    if (event && !singular_ && !joins(*event, current_, arc)) event.reset();
-    if (!event && crossing.before && crossing.before_parameter > least_advance * c.s &&
-        stays_on_branch(arc, crossing.before_parameter, *crossing.before, why)) {
-      c = {crossing.before_parameter, std::move(*crossing.before), {}, {}};
-      return true;
-    }
+    event = locate_crossing(newton_, segment, current_, negative_, c.e, turns);
+    // Where the load factor turns with one eigenvalue's sign the determinant keeps its own: one end is enough.
+    const bool fold = event && event->kind == EventKind::limit;
+    if (event && !joins(*event, c.e, arc) && (!fold || singular_ || !joins(*event, current_, arc))) event.reset();
+    if (event && !fold && !singular_ && !joins(*event, current_, arc)) event.reset();
   } else if (sign_of(slope(current_)) == sign_) {
     event = locate_arrival(newton_, segment, current_, c.e, slope);
   }
@@ -315,8 +335,8 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
   const Event* event = c.events.empty() || c.events.front().kind == EventKind::watch ? nullptr : &c.events.front();
   const bool ordinary = c.events.empty() && !c.stop, corner = event && event->beyond.has_value();
   const bool critical = event && !corner && (event->kind == EventKind::limit || event->kind == EventKind::branch);
-  neutral_ = !event ? c.e.point.stability.critical : 0;
-  if (neutral_ > 0) name_neutral(c.e.point.stability);
+  neutral_ = !event && c.e.point.stability.critical > 0 ? c.e.zero_modes : Eigen::MatrixXd();
+  if (neutral_.cols() > 0) name_neutral(c.e.point.stability);
   Direction next = direction_of(corner ? *event->beyond : c.e, metric_, arc.direction());
   if (corner && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
   const int sign = sign_;

@@ -39,7 +39,7 @@ struct Waypoint {
 /// - the Morse index and the sign of dλ/ds are the same at a and b, or their change is explained by an event between them from which
 ///   the branch leads back to a and on to b. The determinant of the bordered matrix [H c; t_x/L² t_λ/Λ²] keeps its sign on a smooth
 ///   branch (Keller 1977), so a step onto a branch that only passes by, as beside a pitchfork that a small force has unfolded, shows as a
-///   change of the index for which there is no event: the step is cut back to the last equilibrium before that change.
+///   change of the index for which there is no event: the step is halved.
 class Walk {
  public:
   /// From an equilibrium along a direction; negative: the Morse index beyond it, −1: not known, as at a branch point that a side branch
@@ -73,6 +73,7 @@ class Walk {
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   std::optional<Candidate> reach_corner(const Arc& arc, double s);
   std::optional<Candidate> step_over_contact();
+  void carry_neutral(Equilibrium& e);
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
   bool look_beyond(const Arc& arc, const Candidate& c);
   Candidate with_contact(Candidate c, ContactChange change) const;
@@ -90,7 +91,7 @@ class Walk {
   Equilibrium current_;
   Direction direction_;
   int negative_, sign_;                // Morse index, and of dλ/ds, from here on
-  int neutral_ = 0;                    // zero modes of it that are no motions of rigid parts
+  Eigen::MatrixXd neutral_;            // zero modes of it that are no motions of rigid parts (dofs × count)
   bool singular_ = false;              // it stands at a limit point or branch point …
   bool at_contact_ = false;            // … or where a contact is made or lost
   ContactSet closed_;
