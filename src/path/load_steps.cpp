@@ -81,8 +81,7 @@ void LoadSteps::settle(Equilibrium at, double load_factor, const std::vector<Eve
   side_.resize(options_.watches.size(), 0);
   pass_watches(options_.watches, passed, current_.point.state, side_);
   interval_start_ = load_factor, done_ = 0;
-  const double range = options_.to - options_.from;              // an event may lie a rounding beyond
-  if (interval_ < targets_.size() && (load_factor - targets_[interval_]) / range >= -same_load) ++interval_;
+  if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
 }
 
 void LoadSteps::step() {
@@ -111,7 +110,7 @@ void LoadSteps::step() {
     if (accepted) candidate = contact->at, segment.b = contact->at_parameter;
   }
   if (accepted && candidate.point.stability.negative != negative_) {
-    event = locate_crossing(newton_, segment, current_, negative_, candidate, false);
+    event = locate_crossing(newton_, segment, current_, negative_, candidate, {});
     accepted = event && event->kind == EventKind::branch && leads_to(newton_, event->at, candidate) && leads_to(newton_, event->at, current_);
   }
   if (!accepted) {
@@ -182,6 +181,8 @@ void LoadSteps::meet(ContactChange change, double target) {
   on.point.label.clear();
   settle(std::move(on), here);
   closed_ = std::move(change.after);
+  const double beyond = interval_ < targets_.size() ? (here - targets_[interval_]) / (options_.to - options_.from) : -1;
+  if (beyond >= 0 && beyond <= same_load) ++interval_;          // the event lies a rounding beyond the end of the step
   if (event.before > 0 || event.after == 0) return;
   if (options_.when_unstable == WhenUnstable::stop) return end(Status::converged, fmt::format("stopped at {}, load factor {:.10g}", event.at.point.label, here));
   if (options_.when_unstable == WhenUnstable::jump) jump(event, target);

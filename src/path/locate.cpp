@@ -106,7 +106,9 @@ Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eige
   Event event;
   event.modes = critical_modes(newton, at, index, scale, known);
   newton.energy().evaluate(at.point.state);
-  const bool limit = turns.value_or(work_along(event.modes, newton.energy().load_derivative()) > orthogonal);
+  const double work = work_along(event.modes, newton.energy().load_derivative());
+  const bool limit = turns.value_or(work > orthogonal);
+  if (!limit && work > orthogonal) event.modes.resize(event.modes.rows(), 0);       // nor a branch point: two branches pass by each other
   event.kind = limit && event.modes.cols() == 1 ? EventKind::limit : EventKind::branch;
   hold_modes(newton, at, known, event.kind == EventKind::branch ? event.modes : Eigen::MatrixXd());
   at.point.multiplicity = static_cast<int>(event.modes.cols());
@@ -118,10 +120,11 @@ Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eige
 
 }  // namespace
 
-std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns) {
+std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b,
+                                     std::optional<bool> turns) {
   const int after = b.point.stability.negative;
   const int index = after > before ? before : before - 1;      // the sorted eigenvalue that changes sign first
-  const std::optional<bool> told = std::abs(after - before) == 1 ? std::optional(turns) : std::nullopt;
+  const std::optional<bool> told = std::abs(after - before) == 1 ? turns : std::nullopt;
   const Eigen::MatrixXd known = persistent(a, b);
   Equilibrium first = a, second = b;
   first.zero_modes = second.zero_modes = known;
@@ -140,7 +143,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const double resolution = 1e-13 * std::abs(segment.b - segment.a);
   // A force that is left along the critical modes breaks the branch point: then there is none.
   const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
-  const bool limit = turns && told;
+  const bool limit = told.value_or(false);
   const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && (limit || e.point.report.residual <= rounding); };
   const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
@@ -275,7 +278,7 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
     if (!before.point.report.converged() || !after.point.report.converged()) return {};
     if (before.point.stability.negative == after.point.stability.negative) continue;
     const Segment along = segment_of_loads(newton, load - part, load + part);
-    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, false);
+    std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, {});
     if (!event || event->kind == EventKind::limit) return {};
     event->at_parameter = segment.parameter(event->at.point.state);
     if (event->at_parameter < segment.a || event->at_parameter > segment.b) return {};

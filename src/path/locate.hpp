@@ -12,9 +12,10 @@ inline constexpr double coincide = 1e-10;      // of a segment: events that are 
 
 /// The first change of the Morse index on a segment from `a`, beyond which it is `before`, to `b`: root finding (Illinois,
 /// bracketed) on the sorted eigenvalue that changes sign, at equilibria that the corrector itself computes. A limit point if
-/// the load factor turns on the segment, else a branch point; where it may be both, because the index changes by more than one,
-/// a limit point if the load does work along the critical mode. Nothing if the eigenvalue jumps over zero: the ends are on different branches.
-std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b, bool turns);
+/// the load factor turns on the segment, else a branch point; where that is not known, or may be both, because the index changes by more
+/// than one, a limit point if the load does work along the critical mode. Nothing if the eigenvalue jumps over zero: the ends are on different branches.
+std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b,
+                                     std::optional<bool> turns);
 
 /// Equilibria between two load factors.
 Segment segment_of_loads(Newton& newton, double from, double to);
