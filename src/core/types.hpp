@@ -1,6 +1,8 @@
 #pragma once
 // The few types that everything else is written in.
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "dynamics/inverse_mass.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "core/dense.hpp"
+
 
 namespace elamin {
 
@@ -20,11 +21,10 @@ InverseMass::InverseMass(const Model& model, const Kinematics& kinematics, const
     const double least = 1e-7 * M.bottomRightCorner<3, 3>().trace();
     for (int k = 0; k < 6; ++k)
       if (kinematics.dof(k < 3 ? kinematics.place_of(b) : kinematics.turn_of(b), k % 3) < 0) M.row(k).setZero(), M.col(k).setZero();
-    const Eigen::SelfAdjointEigenSolver<Mat6> own(M);
+    const EigenPairs own = symmetric_eigen(M);
     root_.push_back(Mat6::Zero());
     for (int k = 0; k < 6; ++k)
-      if (const double value = own.eigenvalues()[k]; value > least && value > 0)
-        root_.back() += own.eigenvectors().col(k) * own.eigenvectors().col(k).transpose() / std::sqrt(value);
+      if (const double value = own.values[k]; value > least && value > 0) root_.back() += own.vectors.col(k) * own.vectors.col(k).transpose() / std::sqrt(value);
   }
 }
 
@@ -46,7 +46,7 @@ double InverseMass::at(int body, const Vec3& arm) const {
   Eigen::Matrix<double, 3, 6> J;
   J << Mat3::Identity(), -cross_matrix(arm) / kinematics_.lever(body);
   const Eigen::Matrix<double, 3, 6> B = J * root_[body];
-  return Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(B * B.transpose()), Eigen::EigenvaluesOnly).eigenvalues()[2];
+  return symmetric_eigen(B * B.transpose()).values[2];
 }
 
 double InverseMass::at(int particle) const {

@@ -1,5 +1,6 @@
 #include "dynamics/timestep.hpp"
 
+#include "core/dense.hpp"
 #include "dynamics/contact_damping.hpp"
 #include "dynamics/inverse_mass.hpp"
 #include "dynamics/lammps_bodies.hpp"
@@ -7,7 +8,6 @@
 #include "energy/wall_group.hpp"
 #include "laws/hertz_contact.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <limits>
@@ -39,9 +39,8 @@ double largest_eigenvalue(Energy& energy, const InverseMass& mass, int& iteratio
     const bool ended = iterations == n || !(beta > 1e-14 * std::abs(diagonal.back()));
     if (ended || iterations % between_looks == 0) {
       const auto k = static_cast<Eigen::Index>(diagonal.size());
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-      solver.computeFromTridiagonal(Eigen::Map<Vector>(diagonal.data(), k), Eigen::Map<Vector>(beside.data(), k - 1));
-      const double theta = solver.eigenvalues()[k - 1], rest = beta * std::abs(solver.eigenvectors()(k - 1, k - 1));
+      const EigenPairs ritz = tridiagonal_eigen(Eigen::Map<Vector>(diagonal.data(), k), Eigen::Map<Vector>(beside.data(), k - 1));
+      const double theta = ritz.values[k - 1], rest = beta * std::abs(ritz.vectors(k - 1, k - 1));
       upper = theta + rest;
       if (ended || rest <= accuracy * theta || (theta <= 0 && rest == 0)) break;
     }

@@ -243,11 +243,12 @@ void Assembler::multiply(const Field& v, Field& out) {
   gather(products_, out);
 }
 
-Form Assembler::form(const Field& u, const Field& v) const {
+BilinearForm Assembler::form(const Field& u, const Field& v, const State* state) const {
   ExactSum sum;
   double size = 0;
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const ElementGroup& group = *groups_[k];
+    if (state && group.forms(*state, u, v, sum, size)) continue;
     for (int e = 0; e < group.elements(); ++e) {
       double left[most_local], right[most_local];
       relative_motion(u, group.stencil(e), group.anchored(), left);

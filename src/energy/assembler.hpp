@@ -14,14 +14,6 @@ struct GatherList {
   std::vector<std::int64_t> index;
 };
 
-/// uᵀHv, a sum over the elements, and the sum of the sizes of all that is added to form it,
-///   size = Σ_e |u_e|ᵀ |H_e| |v_e|,   u_e, v_e the parts of u and v that the element sees:
-/// a few ε times it bound what rounding does to the value, however much of it cancels (Higham 2002, Accuracy and Stability of
-/// Numerical Algorithms, §3.1).
-struct Form {
-  double value = 0, size = 0;
-};
-
 /// Everything that depends on the topology alone is made once, here; evaluations overwrite values only.
 class Assembler {
  public:
@@ -49,9 +41,9 @@ class Assembler {
   /// H v for a field v that is zero at prescribed coordinates (3 × sites), element by element on differences of v, so
   /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
   void multiply(const Field& v, Field& out);
-  /// vᵀHv in the same way, summed with compensation: relative error about ε N² for the bending mode of N particles.
-  double quadratic_form(const Field& v) const { return form(v, v).value; }
-  Form form(const Field& u, const Field& v) const;
+  /// uᵀHv in the same way, summed with compensation. `state`: of the last evaluation, where laws that form it better than their Hessian's
+  /// entries do so anew; null: all of it from the entries.
+  BilinearForm form(const Field& u, const Field& v, const State* state) const;
   /// Largest force of one element on one site, from the last evaluation: the scale of internal forces.
   double largest_element_force() const;
 

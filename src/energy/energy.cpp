@@ -154,7 +154,7 @@ void Energy::evaluate(const State& state, bool with_hessian, const State* from) 
   finish_gradient(state);
   if (!with_hessian) return;
   assembler_->sum_hessian();
-  evaluated_ = state;
+  evaluated_ = state, predicted_ = from != nullptr;
   anchor_idle();
 }
 
@@ -217,8 +217,8 @@ Vector Energy::multiply(const Vector& v, bool anchored) const {
   return hv;
 }
 
-Form Energy::form(const Vector& u, const Vector& v) const {
-  Form form = assembler_->form(kinematics_.extend(u), kinematics_.extend(v));
+BilinearForm Energy::form(const Vector& u, const Vector& v) const {
+  BilinearForm form = assembler_->form(kinematics_.extend(u), kinematics_.extend(v), predicted_ ? nullptr : &evaluated_);
   const SparseMatrix& h = hessian();
   for (const int d : idle_) {
     const double part = h.valuePtr()[h.outerIndexPtr()[d]] * u[d] * v[d];

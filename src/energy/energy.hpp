@@ -58,11 +58,12 @@ class Energy {
   Vector load_force() const;
   /// Whether the load factor scales any such force.
   bool loads_scaled() const;
-  /// H v (dofs), vᵀHv and uᵀHv formed from differences of u and v element by element: more digits than the assembled Hessian has.
+  /// H v (dofs), vᵀHv and uᵀHv formed from differences of u and v element by element: more digits than the assembled Hessian has, and of
+  /// bonds more than the entries of an element's Hessian (FormLaw).
   /// Idle dofs have the stiffness that they have in hessian().
   Vector multiply(const Vector& v, bool anchored = true) const;
   double quadratic_form(const Vector& v) const { return form(v, v).value; }
-  Form form(const Vector& u, const Vector& v) const;
+  BilinearForm form(const Vector& u, const Vector& v) const;
   /// Where the last evaluation with Hessian was.
   const State& evaluated() const { return evaluated_; }
   /// Largest part of the way from → to, in (0, 1], on which nothing passes through anything (see free_passage).
@@ -114,7 +115,8 @@ class Energy {
   Field constant_load_, scaled_load_;                         // F₀, F₁: 3 × sites, of what nothing carries
   Field site_gradient_;
   Vector gradient_, row_sums_;
-  State evaluated_;                                           // with Hessian, last
+  State evaluated_;                                           // with Hessian, last …
+  bool predicted_ = false;                                    // … which takes forces predicted from another state
   int pattern_version_ = 0;
   EnergyTerms terms_;
   double force_scale_ = 0, force_floor_ = 0;

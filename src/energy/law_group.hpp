@@ -29,6 +29,9 @@ class ElementGroup {
   /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
   virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
 
+  /// Adds uᵀHv at the state, and its size, for fields of all sites (see BilinearForm); false if the entries of the Hessian are as good.
+  virtual bool forms(const State&, const Field&, const Field&, ExactSum&, double&) const { return false; }
+
   /// Whether the energy of an element is another one where the element is moved as a whole.
   virtual bool anchored() const { return sites() == 1; }
   /// Whether the energy depends on the load factor by itself, not through the sites: a moving wall, growth. Then
@@ -102,6 +105,20 @@ class LawGroup final : public ElementGroup {
     } else
       (void)state, (void)from, (void)value;
     return PredictingLaw<L>;
+  }
+
+  bool forms(const State& state, const Field& u, const Field& v, ExactSum& sum, double& size) const override {
+    if constexpr (FormLaw<L>) {
+      at(state);
+      for (int e = 0; e < elements(); ++e) {
+        Eigen::Matrix<double, 3, n> left, right;
+        for (int i = 0; i < n; ++i) left.col(i) = u.col(stencils_[e][i]), right.col(i) = v.col(stencils_[e][i]);
+        const BilinearForm form = laws_[kind_[e]].form(gather(state, e), left, right);
+        sum.add(form.value), size += form.size;
+      }
+    } else
+      (void)state, (void)u, (void)v, (void)sum, (void)size;
+    return FormLaw<L>;
   }
 
   bool anchored() const override { return AnchoredLaw<L>; }

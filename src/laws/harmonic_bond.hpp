@@ -43,6 +43,19 @@ struct HarmonicBond {
     return K * e * e;
   }
 
+  /// uᵀHv = 2K [ (1 − t)(n·w)(n·z) + t w·z ],  w = u₁ − u₀,  z = v₁ − v₀,  t = 1 − r₀/r: of a motion across the bond the factor t keeps its digits,
+  /// which are lost where 2K n nᵀ is rounded entry by entry.
+  BilinearForm form(const Points<2>& x, const Eigen::Matrix<double, 3, 2>& u, const Eigen::Matrix<double, 3, 2>& v) const {
+    const ExactVector d = x.edge(0, 1);
+    const double r = d.hi.norm(), t = r > 0 ? stretch(d) / r : 1.0;
+    const Vec3 n = r > 0 ? Vec3(d.hi / r) : Vec3(Vec3::Zero()), w = u.col(1) - u.col(0), z = v.col(1) - v.col(0);
+    const double along = n.dot(w), also = n.dot(z);
+    const double most = n.cwiseAbs().dot(w.cwiseAbs()), also_most = n.cwiseAbs().dot(z.cwiseAbs());       // what n·w and n·z are summed from
+    return {2 * K * ((1 - t) * along * also + t * w.dot(z)),
+            2 * K * (std::abs(1 - t) * (most * std::abs(also) + std::abs(along) * also_most + epsilon * most * also_most) +
+                     std::abs(t) * w.cwiseAbs().dot(z.cwiseAbs()))};
+  }
+
   /// ∂(∇U)/∂λ for given ∂K/∂λ and ∂r₀/∂λ.
   Eigen::Matrix<double, 6, 1> gradient_rate(const Points<2>& x, const HarmonicBond& rate) const {
     const ExactVector d = x.edge(0, 1);

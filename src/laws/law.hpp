@@ -33,6 +33,14 @@ struct Local {
   auto block(int i, int j) { return hessian.template block<3, 3>(3 * i, 3 * j); }
 };
 
+/// uᵀHv, a sum over the elements, and the sum of the sizes of all that is added to form it,
+///   size = Σ_e |u_e|ᵀ |H_e| |v_e|,   u_e, v_e the parts of u and v that the element sees:
+/// a few ε times it bound what rounding does to the value, however much of it cancels (Higham 2002, Accuracy and Stability of
+/// Numerical Algorithms, §3.1).
+struct BilinearForm {
+  double value = 0, size = 0;
+};
+
 /// A law says on how many sites it acts, and gives its energy alone or with both derivatives.
 /// Outside its domain it returns +inf; it never throws.
 template <class L>
@@ -45,6 +53,12 @@ concept Law = requires(const L& law, const Points<L::sites>& x) {
 /// A law whose elements stand in space, like weights: only the sum of all of them may be free of where that is.
 template <class L>
 concept AnchoredLaw = Law<L> && (L::sites == 1 || requires { requires L::anchored; });
+
+/// A law that forms uᵀHv (u, v: 3 × n, in columns) with less rounding than the entries of its Hessian have.
+template <class L>
+concept FormLaw = Law<L> && requires(const L& law, const Points<L::sites>& x, const Eigen::Matrix<double, 3, L::sites>& u) {
+  { law.form(x, u, u) } -> std::same_as<BilinearForm>;
+};
 
 /// A law with parameters that may change: ∂(∇U)/∂λ for given rates ∂/∂λ of its parameters, which are those of `rate`.
 template <class L>

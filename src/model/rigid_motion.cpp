@@ -1,9 +1,8 @@
 #include "model/rigid_motion.hpp"
 
+#include "core/dense.hpp"
 #include "model/entities.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include <numeric>
@@ -46,11 +45,11 @@ std::vector<Twist> echelon(Eigen::MatrixXd basis) {
 std::vector<Twist> null_space(const Eigen::MatrixXd& constraints) {
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(constraints.rows(), 6), 6);
   padded.topRows(constraints.rows()) = constraints;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(padded, Eigen::ComputeFullV);
-  const double most = std::max(svd.singularValues()[0], 1e-300);
+  const Singular svd = singular_values(padded);
+  const double most = std::max(svd.values[0], 1e-300);
   int rank = 0;
-  while (rank < 6 && svd.singularValues()[rank] > small * most) ++rank;
-  return echelon(svd.matrixV().rightCols(6 - rank).transpose());
+  while (rank < 6 && svd.values[rank] > small * most) ++rank;
+  return echelon(svd.v.rightCols(6 - rank).transpose());
 }
 
 // A rotation is told by its axis and the axis' point closest to the origin.
@@ -227,10 +226,7 @@ std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& sta
         for (int k = 0; k < 6; ++k) row[k] = velocity(Twist::Unit(k), m)[c];
         rows.conservativeResize(rows.rows() + 1, 6);
         rows.row(rows.rows() - 1) = row;
-        if (rows.rows() > 64) {                                // keep the triangle only
-          const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
-          rows = Eigen::MatrixXd(qr.matrixQR().topRows(6).triangularView<Eigen::Upper>());
-        }
+        if (rows.rows() > 64) rows = triangle(rows);
       }
     for (const Twist& t : null_space(rows)) {
       RigidMotion motion;

@@ -5,9 +5,6 @@
 #include "path/contact_event.hpp"
 #include "solve/contact_equilibrium.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 
@@ -50,11 +47,11 @@ class Explained {
         v.col(static_cast<Eigen::Index>(m)) = energy_.kinematics().restrict(part[m].velocity_field(energy_.kinematics().sites()));
         v.col(static_cast<Eigen::Index>(m)) /= std::max(v.col(static_cast<Eigen::Index>(m)).norm(), 1e-300);
       }
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(v - zero_ * (zero_.transpose() * v)), Eigen::ComputeThinV);
+      const Singular svd = singular_values(v - zero_ * (zero_.transpose() * v));
       Eigen::Index inside = 0;
-      while (inside < svd.singularValues().size() && svd.singularValues()[svd.singularValues().size() - 1 - inside] <= close) ++inside;
+      while (inside < svd.values.size() && svd.values[svd.values.size() - 1 - inside] <= close) ++inside;
       if (inside == 0) continue;
-      Eigen::MatrixXd c = svd.matrixV().rightCols(inside);
+      Eigen::MatrixXd c = svd.v.rightCols(inside);
       for (std::size_t m = 0; m < part.size(); ++m)
         c.row(static_cast<Eigen::Index>(m)) /= std::max(energy_.kinematics().restrict(part[m].velocity_field(energy_.kinematics().sites())).norm(), 1e-300);
       take(combined(part, c));
@@ -68,9 +65,8 @@ class Explained {
     Eigen::MatrixXd span(zero_.rows(), static_cast<Eigen::Index>(motions.size()));
     for (std::size_t k = 0; k < motions.size(); ++k)
       span.col(static_cast<Eigen::Index>(k)) = energy_.kinematics().restrict(motions[k].velocity_field(energy_.kinematics().sites()));
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(span);
     for (Eigen::Index j = 0; j < zero_.cols(); ++j)
-      if ((span * qr.solve(zero_.col(j)) - zero_.col(j)).norm() > close) return;
+      if ((span * least_squares(span, zero_.col(j)) - zero_.col(j)).norm() > close) return;
     names_.push_back("sliding or rolling of what is in contact (no force opposes it)");
     rigid_ = zero_;
   }
@@ -188,6 +184,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   }
   s.critical = named ? 0 : inertia.zero;
   s.stable = s.negative == 0 && named;
+  if (!named) e.zero_modes = phase_conditions(energy, state, e.zero_modes);
   if (inertia.zero > 0) newton.factors().factorize_holding(e.zero_modes);   // else there is a factor that has just told so
   e.tangent = newton.factors().solve_holding(-energy.load_derivative());
   // Where f·H⁻¹f < 0, f = −∂g/∂λ of the loads, one of the negative directions is one on which they do work.
@@ -262,6 +259,36 @@ bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to) {
   return kinematics.difference(state, to.point.state).norm() <= same_end * kinematics.difference(from.point.state, to.point.state).norm();
 }
 
+Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
+  constexpr double enough = 0.3;              // of a mode
+  const Kinematics& kinematics = energy.kinematics();
+  if (!energy.model().bodies.empty() || modes.cols() == 0) return modes;
+  const std::vector<int> part = connected_parts(energy.model());
+  const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
+  std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(parts));
+  for (std::size_t p = 0; p < part.size(); ++p) members[static_cast<std::size_t>(part[p])].push_back(static_cast<Eigen::Index>(p));
+  Eigen::MatrixXd rows = modes;
+  for (Eigen::Index j = 0; j < modes.cols(); ++j) {
+    Field v = kinematics.extend(modes.col(j));
+    for (const std::vector<Eigen::Index>& sites : members) {
+      const auto count = static_cast<Eigen::Index>(sites.size());
+      Vec3 mid = Vec3::Zero();
+      for (const Eigen::Index p : sites) mid += state.position.col(p) / static_cast<double>(count);
+      Eigen::MatrixXd rigid(3 * count, 6);
+      Vector moved(3 * count);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const Vec3 arm = state.position.col(sites[k]) - mid;
+        for (int c = 0; c < 3; ++c) rigid.block<3, 1>(3 * k, c) = Vec3::Unit(c), rigid.block<3, 1>(3 * k, 3 + c) = Vec3::Unit(c).cross(arm);
+        moved.segment<3>(3 * k) = v.col(sites[k]);
+      }
+      moved -= rigid * least_squares(rigid, moved);
+      for (Eigen::Index k = 0; k < count; ++k) v.col(sites[k]) = moved.segment<3>(3 * k);
+    }
+    if (const Vector row = kinematics.restrict(v); row.norm() > enough) rows.col(j) = row.normalized();
+  }
+  return orthonormal(rows);
+}
+
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
   if (a.cols() > 0) both.leftCols(a.cols()) = a;
@@ -305,6 +332,14 @@ Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const 
   return both;
 }
 
+Vector symmetric_direction(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
+  const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
+  if (modes.cols() != 2 || change.rows() == 0) return modes.col(0);
+  const Eigen::Vector2d by_second = change.transpose() * change.col(1);
+  if (!(by_second.norm() > 0)) return modes.col(0);
+  return (modes * Eigen::Vector2d(by_second[1], -by_second[0])).normalized();
+}
+
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {
   constexpr double close_values = 1e-6;       // lengths that a symmetry makes equal
   Eigen::MatrixXd left = modes, chosen(modes.rows(), 0);
@@ -315,10 +350,10 @@ Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::Matri
       Eigen::MatrixXd along = left;
       for (int d = 0; d < kinematics.dofs(); ++d)
         if (kinematics.coordinate_of(d) != c) along.row(d).setZero();
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(along, Eigen::ComputeThinV);
-      if (svd.singularValues()[0] < 0.5) continue;
-      best = left * svd.matrixV().col(0);
-      told = svd.singularValues()[1] < (1 - close_values) * svd.singularValues()[0];
+      const Singular svd = singular_values(along);
+      if (svd.values[0] < 0.5) continue;
+      best = left * svd.v.col(0);
+      told = svd.values[1] < (1 - close_values) * svd.values[0];
       break;
     }
     if (!told) {                                            // all alike: the one that moves a single coordinate most, the first such
@@ -338,8 +373,7 @@ Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::Matri
     chosen.rightCols(1) = best;
     // What is left of the span, orthonormal again.
     const Eigen::MatrixXd rest = left - best * (best.transpose() * left);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rest, Eigen::ComputeThinU);
-    left = svd.matrixU().leftCols(left.cols() - 1).eval();
+    left = singular_values(rest).u.leftCols(left.cols() - 1).eval();
   }
   return chosen;
 }

@@ -29,6 +29,12 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 /// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.
 bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
 
+/// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it: along each
+/// mode the part of its displacement field that is no rigid motion of what is glued, restricted to the dofs. Coordinates that supports
+/// choose carry a symmetric change of shape together with a rigid motion; a condition on the shape does not see that. Where little is left,
+/// as of a mode that is a rigid motion itself, the mode. Orthonormal.
+Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
+
 /// The columns of both, for what is held together.
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
@@ -36,8 +42,12 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 /// first one follows x as much as the span can, else y, else z, and each has a positive sum or leading entry.
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes);
 
-/// The same for the modes of an event. Two of them in a plane: the first is the one that bends a single angle most, the first such angle,
-/// so that where a ring buckles the branch of it is symmetric about a particle.
+/// The same for the modes of an event. Two of them in a plane: the second is the one that leaves a single angle as it is, of the angles that
+/// others bend most the first, so that where a ring buckles it is antisymmetric about a particle.
 Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
+
+/// Of such modes the direction that is symmetric about the same particle: it bends angles in a way that is orthogonal to that of the second
+/// mode. (Displacements, which supports choose, tell it not.) Of others the first.
+Vector symmetric_direction(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
 
 }  // namespace elamin

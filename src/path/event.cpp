@@ -1,7 +1,5 @@
 #include "path/event.hpp"
 
-#include <Eigen/SVD>
-
 namespace elamin {
 
 namespace {
@@ -10,10 +8,10 @@ namespace {
 Eigen::MatrixXd without(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& modes) {
   if (zero.cols() == 0) return zero;
   const Eigen::MatrixXd rest = zero - modes * (modes.transpose() * zero);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rest, Eigen::ComputeThinU);
+  const Singular svd = singular_values(rest);
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > 0.5) ++rank;
-  return svd.matrixU().leftCols(rank);
+  while (rank < svd.values.size() && svd.values[rank] > 0.5) ++rank;
+  return svd.u.leftCols(rank);
 }
 
 }  // namespace

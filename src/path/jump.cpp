@@ -4,6 +4,10 @@
 
 namespace elamin {
 
+namespace {
+constexpr int most_downhill = 50;             // iterations
+}
+
 Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what) {
   Energy& energy = newton.energy();
   const double at = event.at.point.state.load_factor;
@@ -18,7 +22,8 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
   }
   energy.evaluate(from);
   const double before = energy.last_terms().total();
-  Report report = newton.minimise(state, Pace::downhill);
+  // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
+  Report report = newton.minimise(state, Pace::downhill, most_downhill);
   if (report.status == Status::not_converged) report = newton.minimise(state);
   what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
   if (report.converged()) return assess(newton, state, report);

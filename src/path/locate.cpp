@@ -2,9 +2,6 @@
 
 #include "path/root.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,10 +21,9 @@ EigenPairs lowest_but(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& kno
   const double guess = e.lowest.values.size() > 0 ? 2 * e.lowest.values.cwiseAbs().maxCoeff() : 0.0;
   const EigenPairs pairs = e.lowest = newton.factors().lowest(count + static_cast<int>(known.cols()), guess, 1e-11, e.lowest.vectors);
   if (known.cols() == 0 || pairs.values.size() <= known.cols()) return pairs;
-  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(pairs.vectors.transpose() * known).householderQ();
-  const Eigen::MatrixXd others = Q.rightCols(pairs.values.size() - known.cols());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(others.transpose() * pairs.values.asDiagonal() * others);
-  return {small.eigenvalues(), pairs.vectors * (others * small.eigenvectors())};
+  const Eigen::MatrixXd others = complement(pairs.vectors.transpose() * known);
+  const EigenPairs small = symmetric_eigen(others.transpose() * pairs.values.asDiagonal() * others);
+  return {small.values, pairs.vectors * (others * small.vectors)};
 }
 
 // The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.

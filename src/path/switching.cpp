@@ -133,10 +133,9 @@ Eigen::MatrixXd neutral(const Beside& side, const Eigen::MatrixXd& modes, const 
   Eigen::MatrixXd found(modes.rows(), 0);
   for (Eigen::Index j = 0; j < side.e.zero_modes.cols(); ++j) {
     Vector v = modes * (modes.transpose() * side.e.zero_modes.col(j));
-    v -= side.leaving * side.leaving.dot(v);
     if (zero.cols() > 0) v -= zero * (zero.transpose() * v);
     v -= found * (found.transpose() * v);
-    if (v.norm() > 0.5) found = side_by_side(found, v.normalized());
+    if ((v - side.leaving * side.leaving.dot(v)).norm() > 0.3) found = side_by_side(found, v.normalized());
   }
   return found;
 }
@@ -153,10 +152,15 @@ std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point,
     rest << modes.leftCols(i), modes.rightCols(modes.cols() - 1 - i);
     return rest;
   };
+  const Vector symmetric = symmetric_direction(newton.energy(), branch_point.at.point.state, modes);
   if (modes.cols() > 1)
-    if (const auto first = s.leave(modes.col(0), s.amplitude(modes.col(0), others(0)))) family = neutral(*first, modes, branch_point.at.zero_modes);
+    if (const auto first = s.leave(symmetric, s.amplitude(symmetric, others(0)))) {
+      family = neutral(*first, modes, branch_point.at.zero_modes);
+      if (modes.cols() == 2 && family.cols() == 1) family = modes.col(1);          // by symmetry, where `first` has drifted along the family
+      family = phase_conditions(newton.energy(), branch_point.at.point.state, family);
+    }
   if (modes.cols() == 1 + family.cols()) {
-    rays_found.push_back(modes.col(0));
+    rays_found.push_back(symmetric);
     s.hold(family);
   } else {
     family.resize(Eigen::NoChange, 0);

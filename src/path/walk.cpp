@@ -44,6 +44,13 @@ void name_neutral(Stability& s) {
   s.stable = s.negative == 0;
 }
 
+// Of zero modes those along which no force acts at the last evaluation: what a force acts along is neutral no more.
+Eigen::MatrixXd without_force(const Energy& energy, const Eigen::MatrixXd& zero) {
+  const Vector along = zero.transpose() * energy.gradient();
+  if (zero.cols() < 2 || along.norm() == 0) return Eigen::MatrixXd(zero.rows(), 0);
+  return zero * complement(along);
+}
+
 }  // namespace
 
 Walk::Walk(Newton& newton, Equilibrium start, Direction direction, int negative, ContactSet closed, Metric metric, WalkOptions options)
@@ -131,6 +138,11 @@ std::optional<Waypoint> Walk::next() {
 // The equilibrium a step further, if it is on the same branch.
 std::optional<Walk::Candidate> Walk::reach(const Arc& arc, double s, std::string& why) {
   Equilibrium e = arc.at(s, current_);
+  if (!e.point.report.converged() && neutral_.cols() > 0) {
+    Equilibrium from = current_;
+    from.zero_modes = without_force(newton_.energy(), from.zero_modes);
+    e = arc.at(s, from);
+  }
   if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
   if (!stays_on_branch(arc, s, e, why)) return {};
   carry_neutral(e);
@@ -171,13 +183,14 @@ void Walk::carry_neutral(Equilibrium& e) {
   const Eigen::Index count = pairs.values.size();
   for (Eigen::Index j = 0; j < count; ++j) {
     const Vector& v = pairs.vectors.col(j);
-    if ((neutral_.transpose() * v).norm() < same_mode) continue;
-    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
+    const Eigen::MatrixXd held = phase_conditions(newton_.energy(), e.point.state, v);
+    if ((neutral_.transpose() * held).norm() < same_mode) continue;
+    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * held).norm() > 0.5) continue;   // it is one already
     double next = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < count; ++i)
       if (i != j) next = std::min(next, std::abs(pairs.values[i]));
     if (!(std::abs(pairs.values[j]) <= next_to_nothing * next) || !std::isfinite(next)) continue;
-    e.zero_modes = side_by_side(e.zero_modes, v);
+    e.zero_modes = side_by_side(e.zero_modes, held);
     ++s.zero, ++s.critical;
     s.stable = false;
     if (pairs.values[j] < 0) --s.negative, s.negative_rigid = std::min(s.negative_rigid, s.negative);

@@ -1,12 +1,12 @@
 #include "problem/build_lammps.hpp"
 
+#include "core/dense.hpp"
 #include "problem/build_checks.hpp"
 #include "problem/lammps_data.hpp"
 #include "problem/stages.hpp"
 #include "problem/state_tail.hpp"
 #include "problem/suggest.hpp"
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,9 +67,9 @@ Eigen::Quaterniond rotation_between(const std::vector<Vec3>& r, const std::vecto
   if (r.size() == 2) return Eigen::Quaterniond::FromTwoVectors(r[1] - r[0], v[1] - v[0]);   // a rod: without a turn about itself
   Mat3 m = Mat3::Zero();
   for (std::size_t k = 0; k < r.size(); ++k) m += v[k] * r[k].transpose();
-  const Eigen::JacobiSVD<Mat3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat3 flip = Vec3(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1).asDiagonal();
-  return Eigen::Quaterniond(Mat3(svd.matrixU() * flip * svd.matrixV().transpose())).normalized();
+  const Singular svd = singular_values(m);
+  const Mat3 flip = Vec3(1, 1, (svd.u * svd.v.transpose()).determinant() < 0 ? -1 : 1).asDiagonal();
+  return Eigen::Quaterniond(Mat3(svd.u * flip * svd.v.transpose())).normalized();
 }
 
 /// How far a shape turned by q is from another one, relative to its size; infinity if they do not compare.

@@ -1,6 +1,7 @@
 #include "problem/lammps_body.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "core/dense.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -64,7 +65,7 @@ void take_mesh(Numbers& numbers, const std::array<int, 3>& counts, int lists, Co
 }  // namespace
 
 std::string wrong_inertia(const Mat3& inertia) {
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();   // ascending
+  const Vec3 moments = symmetric_eigen(inertia).values;   // ascending
   const double allowed = 1e-6 * moments.cwiseAbs().maxCoeff();
   if (moments[0] < -allowed)
     return fmt::format("the inertia has the principal moment {:.6g}; none may be negative", moments[0]);

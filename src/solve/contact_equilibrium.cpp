@@ -3,9 +3,8 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/ritz.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -354,18 +353,14 @@ EigenPairs ContactEquilibrium::lowest(const State& state, int count) {
   count = std::min(count, static_cast<int>(block));
   const double sigma = std::max(factors_.zero_level(), epsilon * scale_);       // a shift that leaves nothing negative
   const auto positive = first_shift(sigma, 8 * sigma, 8, [&](double s) { return factorize(s) && pivoted_.negative() <= contacts; });
-  Eigen::MatrixXd x(n, block), hx(n, block);
+  Eigen::MatrixXd x(n, block);
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::sin(1 + 12.9898 * static_cast<double>(i));
   const Vector none = Vector::Zero(contacts);
   Vector values = Vector::Zero(block), before;
   for (int k = 0; positive && k < 100 && !interrupted(); ++k) {
     for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve(x.col(j).normalized(), none).p;
-    x = Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(n, block);
-    for (Eigen::Index j = 0; j < block; ++j) hx.col(j) = energy_.multiply(x.col(j));
-    const Eigen::MatrixXd projected = x.transpose() * hx;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small((projected + projected.transpose()) / 2);
-    before = values, values = small.eigenvalues();
-    x = x * small.eigenvectors();
+    x = orthonormal(x);
+    before = values, values = rotate_to_ritz(energy_, x);
     const double change = (values - before).head(count).cwiseAbs().maxCoeff(), size = values.head(count).cwiseAbs().maxCoeff();
     if (k > 3 && change <= 1e-6 * size + factors_.zero_level() / 64) break;
   }

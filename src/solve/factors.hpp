@@ -1,5 +1,6 @@
 #pragma once
 // What can be asked of the Hessian at a state: is it positive definite, its inertia, its lowest eigenpairs.
+#include "core/dense.hpp"
 #include "energy/energy.hpp"
 #include "solve/cholesky.hpp"
 #include "solve/pivoted.hpp"
@@ -14,12 +15,6 @@ namespace elamin {
 struct Inertia {
   int negative = 0, zero = 0;
   bool positive_definite() const { return negative == 0 && zero == 0; }
-};
-
-/// Eigenvalues ascending [force/length], orthonormal eigenvectors as columns (dofs × count).
-struct EigenPairs {
-  Vector values;
-  Eigen::MatrixXd vectors;
 };
 
 /// Both factorisations of one energy's Hessian with their symbolic analyses, which are made anew only when contacts change
@@ -59,6 +54,10 @@ class Factors {
   bool factorize_holding(const Eigen::MatrixXd& held);
   /// p of the system above; the factors must be those of factorize_holding (or of inertia, then Z is empty).
   Vector solve_holding(const Vector& b);
+  /// p of |H| p = b, |H| being H with the signs of its negative eigenvalues changed, where the last inertia() had to tell signs that a factor
+  /// cannot; none elsewhere. Along zero eigenvalues motions are
+  /// held as by hold_zero_modes. cholesky() then holds H + σI.
+  std::optional<Vector> solve_convex(const Vector& b);
   /// (p, δ) of the system that has one row and one column more, in the space orthogonal to `held`,
   ///   H p + c δ = b,   r·p + d δ = β,
   /// with the factors of factorize_holding: mixed block elimination, which is stable although H be singular to rounding,
@@ -94,6 +93,7 @@ class Factors {
   int factorizations_ = 0;
   struct Near {                                  // of the last inertia that needed it, as in inertia.cpp
     Eigen::MatrixXd x, w, r, t;                  // X, H⊥⁻¹R, R, T
+    Vector error;                                // of the eigenvalues of T by rounding
     Solve outside;                               // H⊥⁻¹, or near to it
   } near_;
   bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first

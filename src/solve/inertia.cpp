@@ -10,22 +10,59 @@
 //   T = S − Rᵀ H⊥⁻¹ R,
 // for any X whatever. H⊥ has no small eigenvalue: a factor of H with borders X tells its inertia. T is small; S is formed element by
 // element, and RᵀH⊥⁻¹R is of second order in the error of X (Parlett 1980, The Symmetric Eigenvalue Problem, §11.7), so that it need not be
-// known well; X ← X − H⊥⁻¹R makes it vanish. An eigenvalue of T is zero if it is within the error of its own form (Form::size, ε) plus a part of
+// known well; X ← X − H⊥⁻¹R makes it vanish. An eigenvalue of T is zero if it is within the error of its own form (BilinearForm::size, ε) plus a part of
 // the second-order term plus what forces out of balance, g, leave of a motion that costs nothing: it goes on a curve, a rotation at the rate φ on
-// one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ.
+// one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ. So X spans the eigenvectors to eigenvalues up to 2|g|φ too.
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "model/rigid_motion.hpp"
 #include "solve/factors.hpp"
 #include "solve/limits.hpp"
 #include "solve/ritz.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 namespace elamin {
+
+namespace {
+
+// Curvatures φ of paths of unit speed that may cost nothing [1/length]: of what is glued its rotation, as bonds see it and as a whole, of
+// what touches its way around the other.
+class Curvature {
+ public:
+  explicit Curvature(const Energy& energy) : energy_(energy) {
+    const Model& model = energy.model();
+    for (const RigidMotion& m : free_rigid_motions(model, energy.evaluated())) {
+      if (m.translation || m.size == 0) continue;
+      const Vector u = energy.kinematics().restrict(m.velocity_field(energy.kinematics().sites()));
+      if (u.norm() > 0) rotations_.push_back({u.normalized(), m.twist.tail<3>().norm() / m.size / u.norm()});
+    }
+    touching_ = !(model.contacts.empty() && model.walls.empty() && model.rounded.empty());
+  }
+
+  double of(const Vector& v) const {
+    double most = distortion(energy_, energy_.evaluated(), v);
+    if (touching_) most = std::max(most, movement(energy_, v));
+    for (const auto& [u, rate] : rotations_) most = std::max(most, std::abs(u.dot(v)) * rate);
+    return most;
+  }
+
+  /// The largest of unit vectors, but for bonds.
+  double largest() const {
+    double most = touching_ ? 1 / energy_.kinematics().smallest_size() : 0.0;
+    for (const auto& [u, rate] : rotations_) most = std::max(most, rate);
+    return most;
+  }
+
+ private:
+  const Energy& energy_;
+  bool touching_ = false;
+  struct Rotation { Vector u; double rate; };
+  std::vector<Rotation> rotations_;
+};
+
+}  // namespace
 
 // The eigenvectors to eigenvalues within ± reach, near enough to span them, by block inverse iteration with a factor near zero; none if
 // there are too many.
@@ -61,10 +98,9 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   int below = 0;
   if (positive) {
     const Eigen::MatrixXd y = cholesky_.solve(x);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(x.transpose() * y);
-    near_.outside = [this, x, y, lu](const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
+    near_.outside = [this, x, y, within = Eigen::MatrixXd(x.transpose() * y)](const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
       const Eigen::MatrixXd z = cholesky_.solve(b);
-      return z - y * lu.solve(x.transpose() * z);
+      return z - y * solved(within, x.transpose() * z);
     };
   } else {
     if (!factorize_beside(x, beside_, beside_version_, beside_borders_)) return {};
@@ -72,6 +108,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     near_.outside = [this](const Eigen::MatrixXd& b) { return beside_->solve(b); };
   }
   const double out_of_balance = energy_.gradient().norm();
+  const Curvature curvature(energy_);
   Inertia inertia;
   for (int k = 0;; ++k) {
     const Eigen::Index m = x.cols();
@@ -80,24 +117,24 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     for (Eigen::Index j = 0; j < m; ++j) {
       r.col(j) = energy_.multiply(x.col(j));
       for (Eigen::Index i = 0; i <= j; ++i) {
-        const Form form = energy_.form(x.col(i), x.col(j));
+        const BilinearForm form = energy_.form(x.col(i), x.col(j));
         s(i, j) = s(j, i) = form.value;
         if (i == j) size[j] = form.size;
       }
-      turn[j] = distortion(energy_, energy_.evaluated(), x.col(j));
+      turn[j] = curvature.of(x.col(j));
     }
     r -= x * s;
     r -= x * (x.transpose() * r);
     w = near_.outside(r);
     w -= x * (x.transpose() * w);
     const Eigen::MatrixXd product = r.transpose() * w, second = (product + product.transpose()) / 2;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(s - second);
-    const Eigen::MatrixXd& v = small.eigenvectors();
+    const EigenPairs small = symmetric_eigen(s - second);
+    const Eigen::MatrixXd& v = small.vectors;
     const Eigen::MatrixXd weight = v.cwiseAbs2().transpose();
-    const Vector rounding = limits::form_rounding * epsilon * (weight * size) + 2 * out_of_balance * (weight * turn);
+    const Vector of_forms = limits::form_rounding * epsilon * (weight * size), rounding = of_forms + 2 * out_of_balance * (weight * turn);
     const Vector unknown = (v.transpose() * second * v).diagonal().cwiseAbs();
     const Vector error = rounding + part * unknown;
-    const Vector& t = small.eigenvalues();
+    const Vector& t = small.values;
     inertia = {below, 0};
     bool clear = true;
     for (Eigen::Index j = 0; j < m; ++j) {
@@ -105,7 +142,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
       else if (t[j] < 0) ++inertia.negative;
       clear = clear && (std::abs(t[j]) > error[j] || unknown[j] <= rounding[j]);
     }
-    near_.x = x, near_.w = w, near_.r = r, near_.t = s - second;
+    near_.x = x, near_.w = w, near_.r = r, near_.t = s - second, near_.error = of_forms;
     if (clear || k == most || interrupted()) return inertia;
     x = orthonormal((x - w) * v);
   }
@@ -119,18 +156,20 @@ Inertia Factors::inertia() {
   const auto by_pivoted = [&](const Eigen::MatrixXd& b) { return pivoted().solve(b); };
   std::optional<Eigen::MatrixXd> soft;
   bool looked = false, positive = false;
+  const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * energy_.gradient().norm() * Curvature(energy_).largest()); };
   if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
     holder_ = Holder::pivoted;
-    if (smallest() > 2 * limits::doubtful * sigma) return {pivoted().negative(), 0};   // the factor stays for solutions
-    soft = soft_modes(limits::doubtful * sigma, by_pivoted), looked = true;
+    const double reach = doubtful();
+    if (smallest() > 2 * reach) return {pivoted().negative(), 0};                       // the factor stays for solutions
+    soft = soft_modes(reach, by_pivoted), looked = true;
   }
   if (!looked) {
     indefinite_ = false;
     holder_ = Holder::cholesky;
     if (try_cholesky(-sigma)) return {};
     holder_ = Holder::none;
-    if ((positive = try_cholesky(sigma))) soft = soft_modes(limits::doubtful * sigma, by_cholesky);
-    else if (pivot_near(0, sigma)) soft = soft_modes(limits::doubtful * sigma, by_pivoted);
+    if ((positive = try_cholesky(sigma))) soft = soft_modes(doubtful(), by_cholesky);
+    else if (pivot_near(0, sigma)) soft = soft_modes(doubtful(), by_pivoted);
     else return unknown;
   }
   Inertia inertia;
@@ -167,14 +206,25 @@ double Factors::smallest() {
   return estimate;
 }
 
+// |H|⁻¹ b with |T| for T, its zero eigenvalues held; after inertia(), where that resolved them.
+std::optional<Vector> Factors::solve_convex(const Vector& b) {
+  if (holder_ != Holder::resolved) return {};
+  const EigenPairs t = symmetric_eigen(near_.t);
+  Vector y = near_.outside(b);
+  y -= near_.x * (near_.x.transpose() * y);
+  Vector along = t.vectors.transpose() * (near_.x.transpose() * b - near_.r.transpose() * y);
+  const double hold = limits::hold_zero_modes * zero_level();
+  for (Eigen::Index j = 0; j < along.size(); ++j) along[j] /= std::abs(t.values[j]) <= near_.error[j] ? hold : std::abs(t.values[j]);
+  return y + (near_.x - near_.w) * (t.vectors * along);
+}
+
 // H⁻¹ b in the basis (X, X⊥), refined with products formed element by element.
 Vector Factors::solve_resolved(const Vector& b) {
   const Eigen::MatrixXd& x = near_.x;
-  const Eigen::FullPivLU<Eigen::MatrixXd> t(near_.t);
   const auto once = [&](const Vector& right) -> Vector {
     Vector y = near_.outside(right);
     y -= x * (x.transpose() * y);
-    const Vector c = t.solve(x.transpose() * right - near_.r.transpose() * y);
+    const Vector c = solved(near_.t, x.transpose() * right - near_.r.transpose() * y);
     return y + (x - near_.w) * c;
   };
   constexpr int most = 8;

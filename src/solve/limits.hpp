@@ -16,6 +16,9 @@ constexpr int most_doubtful = 40;
 /// difference of the vector on either side, one in each product.
 constexpr double form_rounding = 8;
 
+/// Rounds of inverse iteration after which eigenvalues that do not settle below σ/64 are taken for zero.
+constexpr int patience = 12;
+
 /// Of a solution that is refined: predictors need no more.
 constexpr double refined = 1e-8;
 
@@ -30,6 +33,8 @@ constexpr double armijo = 0.1;
 /// Simplified Newton corrections that bend one step back; each must shrink to this part of the one before, or the step is too long.
 constexpr int most_corrections = 6;
 constexpr double contraction = 0.7;
+/// … and where they are this part of the step there is nothing left to bend back.
+constexpr double relaxed = 0.01;
 /// Newton steps in one run that are taken unseen, where rounding hides the change of energy: as many as quadratic convergence from 1e-8
 /// and a few sets of contacts need.
 constexpr int most_unseen = 12;
@@ -39,6 +44,11 @@ constexpr double shortest_part = 1.0 / 32;
 constexpr double least_part = 1e-12;
 /// Simplified steps that take a small residual down to rounding; each halves it at least, the second is mostly the last.
 constexpr int most_polishing = 4;
+/// A saddle is left along its lowest mode where no force acts along it or along those up to so many more whose eigenvalues are at least
+/// such a part of the lowest: two that buckle alike, in space, of which one has been left already.
+constexpr int modes_looked_at = 3;
+constexpr double alike = 0.1;
+constexpr double no_push = 1e-6;                 // of the whole gradient
 /// Extents of the structure: what is that far away comes back no more.
 constexpr double lost = 100;
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace elamin {
 
@@ -112,17 +113,18 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   const Vector g = energy_.gradient();
   steady_bodies(energy_, g);
   bool left;
-  const std::optional<double> convex = make_convex(state, g, descent.shift, settled, left);
+  const std::optional<double> convex = make_convex(state, g, descent.shift, settled, std::exchange(descent.left, false), left);
   if (!convex) return without_factor();
   descent.shift = *convex;
   if (left) {
-    descent.linearised = false;
+    descent.left = true, descent.linearised = false;
     return {};
   }
   if (settled) return Halt{Status::not_converged, "a saddle could not be left along its negative curvature"};
-  const std::optional<Step> step = step_within(descent.reach, g, descent.shift);
+  std::optional<Step> step = step_within(descent.reach, g, descent.shift);
   if (!step) return without_factor();
-  return advance(state, descent, *step);
+  resolve_softest(g, descent.shift, *step);
+  return advance(state, descent, std::move(*step));
 }
 
 void Newton::look(const State& state, Descent& descent) {

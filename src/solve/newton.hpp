@@ -78,7 +78,8 @@ class Newton {
     Vector p, g, hp;             // hp = H p
     double energy, slope, curvature;
     double energy_rounding = 0;
-    bool keep_direction = false; // corrections stay orthogonal to p: along a soft p they would overshoot
+    bool resolved = false;       // M as in Factors::solve_convex
+    bool leaves = false;         // a saddle: there the gradient grows, and its sign along p tells what the energy's rounding hides
     double predicted(double alpha) const { return alpha * slope + alpha * alpha / 2 * curvature; }
     /// Rounding hides the change of energy that the step would make.
     bool hidden(double alpha) const { return std::abs(predicted(alpha)) <= energy_rounding; }
@@ -96,6 +97,7 @@ class Newton {
     double shift = 0;            // the last one: a guess for the next [force/length]
     double moved = 0;            // by the last step [length]
     int unseen = 0;              // steps whose change of energy rounding hid
+    bool left = false;           // a saddle, in the last iteration
     bool linearised = false;     // previous holds where the last step came from
     State previous = {};
     Report report = {};
@@ -119,10 +121,12 @@ class Newton {
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
   std::optional<Step> step_within(double reach, const Vector& g, double& shift);
+  bool resolve_softest(const Vector& g, double shift, Step& step);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
+  bool comes_nearer(const Step& step, double alpha);
   bool take_downhill(const State& from, const Step& step, double alpha, State& to);
   bool take_long(const State& from, const Step& step, double alpha, State& to);
-  std::optional<double> make_convex(State& state, const Vector& g, double guess, bool settled, bool& left);
+  std::optional<double> make_convex(State& state, const Vector& g, double guess, bool settled, bool before, bool& left);
   void polish(State& state, Report& report, const std::function<void(State&)>& step);
 
   Energy& energy_;

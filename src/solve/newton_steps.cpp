@@ -12,6 +12,13 @@ namespace {
 
 double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
+// Whether a force acts along a negative mode that is no stiffer by far than the lowest: Newton's step leaves the saddle along it.
+bool pushed(const EigenPairs& lowest, const Vector& g) {
+  for (Eigen::Index k = 0; k < lowest.values.size() && lowest.values[k] <= limits::alike * lowest.values[0]; ++k)
+    if (std::abs(lowest.vectors.col(k).dot(g)) > limits::no_push * g.norm()) return true;
+  return false;
+}
+
 }  // namespace
 
 // The part of p that one step may take: turns within reach, nothing longer than the whole …
@@ -46,47 +53,67 @@ bool Newton::take(const State& from, const Step& step, double alpha, Pace pace, 
   return pace == Pace::downhill ? take_downhill(from, step, alpha, to) : take_long(from, step, alpha, to);
 }
 
-// A long step is good if the energy falls but for what was not predicted of it; where rounding hides the energy, if
-// the residual falls.
+// Where rounding hides the energy: whether the step that the same factor gives from where part α has led is shorter, by α/2 at least of what the
+// model says; unlike the residual that does not change with the units of forces, nor does it ask for more of what is stiff. Source: Deuflhard
+// 2011, Newton Methods for Nonlinear Problems, §3.3 (natural monotonicity).
+bool Newton::comes_nearer(const Step& step, double alpha) {
+  const Vector& g = energy_.gradient();
+  const std::optional<Vector> convex = step.resolved ? factors_.solve_convex(g) : std::nullopt;
+  return (convex ? *convex : factors_.cholesky().solve(g)).norm() <= (1 - alpha / 2) * step.p.norm();
+}
+
+// A long step is good if the energy falls but for what was not predicted of it.
 bool Newton::take_long(const State& from, const Step& step, double alpha, State& to) {
   energy_.evaluate(to, false);
   const double change = energy_.last_terms().total() - step.energy;
   if (!std::isfinite(change)) return false;
-  if (step.hidden(alpha)) return infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g);
+  if (step.hidden(alpha)) return comes_nearer(step, alpha);
   const double wanted = limits::armijo * step.predicted(alpha);
   return change <= wanted || change - energy_.unpredicted(to, from) <= wanted;
 }
 
-// Downhill the energy itself must fall; simplified Newton corrections bend a step back that stretched the structure.
+// Downhill the energy itself must fall; simplified Newton corrections across the step bend it back that stretched the structure, until
+// hardly anything of that is left, which would stiffen the next Hessian. Leaves the best state in `to`, and the energy evaluated there.
 bool Newton::take_downhill(const State& from, const Step& step, double alpha, State& to) {
   double last = std::numeric_limits<double>::infinity();
+  const double enough = limits::relaxed * alpha * step.p.norm();
+  std::optional<State> fallen;
   for (int k = 0;; ++k) {
     energy_.evaluate(to, false);
     const double change = energy_.last_terms().total() - step.energy;
-    if (!std::isfinite(change)) return false;
-    const bool falls = step.hidden(alpha) ? infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(step.g)
-                                          : change <= limits::armijo * step.predicted(alpha);
-    if (falls) return k == 0 || energy_.passage(from, to) == 1;
-    Vector correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
-    if (step.keep_direction) correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
-    const double size = correction.norm();
-    if (!(size <= limits::contraction * last) || k == limits::most_corrections) return false;
-    last = size;
+    const bool falls = std::isfinite(change) && (!step.hidden(alpha) ? change <= limits::armijo * step.predicted(alpha)
+                                                 : step.leaves      ? energy_.gradient().dot(step.p) < 0
+                                                                    : comes_nearer(step, alpha));
+    if (falls && (k == 0 || energy_.passage(from, to) == 1)) fallen = to;
+    Vector correction;
+    bool on = std::isfinite(change) && k < limits::most_corrections;
+    if (on) {
+      correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
+      correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
+      on = correction.norm() <= limits::contraction * last && !(fallen && correction.norm() <= enough);
+    }
+    if (!on) break;
+    last = correction.norm();
     energy_.kinematics().retract(to, correction);
   }
+  if (!fallen) return false;
+  to = *fallen;
+  energy_.evaluate(to, false);
+  return true;
 }
 
 // Leaves a factor of H + τI, positive definite, and returns τ. Where H is indefinite τ is of the size of its lowest
-// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`). None: there is no factor.
-std::optional<double> Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool& left) {
+// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`), but not twice in a row (`before`): Newton's steps
+// must take the rest of the way down. None: there is no factor.
+std::optional<double> Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool before, bool& left) {
   left = false;
   const std::optional<double> positive = factors_.make_positive(guess / 4);
   if (!positive) return {};
   double shift = *positive;
   const double sigma = factors_.zero_level();
   if (shift > sigma) {
-    const EigenPairs lowest = settled ? factors_.lowest(1, shift) : factors_.lowest(1, shift, 0.1);
-    if (settled || std::abs(lowest.vectors.col(0).dot(g)) <= 1e-6 * g.norm()) {
+    const EigenPairs lowest = settled ? factors_.lowest(1, shift) : factors_.lowest(limits::modes_looked_at, shift, 0.1);
+    if (settled || (!before && !pushed(lowest, g))) {
       left = leave_saddle(state, lowest.vectors.col(0));
       if (left) return std::abs(lowest.values[0]);
       energy_.evaluate(state);
@@ -109,6 +136,19 @@ std::optional<Newton::Step> Newton::step_within(double reach, const Vector& g, d
   return step;
 }
 
+// Where a step goes along motions that are softer than the shift that makes a factor, it is by far too short: slender structures bend that
+// softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp).
+bool Newton::resolve_softest(const Vector& g, double shift, Step& step) {
+  if (!(shift > 0 && shift <= limits::hold_zero_modes * factors_.zero_level())) return false;
+  if (energy_.quadratic_form(step.p) > shift * step.p.squaredNorm()) return false;
+  factors_.inertia();
+  std::optional<Vector> p = factors_.solve_convex(-g);
+  if (!p || !p->allFinite()) return factors_.make_positive_from(shift), false;
+  step.resolved = true, step.p = std::move(*p), step.hp = energy_.multiply(step.p);
+  step.slope = g.dot(step.p), step.curvature = step.p.dot(step.hp);
+  return true;
+}
+
 bool Newton::leave_saddle(State& state, const Vector& direction) {
   energy_.evaluate(state);
   if (!factors_.make_positive_from(-2 * energy_.quadratic_form(direction) / direction.squaredNorm())) return false;
@@ -121,21 +161,22 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.hp = energy_.multiply(step.p);
   step.energy = energy_.last_terms().total();
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
-  step.keep_direction = true;
+  step.leaves = true;
   if (!(step.curvature < 0)) return false;
   const double farthest = free_part(state, step.p, limits::largest_turn) * limits::largest_turn;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
-  for (double alpha = 1e-3; alpha <= farthest && !interrupted(); alpha *= 2) {       // as far as it goes down
-    if (!take(state, step, alpha, Pace::downhill, next)) break;
+  const auto goes_down = [&](double alpha) {
+    if (!take(state, step, alpha, Pace::downhill, next)) return false;
     const double e = energy_.last_terms().total();
-    if (!(e < lowest)) break;
-    best = next, lowest = e, left = true;
-  }
-  for (double alpha = 0.5e-3; !left && alpha > 1e-9; alpha /= 4)   // or as far as it needs
-    if (alpha <= farthest && take(state, step, alpha, Pace::downhill, next) && energy_.last_terms().total() < lowest)
-      best = next, left = true;
+    if (!(e < lowest || step.hidden(alpha))) return false;
+    best = next, lowest = std::min(e, lowest);
+    return left = true;
+  };
+  for (double alpha = 1e-3; alpha <= farthest && !interrupted() && goes_down(alpha); alpha *= 2) {}       // as far as it goes down …
+  for (double alpha = 0.5e-3; !left && alpha > 1e-9; alpha /= 4)                                          // … or as far as it needs
+    if (alpha <= farthest) goes_down(alpha);
   state = best;
   return left;
 }

@@ -1,8 +1,5 @@
 #include "solve/ritz.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 namespace elamin {
 
 Eigen::MatrixXd starting_block(int rows, int columns) {
@@ -15,17 +12,13 @@ Eigen::MatrixXd starting_block(int rows, int columns) {
   return x;
 }
 
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& x) {
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(x.rows(), x.cols());
-}
-
 Vector rotate_to_ritz(const Energy& energy, Eigen::MatrixXd& x) {
   Eigen::MatrixXd hx(x.rows(), x.cols());
   for (Eigen::Index j = 0; j < x.cols(); ++j) hx.col(j) = energy.multiply(x.col(j));
   const Eigen::MatrixXd projected = x.transpose() * hx;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small((projected + projected.transpose()) / 2);
-  x = x * small.eigenvectors();
-  return small.eigenvalues();
+  const EigenPairs small = symmetric_eigen((projected + projected.transpose()) / 2);
+  x = x * small.vectors;
+  return small.values;
 }
 
 }  // namespace elamin

@@ -1,11 +1,11 @@
 #include "study/describe.hpp"
 
+#include "core/dense.hpp"
 #include "laws/rounded/closest.hpp"
 #include "model/entities.hpp"
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <limits>
@@ -35,7 +35,7 @@ std::string shape_lines(const RoundedShape& s) {
 
 std::string mass_line(const Body& b) {
   if (!(b.mass > 0)) return "  no mass\n";
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(b.inertia).eigenvalues();
+  const Vec3 moments = symmetric_eigen(b.inertia).values;
   return fmt::format("  mass {:.10g}, principal moments of inertia {:.10g}, {:.10g}, {:.10g}\n", b.mass, moments[0], moments[1], moments[2]);
 }
 

@@ -1,6 +1,5 @@
 #include "study/modes.hpp"
 
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +34,8 @@ std::vector<NamedMode> named(Energy& energy, const Equilibrium& e) {
   }
   const Eigen::Index left = zero.cols() - basis.cols();
   if (left > 0) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(zero - basis * (basis.transpose() * zero), Eigen::ComputeThinU);
-    const Eigen::MatrixXd rest = canonical_modes(energy.kinematics(), svd.matrixU().leftCols(left));
+    const Singular svd = singular_values(zero - basis * (basis.transpose() * zero));
+    const Eigen::MatrixXd rest = canonical_modes(energy.kinematics(), svd.u.leftCols(left));
     const std::string name = e.point.stability.stable && !names.empty() ? names.back() : "";
     for (Eigen::Index k = 0; k < left; ++k) modes.push_back({rest.col(k), name});
   }

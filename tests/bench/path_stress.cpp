@@ -397,6 +397,7 @@ Column random_column(Random& random, Ends ends, bool dead, bool planar, double l
   const double force = random.decades(1e-9, 1e9);                  // EI/L²
   c.EI = force * c.length * c.length, c.EA = c.slenderness * force;
   c.place = anywhere(random, planar, c.length, dead && ends != Ends::cantilever);
+  if (ends == Ends::clamped && dead) c.particles = std::max(c.particles, 20);      // a polygon of few links has a limit point soon
   const int free = c.particles - c.rooted() - c.headed();
   c.first = c.rooted() - 1, c.last = ends == Ends::cantilever ? c.particles - 1 : c.particles - c.headed();
   c.sine = std::sin(ends == Ends::clamped ? pi / (free + 2) : ends == Ends::hinged ? pi / (2.0 * (c.particles - 1)) : pi / (2.0 * (2 * free + 1)));

@@ -1,9 +1,9 @@
 #include "catch.hpp"
 #include "chain.hpp"
+#include "core/dense.hpp"
 #include "dynamics/timestep.hpp"
 #include "dynamics/verlet.hpp"
 
-#include <Eigen/Eigenvalues>
 
 using namespace elamin;
 
@@ -16,7 +16,7 @@ double largest_frequency(Energy& energy, const State& state) {
   for (int d = 0; d < energy.dofs(); ++d) m[d] = energy.model().mass(energy.kinematics().site_of(d));
   const Vector scale = m.cwiseSqrt().cwiseInverse();
   K = scale.asDiagonal() * K * scale.asDiagonal();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues().tail<1>()[0]);
+  return std::sqrt(symmetric_eigen(K).values.tail<1>()[0]);
 }
 
 bool stays(const Model& m, double dt) {

@@ -52,9 +52,9 @@ TEST_CASE("the lowest eigenpairs, multiple ones too", "[solve]") {
   Factors factors(energy);
   const EigenPairs pairs = factors.lowest(6);
   const Eigen::MatrixXd H = Eigen::MatrixXd(energy.hessian()).selfadjointView<Eigen::Lower>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(H);
+  const EigenPairs dense = symmetric_eigen(H);
   for (int j = 0; j < 6; ++j) {
-    CHECK(std::abs(pairs.values[j] - dense.eigenvalues()[j]) <= 64 * epsilon * H.norm());
+    CHECK(std::abs(pairs.values[j] - dense.values[j]) <= 64 * epsilon * H.norm());
     CHECK((H * pairs.vectors.col(j) - pairs.values[j] * pairs.vectors.col(j)).norm() <= 1e-5 * pairs.values[5]);
   }
   CHECK(pairs.values[0] == Approx(pairs.values[1]).epsilon(1e-9));      // x and y

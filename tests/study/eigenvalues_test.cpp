@@ -1,6 +1,7 @@
 // [path] eigenvalues: the lowest ones at every point, as columns.
 #include "catch.hpp"
 #include "chain.hpp"
+#include "core/dense.hpp"
 #include "path/tracing.hpp"
 #include "plate.hpp"
 #include "reference.hpp"
@@ -9,7 +10,6 @@
 #include "study/eigenvalues.hpp"
 #include "study/results_of.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 using namespace elamin;
@@ -20,7 +20,7 @@ namespace {
 Vector spectrum(Energy& energy, const State& state) {
   energy.evaluate(state);
   const Eigen::MatrixXd lower = energy.hessian();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(lower.selfadjointView<Eigen::Lower>(), Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigen(lower.selfadjointView<Eigen::Lower>()).values;
 }
 
 // At every point of a path those of the dense solver, to its rounding; gives how often the Morse index has changed.

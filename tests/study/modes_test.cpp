@@ -1,5 +1,6 @@
 #include "catch.hpp"
 #include "chain.hpp"
+#include "core/dense.hpp"
 #include "problem/lammps_data.hpp"
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
@@ -8,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <Eigen/Eigenvalues>
 
 #include <set>
 
@@ -20,7 +20,7 @@ namespace {
 Vector spectrum(Energy& energy, const State& state) {
   energy.evaluate(state);
   const Eigen::MatrixXd lower = energy.hessian();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(lower.selfadjointView<Eigen::Lower>(), Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigen(lower.selfadjointView<Eigen::Lower>()).values;
 }
 
 /// Modes are what they claim: ascending, orthonormal, H v = λ v. `open` is left of an eigenvalue, beside the largest one, and

@@ -1,6 +1,6 @@
 #include "laws/rounded/rigid_step.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "core/dense.hpp"
 
 namespace elamin {
 
@@ -19,11 +19,11 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Vec3& omega, double
 }  // namespace
 
 RigidMass::RigidMass(double m, const Mat3& inertia) : mass(m) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia);
-  const Vec3 moments = principal.eigenvalues();
+  const EigenPairs principal = symmetric_eigen(inertia);
+  const Vec3 moments = principal.values;
   for (int k = 0; k < 3; ++k) {
     if (!(moments[k] > 1e-7 * moments[2])) continue;
-    const Vec3 axis = principal.eigenvectors().col(k);
+    const Vec3 axis = principal.vectors.col(k);
     inverse_inertia += axis * axis.transpose() / moments[k];
   }
 }

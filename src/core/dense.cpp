@@ -1,0 +1,44 @@
+#include "core/dense.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace elamin {
+
+EigenPairs symmetric_eigen(const Eigen::MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+EigenPairs tridiagonal_eigen(const Vector& diagonal, const Vector& beside) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, beside);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Singular singular_values(const Eigen::MatrixXd& a) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+}
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a) {
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
+}
+
+Eigen::MatrixXd complement(const Eigen::MatrixXd& a) {
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ();
+  return q.rightCols(a.rows() - a.cols());
+}
+
+Eigen::MatrixXd triangle(const Eigen::MatrixXd& a) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
+  return qr.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>();
+}
+
+Vector least_squares(const Eigen::MatrixXd& a, const Vector& b) { return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a).solve(b); }
+
+Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return Eigen::FullPivLU<Eigen::MatrixXd>(a).solve(b); }
+
+}  // namespace elamin
