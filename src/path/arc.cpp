@@ -60,7 +60,9 @@ Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
   blocked.why = "the step would carry something through something else";
   if (energy.passage(nearest.point.state, state) < 1) return blocked;
   Plane across = plane();
-  const Report report = newton_.correct(state, nearest.zero_modes, &nearest.point.state, most_iterations, &across);
+  const Report report = correct_in_phase(energy, nearest, state, [&](State& x, const Eigen::MatrixXd& held) {
+    return newton_.correct(x, held, &nearest.point.state, most_iterations, &across);
+  });
   return report.converged() && energy.passage(nearest.point.state, state) < 1 ? blocked : report;
 }
 
@@ -85,7 +87,8 @@ Equilibrium Arc::at(double s, const Equilibrium& nearest) const {
   Equilibrium e = assess(newton_, state, report);
   if (e.tangent.size() == 0) return e;
   Factors& factors = newton_.factors();
-  if (e.zero_modes.cols() != nearest.zero_modes.cols()) factors.factorize_holding(nearest.zero_modes);
+  if (nearest.zero_modes.cols() > 0 || e.zero_modes.cols() > 0)
+    factors.factorize_holding(phase_conditions(newton_.energy(), state, e.zero_modes.cols() == nearest.zero_modes.cols() ? e.zero_modes : nearest.zero_modes));
   const Plane across = plane();
   const Factors::Bordered t = factors.solve_bordered(newton_.energy().load_derivative(), across.row, across.corner,
                                                      Vector::Zero(e.tangent.size()), 1);

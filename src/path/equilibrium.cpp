@@ -184,7 +184,6 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   }
   s.critical = named ? 0 : inertia.zero;
   s.stable = s.negative == 0 && named;
-  if (!named) e.zero_modes = phase_conditions(energy, state, e.zero_modes);
   if (inertia.zero > 0) newton.factors().factorize_holding(e.zero_modes);   // else there is a factor that has just told so
   e.tangent = newton.factors().solve_holding(-energy.load_derivative());
   // Where f·H⁻¹f < 0, f = −∂g/∂λ of the loads, one of the negative directions is one on which they do work.
@@ -259,43 +258,6 @@ bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to) {
   return kinematics.difference(state, to.point.state).norm() <= same_end * kinematics.difference(from.point.state, to.point.state).norm();
 }
 
-Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
-  constexpr double enough = 0.3;              // of a mode
-  const Kinematics& kinematics = energy.kinematics();
-  if (!energy.model().bodies.empty() || modes.cols() == 0) return modes;
-  const std::vector<int> part = connected_parts(energy.model());
-  const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
-  std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(parts));
-  for (std::size_t p = 0; p < part.size(); ++p) members[static_cast<std::size_t>(part[p])].push_back(static_cast<Eigen::Index>(p));
-  Eigen::MatrixXd rows = modes;
-  for (Eigen::Index j = 0; j < modes.cols(); ++j) {
-    Field v = kinematics.extend(modes.col(j));
-    for (const std::vector<Eigen::Index>& sites : members) {
-      const auto count = static_cast<Eigen::Index>(sites.size());
-      Vec3 mid = Vec3::Zero();
-      for (const Eigen::Index p : sites) mid += state.position.col(p) / static_cast<double>(count);
-      Eigen::MatrixXd rigid(3 * count, 6);
-      Vector moved(3 * count);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const Vec3 arm = state.position.col(sites[k]) - mid;
-        for (int c = 0; c < 3; ++c) rigid.block<3, 1>(3 * k, c) = Vec3::Unit(c), rigid.block<3, 1>(3 * k, 3 + c) = Vec3::Unit(c).cross(arm);
-        moved.segment<3>(3 * k) = v.col(sites[k]);
-      }
-      moved -= rigid * least_squares(rigid, moved);
-      for (Eigen::Index k = 0; k < count; ++k) v.col(sites[k]) = moved.segment<3>(3 * k);
-    }
-    if (const Vector row = kinematics.restrict(v); row.norm() > enough) rows.col(j) = row.normalized();
-  }
-  return orthonormal(rows);
-}
-
-Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
-  if (a.cols() > 0) both.leftCols(a.cols()) = a;
-  if (b.cols() > 0) both.rightCols(b.cols()) = b;
-  return both;
-}
-
 // How modes change the angles of a model in a plane, angles × modes [1]: unlike displacements the same whatever holds a ring in its plane.
 Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
   const Model& model = energy.model();
@@ -314,6 +276,76 @@ Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, cons
     }
   }
   return change;
+}
+
+// Whether a mode changes angles by more than rounding, as a rigid motion does not.
+bool bends(const Energy& energy, const Vector& change, const Vector& mode) {
+  constexpr double rigid = 1e-6;              // of what it moves
+  return change.norm() * std::max(sides_of(energy.model().start).maxCoeff(), largest_size(energy.model())) > rigid * mode.norm();
+}
+
+// By how much every angle of a model in a plane has opened from one state to another [rad].
+Vector opened(const Model& model, const State& from, const State& to) {
+  const Vec3 normal = Vec3::Unit(*model.plane_normal);
+  const auto turned = [&](const State& s, const Angle& a) {
+    const Vec3 u = (s.at(a.particles[1]) - s.at(a.particles[0])).hi, v = (s.at(a.particles[2]) - s.at(a.particles[1])).hi;
+    return std::atan2(normal.dot(u.cross(v)), u.dot(v));
+  };
+  Vector change(static_cast<Eigen::Index>(model.angles.size()));
+  for (std::size_t k = 0; k < model.angles.size(); ++k)
+    change[static_cast<Eigen::Index>(k)] = std::remainder(turned(to, model.angles[k]) - turned(from, model.angles[k]), 2 * pi);
+  return change;
+}
+
+Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
+  const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
+  if (change.rows() == 0 || modes.cols() == 0) return modes;
+  const Model& model = energy.model();
+  const Vec3 normal = Vec3::Unit(*model.plane_normal);
+  Eigen::MatrixXd rows = modes;
+  for (Eigen::Index j = 0; j < modes.cols(); ++j) {
+    if (!bends(energy, change.col(j), modes.col(j))) continue;
+    Field row = Field::Zero(3, energy.kinematics().sites());
+    const auto add = [&](int from, int to, double part) {         // ∂(rotation of a bond)/∂x
+      const Vec3 d = (state.at(to) - state.at(from)).hi, rate = part * normal.cross(d) / d.squaredNorm();
+      row.col(to) += rate, row.col(from) -= rate;
+    };
+    for (std::size_t k = 0; k < model.angles.size(); ++k) {
+      const auto [a, b, c] = model.angles[k].particles;
+      add(b, c, change(static_cast<Eigen::Index>(k), j)), add(a, b, -change(static_cast<Eigen::Index>(k), j));
+    }
+    rows.col(j) = energy.kinematics().restrict(row).normalized();
+  }
+  return orthonormal(rows);
+}
+
+Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
+                        const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct) {
+  constexpr int most = 6;
+  constexpr double drifted = 1e-13;           // rad
+  const Eigen::MatrixXd& modes = from.zero_modes;
+  const Eigen::MatrixXd held = phase_conditions(energy, from.point.state, modes), change = changes_of_angles(energy, from.point.state, modes);
+  Report report = correct(state, held);
+  for (Eigen::Index j = 0; j < modes.cols() && change.rows() > 0; ++j) {
+    if (!bends(energy, change.col(j), modes.col(j))) continue;
+    double shift = 0, before = 0;
+    for (int k = 0; k < most && report.converged(); ++k) {
+      const double drift = change.col(j).normalized().dot(opened(energy.model(), from.point.state, state));
+      if (std::abs(drift) <= drifted || (k > 0 && !(std::abs(drift) < std::abs(before) / 2))) break;
+      shift = k == 0 ? -drift / change.col(j).norm() : shift * drift / (before - drift);
+      before = drift;
+      energy.kinematics().retract(state, modes.col(j), shift);
+      report = correct(state, held);
+    }
+  }
+  return report;
+}
+
+Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
+  if (a.cols() > 0) both.leftCols(a.cols()) = a;
+  if (b.cols() > 0) both.rightCols(b.cols()) = b;
+  return both;
 }
 
 Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {

@@ -29,11 +29,16 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 /// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.
 bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
 
-/// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it: along each
-/// mode the part of its displacement field that is no rigid motion of what is glued, restricted to the dofs. Coordinates that supports
-/// choose carry a symmetric change of shape together with a rigid motion; a condition on the shape does not see that. Where little is left,
-/// as of a mode that is a rigid motion itself, the mode. Orthonormal.
+/// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it. In a plane
+/// they are those of ∇c,  c = Σ_k q_k ω_k,  ω_k the angles' changes and q_k those that the mode makes, which supports do not enter: with
+/// them a symmetric change of shape comes together with a rigid motion, and has a part along the mode. Of rigid motions, and in space, the
+/// modes themselves. Orthonormal.
 Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
+
+/// Corrects a state beside an equilibrium with these conditions held, and shifts it along the neutral modes until c is what it was: an oval
+/// does not slide along its ring. `correct` is called again after each shift.
+Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
+                        const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct);
 
 /// The columns of both, for what is held together.
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);

@@ -10,6 +10,7 @@ namespace elamin {
 namespace {
 
 constexpr int most_iterations = 16;           // of a corrector between two equilibria
+constexpr double held_together = 10;          // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
 constexpr double orthogonal = 1e-5;           // of a load to a critical mode, where nothing else tells limit from branch points
 
 // The lowest eigenpairs at the equilibrium without the known zero modes Z: of the span V of so many eigenvectors more as
@@ -145,9 +146,8 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     // At a branch point the equations are regular with the critical modes held where the branch has them.
     Equilibrium e;
-    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, 2 * std::abs(from.f), known);
-    newton.energy().evaluate(from.e.point.state);
-    if (modes.cols() > 0 && (told || work_along(modes, newton.energy().load_derivative()) <= orthogonal)) {
+    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, held_together * std::abs(from.f), known);
+    if (modes.cols() > 0) {
       State state = between(t).state;
       const Report report = segment.settle(state, side_by_side(known, modes));
       if (report.converged() && report.residual <= rounding) e = assess(newton, state, report);

@@ -34,7 +34,11 @@ class Switch {
     kinematics().retract(state, along, amplitude);
     Plane plane{along / (metric_.length * metric_.length), 0, metric_.length, metric_.load};
     plane.guided = others.cols() > 0;
-    return newton_.correct(state, side_by_side(side_by_side(zero(), family_), others), nullptr, 30, &plane);
+    Equilibrium from = event_.at;
+    from.zero_modes = side_by_side(zero(), family_);
+    return correct_in_phase(newton_.energy(), from, state, [&](State& x, const Eigen::MatrixXd& held) {
+      return newton_.correct(x, side_by_side(held, others), nullptr, 30, &plane);
+    });
   }
 
   /// From here on these directions keep still: along them lie the equilibria of one family.
@@ -157,7 +161,6 @@ std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point,
     if (const auto first = s.leave(symmetric, s.amplitude(symmetric, others(0)))) {
       family = neutral(*first, modes, branch_point.at.zero_modes);
       if (modes.cols() == 2 && family.cols() == 1) family = modes.col(1);          // by symmetry, where `first` has drifted along the family
-      family = phase_conditions(newton.energy(), branch_point.at.point.state, family);
     }
   if (modes.cols() == 1 + family.cols()) {
     rays_found.push_back(symmetric);

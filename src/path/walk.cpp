@@ -183,14 +183,13 @@ void Walk::carry_neutral(Equilibrium& e) {
   const Eigen::Index count = pairs.values.size();
   for (Eigen::Index j = 0; j < count; ++j) {
     const Vector& v = pairs.vectors.col(j);
-    const Eigen::MatrixXd held = phase_conditions(newton_.energy(), e.point.state, v);
-    if ((neutral_.transpose() * held).norm() < same_mode) continue;
-    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * held).norm() > 0.5) continue;   // it is one already
+    if ((neutral_.transpose() * v).norm() < same_mode) continue;
+    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
     double next = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < count; ++i)
       if (i != j) next = std::min(next, std::abs(pairs.values[i]));
     if (!(std::abs(pairs.values[j]) <= next_to_nothing * next) || !std::isfinite(next)) continue;
-    e.zero_modes = side_by_side(e.zero_modes, held);
+    e.zero_modes = side_by_side(e.zero_modes, v);
     ++s.zero, ++s.critical;
     s.stable = false;
     if (pairs.values[j] < 0) --s.negative, s.negative_rigid = std::min(s.negative_rigid, s.negative);
@@ -323,15 +322,34 @@ void Walk::find_stop(Segment segment, const Arc& arc, Candidate& c) {
   if (!first) return;
   segment.b = c.s;
   const std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& e) { return e.point.state.load_factor - *first; });
-  const Equilibrium& guess = near ? near->at : c.e;
-  Equilibrium e = continue_to(newton_, guess, *first);
-  if (!e.point.report.converged()) {
-    if (!near) return;
-    e = near->at;
-  }
+  Equilibrium e = at_load(near ? near->at : c.e, *first);
+  if (!e.point.report.converged()) return;
   const double s = arc.position(e.point.state);
   if (s < 0 || s > c.s * (1 + 1e-6)) return;
   c.s = s, c.e = std::move(e), c.events.clear(), c.stop = first;
+}
+
+// The equilibrium at a load factor, from one that is near: as load steps find it, with what is neutral in its phase, or, where no step of the load
+// factor can be told from rounding, as it is.
+Equilibrium Walk::at_load(const Equilibrium& from, double load_factor) {
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  if (neutral_.cols() == 0)
+    if (Equilibrium e = continue_to(newton_, from, load_factor); e.point.report.converged()) return e;
+  State state = from.point.state;
+  const double change = load_factor - state.load_factor;
+  kinematics.prescribe(state, load_factor);
+  kinematics.retract(state, from.tangent, change);
+  const Report report = correct_in_phase(newton_.energy(), from, state, [&](State& x, const Eigen::MatrixXd& held) { return newton_.correct(x, held); });
+  if (report.converged()) {
+    Equilibrium e = assess(newton_, state, report);
+    carry_neutral(e);
+    return e;
+  }
+  Equilibrium e = from;
+  kinematics.prescribe(e.point.state, load_factor);
+  newton_.energy().evaluate(e.point.state);
+  if (newton_.energy().relative(newton_.energy().gradient()) > newton_.tolerance()) e.point.report.status = Status::not_converged;
+  return e;
 }
 
 // Positions must not weigh less than the load factor, or the steps would be load steps: L ≤ Λ |dx/dλ|.

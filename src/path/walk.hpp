@@ -82,6 +82,7 @@ class Walk {
   bool joins(const Event& event, const Equilibrium& end, const Arc& arc) const;
   bool find_watches(Segment segment, Candidate& c, std::string& why);
   void find_stop(Segment segment, const Arc& arc, Candidate& c);
+  Equilibrium at_load(const Equilibrium& from, double load_factor);
   void weigh(const Equilibrium& e, Direction& direction);
   Waypoint accept(Candidate c, const Arc& arc);
 

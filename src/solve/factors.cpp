@@ -113,7 +113,7 @@ std::optional<double> Factors::make_positive_from(double shift, double growth) {
 }
 
 EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held) {
-  constexpr int most = 12;
+  constexpr int least_rounds = 4, most = 12;                   // Ritz values settle to rounding before their vectors do
   const Eigen::Index block = start.cols();
   if (!factorize_holding(held)) return {Vector::Zero(block), start};
   Eigen::MatrixXd x = start;
@@ -125,7 +125,7 @@ EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::Matr
     values = rotate_to_ritz(energy_, x);
     Eigen::Index least = 0;
     values.cwiseAbs().minCoeff(&least);
-    if (k > 0 && std::abs(values[least] - before[least]) <= 1e-12 * std::abs(values[least]) + zero_level() / 256) break;
+    if (k + 1 >= least_rounds && std::abs(values[least] - before[least]) <= 1e-12 * std::abs(values[least]) + zero_level() / 256) break;
   }
   for (Eigen::Index j = 0; j < block; ++j) values[j] = energy_.quadratic_form(x.col(j));
   return {values, x};

