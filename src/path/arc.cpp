@@ -9,6 +9,8 @@ namespace elamin {
 
 namespace {
 constexpr int most_iterations = 16;           // of a corrector
+constexpr double off_plane = 1e-9;            // of the step: rounding
+constexpr double resolved = 1e6;              // spacings of the load factors: a step that rounding does not turn
 constexpr double least_cosine = 0.1;          // between the directions at two samples of a segment
 }  // namespace
 
@@ -59,16 +61,28 @@ Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
   Report blocked;
   blocked.why = "the step would carry something through something else";
   if (energy.passage(nearest.point.state, state) < 1) return blocked;
-  Plane across = plane();
   const Report report = correct_in_phase(energy, nearest, state, [&](State& x, const Eigen::MatrixXd& held) {
-    return newton_.correct(x, held, &nearest.point.state, most_iterations, &across);
+    return on_plane(x, held, &nearest.point.state);
   });
   return report.converged() && energy.passage(nearest.point.state, state) < 1 ? blocked : report;
 }
 
-Report Arc::settle(State& state, const Eigen::MatrixXd& held) const {
+Report Arc::settle(State& state, const Eigen::MatrixXd& held) const { return on_plane(state, held, nullptr); }
+
+// Where a wall presses so stiffly that forces change by more than they may within the spacing of the load factors that there are, no pair (x, λ)
+// fulfils both conditions: then the equilibrium at the load factor that has been reached is as near to the plane as rounding lets it be.
+Report Arc::on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const {
   Plane across = plane();
-  return newton_.correct(state, held, nullptr, most_iterations, &across);
+  const double wanted = position(state);
+  Report report = newton_.correct(state, held, from, most_iterations, &across);
+  if (report.status != Status::not_converged || !(std::abs(position(state) - wanted) <= off_plane * std::abs(wanted))) return report;
+  const double here = from_.point.state.load_factor, change = state.load_factor - here;
+  if (!(std::abs(change) > resolved * epsilon * std::max(std::abs(here), std::abs(state.load_factor)))) return report;
+  State fixed = state;
+  const Report at_load = newton_.correct(fixed, held, nullptr, most_iterations);
+  if (!at_load.converged() || !(std::abs(position(fixed) - wanted) <= off_plane * std::abs(wanted))) return report;
+  state = std::move(fixed);
+  return at_load;
 }
 
 double Arc::load_rate(const Equilibrium& e) const {

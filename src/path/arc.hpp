@@ -52,6 +52,7 @@ class Arc {
 
  private:
   Plane plane() const;
+  Report on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const;
   Direction along(const Equilibrium& nearest) const;
   Newton& newton_;
   Equilibrium from_;
