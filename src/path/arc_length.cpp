@@ -217,7 +217,7 @@ bool ArcLength::meets_known(const Waypoint& waypoint, const Event& event) {
 bool ArcLength::closes_loop(const Waypoint& waypoint) {
   const Metric& metric = walk_->metric();
   const Arc arc(newton_, waypoint.at, walk_->direction(), metric);
-  const double s = arc.position(first_.point.state), away = arc.distance(first_.point.state), step = walk_->step();
+  const double s = arc.position(first_.point.state), away = arc.distance(first_.point.state), step = walk_->taken();
   if (!left_) {
     left_ = std::hypot(s, away) > 8 * step;
     return false;

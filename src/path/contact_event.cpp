@@ -18,7 +18,8 @@ namespace elamin {
 namespace {
 
 constexpr double together = 1e-10;            // of the size: gaps that vanish at one load factor
-constexpr double rounding = 1e-13;            // of the size: of a gap
+constexpr double rounding = 1e-13;            // of the size: of a gap …
+constexpr double exact_rounding = 1e-18;      // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
 constexpr double together_in_step = 1e-9;     // … or of its change over the step
 constexpr double beside = 1e-9;               // of the size: where one side of a corner is looked at
 constexpr double along_chord = 0.1;           // of the step: beyond its ends, where a gap that vanishes at one of them may be found
@@ -163,7 +164,6 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   Energy& energy = newton.energy();
   Plane plane;
   plane.length = std::max(way.norm(), 1e-300), plane.load = std::max(std::abs(load_change), 1e-300);
-  plane.close = rounding * size_of(energy.model(), key.particle);
   bool defined = true;
   plane.condition = [&](const State& at, Plane& p) {
     defined = defined && slope(energy, key, at, load_change, p.row, p.corner);
@@ -173,9 +173,27 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   const double off = plane.condition(state, plane), rate = defined ? plane.row.dot(way) + plane.corner * load_change : 0.0;
   if (rate == 0) return report;
   state = moved_by(energy.kinematics(), state, way, load_change, -off / rate);
-  report = newton.correct(state, from.zero_modes, nullptr, most, &plane);
+  const State guess = state;
+  for (const double part : {exact_rounding, rounding}) {         // gaps of particles are exact; of a wall it is rounding where it stands
+    state = guess;
+    plane.close = part * size_of(energy.model(), key.particle);
+    report = newton.correct(state, from.zero_modes, nullptr, most, &plane);
+    if (report.converged() || report.status == Status::interrupted) break;
+  }
   if (!defined) report.status = Status::not_converged;
   return report;
+}
+
+// Where on the way from one equilibrium towards another its tangent closes a gap; nothing if it does not.
+std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey& key, const Equilibrium& from, const Equilibrium& towards) {
+  constexpr double little = 1e-4;
+  const double load_change = towards.point.state.load_factor - from.point.state.load_factor;
+  const Vector way = load_change * from.tangent;
+  const auto at = [&](double part) { return moved_by(energy.kinematics(), from.point.state, way, load_change, part); };
+  const double here = gap(energy, key, from.point.state), rate = (gap(energy, key, at(little)) - here) / little;
+  const double part = -here / rate;
+  if (!(part > 0 && part <= 1)) return {};
+  return at(part);
 }
 
 }  // namespace
@@ -224,14 +242,22 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     if (!first) break;
     const Vector way = kinematics.difference(a.point.state, found);
     const double load_change = found.load_factor - a.point.state.load_factor;
-    State state = moved_by(kinematics, a.point.state, way, load_change, least);
-    report = close_gap(newton, *first, a, way, load_change, state);
-    const double t = report.converged() ? segment.parameter(state) : segment.a;
-    const double part = (t - segment.a) / (change.at_parameter - segment.a);
-    const bool between = report.converged() && part > -along_chord && part < 1 + along_chord &&
-                         beside_chord(kinematics, a.point.state, found, state) && energy.passage(a.point.state, state) == 1;
-    if (between) {
-      found = state, change.at_parameter = t, at.reset();
+    double t = segment.a;
+    const auto closed_from = [&](State state) {
+      report = close_gap(newton, *first, a, way, load_change, state);
+      if (!report.converged()) return false;
+      t = segment.parameter(state);
+      const double part = (t - segment.a) / (change.at_parameter - segment.a);
+      if (!(part > -along_chord && part < 1 + along_chord && beside_chord(kinematics, a.point.state, found, state) &&
+            energy.passage(a.point.state, state) == 1)) return false;
+      found = std::move(state);
+      return true;
+    };
+    // From the side where the contact is open its tangent tells the place, however stiff it is; else the chord.
+    const bool makes = gap(*first, a.point.state) > 0;
+    const std::optional<State> ahead = where_tangent_closes(energy, *first, makes ? a : b, makes ? b : a);
+    if ((ahead && closed_from(*ahead)) || closed_from(moved_by(kinematics, a.point.state, way, load_change, least))) {
+      change.at_parameter = t, at.reset();
     } else {                                                    // slowly, along the branch
       if (!at) at = segment.at(change.at_parameter, a);
       if (!at->point.report.converged()) return ContactChange{};
@@ -244,6 +270,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       });
       if (!zero || !near(*first, zero->e.point.state)) return ContactChange{};      // a gap that jumps: two branches
       at = zero->e, change.at_parameter = zero->t, found = zero->e.point.state;
+      if (closed_from(found)) change.at_parameter = t, at.reset();                  // to the last digit
     }
   }
   change.at = at ? std::move(*at) : assess(newton, found, report);

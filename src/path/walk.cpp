@@ -371,7 +371,7 @@ Waypoint Walk::accept(Candidate c, const Arc& arc) {
   Direction next = direction_of(corner ? *event->beyond : c.e, metric_, arc.direction());
   if (corner && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
   const int sign = sign_;
-  last_stop_ = c.stop;
+  last_stop_ = c.stop, taken_ = c.s;
   if (corner) {
     negative_ = event->after;
     sign_ = sign_of(next.load);

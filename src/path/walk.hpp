@@ -59,6 +59,8 @@ class Walk {
   const ContactSet& closed() const { return closed_; }
   /// Length of the next step, and of the shortest that is tried.
   double step() const { return step_; }
+  /// Of the last one; 0: it was not one of arc length.
+  double taken() const { return taken_; }
   double shortest() const { return shortest_; }
 
  private:
@@ -98,7 +100,7 @@ class Walk {
   ContactSet closed_;
   std::vector<double> side_;           // of every watch: observable − value from here on
   std::optional<double> last_stop_;    // where it stands, if at a stop
-  double step_, shortest_, least_length_;
+  double step_, shortest_, least_length_, taken_ = 0;
   Status status_ = Status::converged;
   std::string why_;
 };
