@@ -86,7 +86,7 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
                                                                     : comes_nearer(step, alpha));
     if (falls && (k == 0 || energy_.passage(from, to) == 1)) fallen = to;
     Vector correction;
-    bool on = std::isfinite(change) && k < limits::most_corrections;
+    bool on = std::isfinite(change) && k < limits::most_corrections && !(fallen && step.leaves);
     if (on) {
       correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
       correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
