@@ -21,7 +21,9 @@ constexpr double together = 1e-10;            // of the size: gaps that vanish a
 constexpr double rounding = 1e-13;            // of the size: of a gap …
 constexpr double exact_rounding = 1e-18;      // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
 constexpr double together_in_step = 1e-9;     // … or of its change over the step
-constexpr double beside = 1e-9;               // of the size: where one side of a corner is looked at
+constexpr double beside = 1e-9;               // of the size: where one side of a corner is looked at, …
+constexpr double most_beside = 0.05;          // … but no farther than this part of the step …
+constexpr double least_beside = 1e-12;        // … where that is more than rounding, of the size
 constexpr double along_chord = 0.1;           // of the step: beyond its ends, where a gap that vanishes at one of them may be found
 
 std::vector<ContactKey> difference(const ContactSet& a, const ContactSet& b) {
@@ -67,9 +69,11 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
     return (gap(energy, key, moved_by(kinematics, state, x, load, part)) - gap(energy, key, moved_by(kinematics, state, x, load, -part))) / (2 * part);
   };
   double part = 0;
-  for (const ContactKey& key : keys)
-    part = std::max(part, beside * size_of(energy.model(), key.particle) / std::max(std::abs(rate(key, way, load_change, 1e-4)), 1e-300));
-  if (!(part > 0 && part < 0.1)) return;
+  for (const ContactKey& key : keys) {
+    const double size = size_of(energy.model(), key.particle), change = std::abs(rate(key, way, load_change, 1e-4));
+    if (!(most_beside * change > least_beside * size)) return;
+    part = std::max(part, std::min(beside * size / change, most_beside));     // stiff bodies overlap by hardly more than that in all
+  }
   const auto side = [&](double where) {
     Equilibrium e = assess(newton, moved_by(kinematics, state, way, load_change, where), change.at.point.report);
     e.point.state = state, e.point.energy = change.at.point.energy;

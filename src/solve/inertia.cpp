@@ -35,6 +35,7 @@ class Curvature {
     const Model& model = energy.model();
     for (const RigidMotion& m : free_rigid_motions(model, energy.evaluated())) {
       if (m.translation || m.size == 0) continue;
+      if (rotations_.size() == limits::most_rotations) break;
       const Vector u = energy.kinematics().restrict(m.velocity_field(energy.kinematics().sites()));
       if (u.norm() > 0) rotations_.push_back({u.normalized(), m.twist.tail<3>().norm() / m.size / u.norm()});
     }

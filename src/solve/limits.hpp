@@ -19,6 +19,10 @@ constexpr double form_rounding = 8;
 /// Rounds of inverse iteration after which eigenvalues that do not settle below σ/64 are taken for zero.
 constexpr int patience = 12;
 
+/// Rigid rotations of free parts that are told from other zero modes by their curvature: of more parts than that all are loose, and each is zero to
+/// the forces that are left.
+constexpr std::size_t most_rotations = 60;
+
 /// Of a solution that is refined: predictors need no more.
 constexpr double refined = 1e-8;
 

@@ -3,6 +3,7 @@
 #include "core/parallel.hpp"
 #include "energy/energy.hpp"
 #include "energy/load_difference.hpp"
+#include "laws/exact_geometry.hpp"
 #include "laws/check_law.hpp"
 
 using namespace elamin;
@@ -78,6 +79,26 @@ TEST_CASE("products element by element agree with the assembled Hessian", "[ener
   for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = std::cos(2.3 * static_cast<double>(k));
   CHECK((energy.multiply(v) - H * v).norm() <= 64 * epsilon * H.norm() * v.norm());
   CHECK(std::abs(energy.quadratic_form(v) - v.dot(H * v)) <= 64 * epsilon * H.norm() * v.squaredNorm());
+}
+
+TEST_CASE("the form of a bond keeps the digits of its stiffness across", "[energy]") {
+  const double K = 1e6, strain = 1e-11;
+  Model model = chain(2, K, 0, 1, Vec3(1, -2, 0.7));
+  model.angles.clear(), model.angle_types.clear();
+  const Vec3 n = Vec3(1, -2, 0.7).normalized();
+  hold(model, 0, 0);
+  model.start.position.col(1) = model.start.position.col(0) + (1 + strain) * n;
+  model.start.tail.setZero();
+  Energy energy(model);
+  energy.evaluate(model.start);
+  const Vec3 across = n.cross(Vec3::UnitX()).normalized();
+  const double r = (model.start.at(1) - model.start.at(0)).hi.norm();
+  const Exact stretch = length(model.start.at(1) - model.start.at(0)) + -1.0;
+  const double exact = 2 * K * stretch.value() / r;             // 2K (1 − r₀/r)
+  CHECK(std::abs(energy.form(across, across).value / exact - 1) <= 1e-12);
+  CHECK(std::abs(energy.form(across, across).value - exact) <= 8 * epsilon * energy.form(across, across).size);
+  const Eigen::MatrixXd H = Eigen::MatrixXd(energy.hessian()).selfadjointView<Eigen::Lower>();
+  CHECK(std::abs(across.dot(H * across) - exact) > 1e-9 * exact);              // which the Hessian's entries do not
 }
 
 TEST_CASE("forces of all particles are minus the gradient and balance the loads", "[energy]") {
