@@ -53,11 +53,12 @@ bool Newton::take(const State& from, const Step& step, double alpha, Pace pace, 
   return pace == Pace::downhill ? take_downhill(from, step, alpha, to) : take_long(from, step, alpha, to);
 }
 
-// Where rounding hides the energy: whether the step that the same factor gives from where part α has led is shorter, by α/2 at least of what the
+// Where rounding hides the energy: whether the residual falls, or the step that the same factor gives from where part α has led is shorter, by α/2 at least of what the
 // model says; unlike the residual that does not change with the units of forces, nor does it ask for more of what is stiff. Source: Deuflhard
 // 2011, Newton Methods for Nonlinear Problems, §3.3 (natural monotonicity).
 bool Newton::comes_nearer(const Step& step, double alpha) {
   const Vector& g = energy_.gradient();
+  if (infinity_norm(g) < 0.9 * infinity_norm(step.g)) return true;
   const std::optional<Vector> convex = step.resolved ? factors_.solve_convex(g) : std::nullopt;
   return (convex ? *convex : factors_.cholesky().solve(g)).norm() <= (1 - alpha / 2) * step.p.norm();
 }
@@ -139,7 +140,7 @@ std::optional<Newton::Step> Newton::step_within(double reach, const Vector& g, d
 // Where a step goes along motions that are softer than the shift that makes a factor, it is by far too short: slender structures bend that
 // softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp).
 bool Newton::resolve_softest(const Vector& g, double shift, Step& step) {
-  if (!(shift > 0 && shift <= limits::hold_zero_modes * factors_.zero_level())) return false;
+  if (energy_.model().bonds.empty() || !(shift > 0 && shift <= limits::hold_zero_modes * factors_.zero_level())) return false;
   if (energy_.quadratic_form(step.p) > shift * step.p.squaredNorm()) return false;
   factors_.inertia();
   std::optional<Vector> p = factors_.solve_convex(-g);
