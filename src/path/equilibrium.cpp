@@ -2,6 +2,7 @@
 
 #include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
+#include "path/arc.hpp"
 #include "path/contact_event.hpp"
 #include "solve/contact_equilibrium.hpp"
 
@@ -282,7 +283,7 @@ Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, cons
 // Whether a mode changes angles by more than rounding, as a rigid motion does not.
 bool bends(const Energy& energy, const Vector& change, const Vector& mode) {
   constexpr double rigid = 1e-6;              // of what it moves
-  return change.norm() * std::max(sides_of(energy.model().start).maxCoeff(), largest_size(energy.model())) > rigid * mode.norm();
+  return change.norm() * span(energy.model()) > rigid * mode.norm();
 }
 
 // By how much every angle of a model in a plane has opened from one state to another [rad].
