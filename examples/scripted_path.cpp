@@ -1,7 +1,7 @@
 // A path by hand: a clamped column of 14 particles is shortened until it buckles; the program prints where, beside the
 // closed form 2K(d − a) a = 4B sin²(π/(N + 2)), N = 10 free particles.
 #include "laws/section.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +30,7 @@ int main() {
   Newton newton(energy);
   PathOptions options;
   options.to = 0.3, options.steps = 20, options.when_unstable = WhenUnstable::stop;
-  LoadSteps path(newton, model.start, options);
+  Continuation path(newton, model.start, options);
   double found = 0;
   while (const auto point = path.next()) {
     std::printf("%-9s load factor %.12f energy %.6e negative %d\n", point->label.c_str(), point->state.load_factor,

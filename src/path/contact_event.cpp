@@ -70,9 +70,9 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   };
   double part = 0;
   for (const ContactKey& key : keys) {
-    const double size = size_of(energy.model(), key.particle), change = std::abs(rate(key, way, load_change, 1e-4));
-    if (!(most_beside * change > least_beside * size)) return;
-    part = std::max(part, std::min(beside * size / change, most_beside));     // stiff bodies overlap by hardly more than that in all
+    const double size = size_of(energy.model(), key.particle), moved = std::abs(rate(key, way, load_change, 1e-4));
+    if (!(most_beside * moved > least_beside * size)) return;
+    part = std::max(part, std::min(beside * size / moved, most_beside));     // stiff bodies overlap by hardly more than that in all
   }
   const auto side = [&](double where) {
     Equilibrium e = assess(newton, moved_by(kinematics, state, way, load_change, where), change.at.point.report);

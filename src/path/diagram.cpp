@@ -1,7 +1,6 @@
-#include "path/arc_length.hpp"
+#include "path/continuation.hpp"
 #include "path/deflation.hpp"
 #include "path/held_steps.hpp"
-#include "path/load_steps.hpp"
 #include "path/path.hpp"
 
 #include <fmt/format.h>
@@ -23,8 +22,9 @@ class Diagram final : public Path {
       if (options.branches > 0 || options.deflate > 0 || options.method == PathMethod::arc_length)
         note("with hard contacts a path goes by load steps, without switching branches and without deflation");
       options_.branches = options_.deflate = 0;
-    } else if (options.method == PathMethod::arc_length) now_ = std::make_unique<ArcLength>(newton, start, options, &numbering());
-    else now_ = std::make_unique<LoadSteps>(newton, start, options, &numbering());
+    } else {
+      now_ = std::make_unique<Continuation>(newton, start, options, &numbering());
+    }
   }
 
  protected:
@@ -58,8 +58,8 @@ class Diagram final : public Path {
     if (why_.empty()) why_ = now_->why();
     else note(fmt::format("branch {}: {}", numbering().branches, now_->why()));
     if (now_->status() != Status::converged && worst_ == Status::converged) worst_ = now_->status(), why_ = now_->why();
-    if (const auto* arc = dynamic_cast<const ArcLength*>(now_.get()); arc && arc->arrived_at() >= 0)
-      arrivals_.push_back({static_cast<std::size_t>(arc->arrived_at()), arc->arrival()});
+    if (const auto* branch = dynamic_cast<const Continuation*>(now_.get()); branch && branch->arrived_at() >= 0)
+      arrivals_.push_back({static_cast<std::size_t>(branch->arrived_at()), branch->arrival()});
     for (const Event& e : now_->branch_points()) known_.push_back(e);
     done_ = true;
   }
@@ -69,9 +69,9 @@ class Diagram final : public Path {
     while (waiting_.empty() && switched_ < known_.size() && static_cast<int>(switched_) < options_.branches) {
       const Event& event = known_[switched_];
       newton_.energy().evaluate(event.at.point.state);
-      metric_ = metric_for(newton_.energy(), event.at, options_);
-      const WalkOptions w = walk_options(options_);
-      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_, w.load_step, w.turn);
+      metric_ = metric_for(newton_.energy(), event.at, options_.to - options_.from);
+      const ArcOptions a = arc_options(options_);
+      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_, a.load_step, a.turn);
       if (sides.empty()) note(fmt::format("{}: no side branch was found", event.at.point.label));
       for (const SideBranch& side : sides) waiting_.push_back({switched_, side});
       ++switched_;
@@ -87,7 +87,7 @@ class Diagram final : public Path {
         return note(fmt::format("{}: one of its side branches has arrived there already", label));
     PathOptions side_options = options_;
     side_options.when_unstable = WhenUnstable::follow;
-    now_ = std::make_unique<ArcLength>(newton_, std::move(next.side), label, known_, metric_, side_options, &numbering());
+    now_ = std::make_unique<Continuation>(newton_, std::move(next.side), label, known_, metric_, side_options, &numbering());
     done_ = false;
   }
 

@@ -211,6 +211,8 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 
+bool may_touch(const Model& model) { return !model.contacts.empty() || !model.walls.empty() || !model.rounded.empty(); }
+
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor, const Corrector& correct) {
   const Kinematics& kinematics = newton.energy().kinematics();
   Energy& energy = newton.energy();
@@ -234,7 +236,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   }
   State state = predicted;
   Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, most_iterations);
-  const bool meets = !energy.model().contacts.empty() || !energy.model().walls.empty() || !energy.model().rounded.empty();
+  const bool meets = may_touch(energy.model());
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = predicted;

@@ -180,7 +180,8 @@ Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, c
 Segment segment_of_loads(Newton& newton, double from, double to) {
   return {from, to, [&newton](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); },
           [&newton](State& state, const Eigen::MatrixXd& held) { return newton.correct(state, held, nullptr, most_iterations); },
-          [](const State& state) { return state.load_factor; }, [](const Equilibrium&) { return 1.0; }};
+          [](const State& state) { return state.load_factor; }, [](const Equilibrium&) { return 1.0; },
+          [&newton](const Equilibrium& a, const Equilibrium& b) { return leads_to(newton, a, b); }};
 }
 
 std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,

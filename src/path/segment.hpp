@@ -14,6 +14,8 @@ struct Segment {
   std::function<Report(State& state, const Eigen::MatrixXd& held)> settle;
   std::function<double(const State&)> parameter;         // of a state
   std::function<double(const Equilibrium&)> load_rate;   // dλ/dt
+  /// Whether the branch through one equilibrium leads to another one: a step and its parts meet.
+  std::function<bool(const Equilibrium& from, const Equilibrium& to)> leads;
 };
 
 /// A point between two equilibria of a segment, and dx/dt (dofs), dλ/dt there: Hermite's cubic, with dx/dt = dλ/dt dx/dλ at the ends.

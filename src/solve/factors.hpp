@@ -30,6 +30,8 @@ class Factors {
   /// within some σ are found and the signs on their span told by forms (see inertia.cpp). Leaves what solve_holding needs, which is of use if
   /// no eigenvalue is zero. Where there is no factor at all (see why_none), all dofs count as zero.
   Inertia inertia();
+  /// Which of the two comes first depends on the last inertia, and with it the rounding of what follows: what has been told of it elsewhere.
+  void expect(bool indefinite) { indefinite_ = indefinite; }
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
   /// it positive definite; returns τ.  The factor is then in cholesky(). None where there is no such thing: see why_none().
   std::optional<double> make_positive(double guess);

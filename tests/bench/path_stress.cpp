@@ -1266,7 +1266,8 @@ void ring_plates(Case& test) {
   if (test.reaches(other, 1)) test.touches(other), test.agree(t, other);
 }
 
-/// A small heap of grains between walls in a plane, a lid comes down on it.
+/// A small heap of grains between walls in a plane, a lid comes down on it. Where the lid meets one grain of a layer first and the walls yield, the
+/// heap may tilt at a limit point and fall until the others touch the lid, too.
 void grain_heap(Case& test) {
   Random& random = test.random;
   const int below = random.whole(2, 4);
@@ -1287,14 +1288,13 @@ void grain_heap(Case& test) {
   const double gap = random.between(0.01, 0.3) * r, down = gap + random.between(0.01, 0.08) * r;
   wall("floor", p.at(0, 0), p.along(1, 0)), wall("left", p.at(0, -below * r), p.along(0, 1)), wall("right", p.at(0, below * r), p.along(0, -1));
   wall("lid", p.at((2 + std::sqrt(3)) * r + gap, 0), p.along(-1, 0)).key("displacement", p.along(-down, 0));
-  Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200), .to = 1, .when_unstable = "follow"};
-  if (!way.arcs()) way.when_unstable = "jump";
+  Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200), .to = 1, .when_unstable = "jump"};
   const Traced t = test.trace(f, way, "path");
   if (!test.reaches(t, 1)) return;
   test.touches(t);
-  way.steps = random.other_steps(way.steps), way.method = way.arcs() ? PathMethod::load_steps : PathMethod::arc_length, way.when_unstable = way.arcs() ? "follow" : "jump";
+  way.steps = random.other_steps(way.steps), way.method = way.arcs() ? PathMethod::load_steps : PathMethod::arc_length;
   const Traced other = test.trace(f, way, "other");
-  if (test.reaches(other, 1)) test.touches(other), test.agree(t, other);
+  if (test.reaches(other, 1)) test.touches(other), test.agree(t, other), test.same_state(t, t.last(), other, other.last());
 }
 
 /// A box on a soft floor is pushed at the height a above its middle until it tips: F a = 4k b² sin θ − W c tan θ as long as all corners

@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "chain.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 #include "reference.hpp"
 
 using namespace elamin;
@@ -35,7 +35,7 @@ TEST_CASE("critical loads of straight chains, first loss of stability", "[path][
       const Model model = column(c, plane, Vec3::UnitZ());
       Energy energy(model);
       Newton newton(energy);
-      LoadSteps path(newton, model.start, {.from = 0, .to = 1.7 * critical(c, 0), .steps = 7, .when_unstable = WhenUnstable::stop, .start = {}, .stops = {}});
+      Continuation path(newton, model.start, {.from = 0, .to = 1.7 * critical(c, 0), .steps = 7, .when_unstable = WhenUnstable::stop, .start = {}, .stops = {}});
       std::optional<PathPoint> last;
       while (auto point = path.next()) last = point;
       INFO(c["ends"] << " " << c["section"] << " N = " << c["N_free_particles"] << (plane ? " 2D" : " 3D"));
@@ -53,7 +53,7 @@ TEST_CASE("critical loads of an oblique chain in space", "[path][reference]") {
     const Model model = column(c, false, Vec3(1, -2, 0.7));
     Energy energy(model);
     Newton newton(energy);
-    LoadSteps path(newton, model.start, {.from = 0, .to = 1.7 * critical(c, 0), .steps = 7, .when_unstable = WhenUnstable::stop, .start = {}, .stops = {}});
+    Continuation path(newton, model.start, {.from = 0, .to = 1.7 * critical(c, 0), .steps = 7, .when_unstable = WhenUnstable::stop, .start = {}, .stops = {}});
     std::optional<PathPoint> last;
     while (auto point = path.next()) last = point;
     INFO(c["ends"] << " N = " << c["N_free_particles"]);
@@ -72,7 +72,7 @@ TEST_CASE("the first four critical loads, following the straight branch", "[path
       Newton newton(energy);
       // As many transverse modes in a plane as free particles, whatever the closed form lists beyond.
       const int known = std::min(static_cast<int>(c["mu"].size()), static_cast<int>(c["N_free_particles"]));
-      LoadSteps path(newton, model.start, {.from = 0, .to = 1.02 * critical(c, known - 1), .steps = 10, .when_unstable = WhenUnstable::follow, .start = {}, .stops = {}});
+      Continuation path(newton, model.start, {.from = 0, .to = 1.02 * critical(c, known - 1), .steps = 10, .when_unstable = WhenUnstable::follow, .start = {}, .stops = {}});
       INFO(c["ends"] << " " << c["section"] << " N = " << c["N_free_particles"] << (plane ? " 2D" : " 3D"));
       int found = 0;
       while (auto point = path.next()) {
@@ -97,7 +97,7 @@ TEST_CASE("events do not depend on the step length", "[path]") {
     const Model model = column(c, true, Vec3::UnitZ());
     Energy energy(model);
     Newton newton(energy);
-    LoadSteps path(newton, model.start, {.from = 0, .to = 1.5 * critical(c, 0), .steps = steps, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
+    Continuation path(newton, model.start, {.from = 0, .to = 1.5 * critical(c, 0), .steps = steps, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
     int events = 0;
     while (auto point = path.next())
       if (point->label.starts_with("branch")) {

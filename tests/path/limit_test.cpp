@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "chain.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 
 using namespace elamin;
 
@@ -35,7 +35,7 @@ TEST_CASE("the limit point of a shallow truss, and the snap", "[path]") {
       Newton newton(energy);
       const double a = degrees * 3.14159265358979323846 / 180;
       const double limit = 2 * std::pow(1 - std::pow(std::cos(a), 2.0 / 3), 1.5);      // F_max/EA
-      LoadSteps path(newton, model.start, {.from = 0, .to = 1.5 * limit, .steps = steps, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
+      Continuation path(newton, model.start, {.from = 0, .to = 1.5 * limit, .steps = steps, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
       INFO(degrees << "° in " << steps << " steps");
       int limits = 0;
       std::optional<PathPoint> last;
@@ -59,7 +59,7 @@ TEST_CASE("load steps stop at a limit point when asked to, and cannot follow", "
   Energy energy(model);
   Newton newton(energy);
   for (const WhenUnstable how : {WhenUnstable::stop, WhenUnstable::follow}) {
-    LoadSteps path(newton, model.start, {.from = 0, .to = 1, .steps = 100, .when_unstable = how, .start = {}, .stops = {}});
+    Continuation path(newton, model.start, {.from = 0, .to = 1, .steps = 100, .when_unstable = how, .start = {}, .stops = {}});
     std::optional<PathPoint> last;
     while (auto point = path.next()) last = point;
     CHECK(last->label == "limit:1");
@@ -74,14 +74,14 @@ TEST_CASE("a path is the same from any stored point on", "[path]") {
   Energy energy(model);
   Newton newton(energy);
   const PathOptions options{.from = 0, .to = 1, .steps = 10, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}};
-  LoadSteps whole(newton, model.start, options);
+  Continuation whole(newton, model.start, options);
   std::vector<PathPoint> points;
   while (auto point = whole.next()) points.push_back(*point);
   REQUIRE(whole.status() == Status::converged);
   const PathPoint& middle = points[points.size() - 4];
   PathOptions rest = options;
   rest.start = middle.state.load_factor;
-  LoadSteps again(newton, middle.state, rest);
+  Continuation again(newton, middle.state, rest);
   again.next();                                                                       // the stored point itself
   for (std::size_t k = points.size() - 3; k < points.size(); ++k) {
     const auto point = again.next();

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 #include "plate.hpp"
 #include "reference.hpp"
 
@@ -20,7 +20,7 @@ std::vector<PathPoint> events_of_flat(const nlohmann::json& data, const std::str
   p.hold(held, [](const Vec3& x) { return Vec3(-x[0], 0, 0); });
   Energy energy(p.model);
   Newton newton(energy);
-  LoadSteps path(newton, p.model.start,
+  Continuation path(newton, p.model.start,
                  {.from = 0, .to = to, .steps = 4, .when_unstable = when_unstable, .start = {}, .stops = {}});
   std::vector<PathPoint> events;
   while (const auto point = path.next()) {
@@ -74,7 +74,7 @@ TEST_CASE("A buckled plate", "[path][reference]") {
       p.hold(held, [&](const Vec3& x) { return Vec3(-e * x[0], lateral * x[1], 0); });
       Energy energy(p.model);
       Newton newton(energy);
-      LoadSteps path(newton, p.model.start,
+      Continuation path(newton, p.model.start,
                      {.from = 0, .to = 1, .steps = 10, .when_unstable = WhenUnstable::jump, .start = {}, .stops = {}});
       PathPoint last;
       int branches = 0;

@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "chain.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 #include "reference.hpp"
 
 using namespace elamin;
@@ -29,7 +29,7 @@ TEST_CASE("buckled clamped chains: states, energies, forces and indices", "[path
       Newton newton(energy);
       std::vector<double> stops;
       for (const auto& s : c["states"]) stops.push_back(s["end_shortening"]);
-      LoadSteps path(newton, model.start, {.from = 0, .to = largest, .steps = 20, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
+      Continuation path(newton, model.start, {.from = 0, .to = largest, .steps = 20, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
       std::size_t next = 0;
       while (auto point = path.next()) {
         if (point->label == "branch:1") {
@@ -109,7 +109,7 @@ TEST_CASE("a cantilever under axial load, beyond its critical load", "[path][ref
   Newton newton(energy);
   std::vector<double> stops;
   for (const auto& s : c["states"]) stops.push_back(-static_cast<double>(s["tip_force"][0]));
-  LoadSteps path(newton, model.start, {.from = 0, .to = stops.back(), .steps = 20, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
+  Continuation path(newton, model.start, {.from = 0, .to = stops.back(), .steps = 20, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
   std::size_t next = 0;
   while (auto point = path.next()) {
     if (point->label == "branch:1") CHECK(point->state.load_factor == Approx(critical).epsilon(1e-9));

@@ -1,7 +1,7 @@
 #include "catch.hpp"
 #include "laws/section.hpp"
 #include "model/beam.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 #include "reference.hpp"
 
 #include <numeric>
@@ -124,7 +124,7 @@ TEST_CASE("Two beams before they touch, and both bowed to one side", "[path][con
   Newton newton(energy);
   std::vector<double> stops;
   for (const auto& s : c["path"]) stops.push_back(s["compression"]);
-  LoadSteps path(
+  Continuation path(
       newton, b.model.start,
       {.from = 0, .to = stops.back(), .steps = 8, .when_unstable = WhenUnstable::jump, .start = {}, .stops = stops});
   std::vector<std::string> events;
@@ -166,7 +166,7 @@ TEST_CASE("Two beams pressed against each other", "[path][contact][reference]") 
     for (const auto& s : c["path"])
       if (s["compression"].get<double>() > begin) states.push_back(s), stops.push_back(s["compression"]);
     const double end = limit ? stops.back() : 1.01 * loss["compression"].get<double>();
-    LoadSteps path(newton, start,
+    Continuation path(newton, start,
                    {.from = begin,
                     .to = end,
                     .steps = 20,

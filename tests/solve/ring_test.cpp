@@ -1,7 +1,7 @@
 #include "catch.hpp"
 #include "laws/section.hpp"
 #include "model/loop.hpp"
-#include "path/load_steps.hpp"
+#include "path/continuation.hpp"
 #include "reference.hpp"
 
 using namespace elamin;
@@ -22,7 +22,7 @@ TEST_CASE("A pinched ring", "[solve][reference]") {
     Newton newton(energy);
     std::vector<double> stops;
     for (const auto& s : pinch["states"]) stops.push_back(static_cast<double>(s["approach"]) / largest);
-    LoadSteps path(newton, m.start,
+    Continuation path(newton, m.start,
                    {.from = 0, .to = 1, .steps = 4, .when_unstable = WhenUnstable::stop, .start = {}, .stops = stops});
     double rest = 0;
     std::size_t next = 0;

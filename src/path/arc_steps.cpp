@@ -1,0 +1,333 @@
+#include "path/arc_steps.hpp"
+
+#include "core/interrupt.hpp"
+#include "energy/step_limits.hpp"
+#include "path/locate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+
+constexpr double largest_angle = 0.7;         // between the directions at both ends of a step [rad]
+constexpr double wanted_angle = 0.25;
+constexpr int wanted_iterations = 4;
+constexpr double largest_departure = 0.5;     // of the corrector, in parts of the step
+constexpr double largest_defect = 0.2;        // of the chord from the sum of the tangents, in parts of the chord
+constexpr double least_part = 1e-12;          // of the first step: shorter ones are given up
+constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
+constexpr double same_end = 1e-3;             // of the way: an event leads there
+constexpr double least_natural = 1e-9;        // of a load step: the shortest that is tried …
+constexpr int refused_first = 3;              // … where so many of arc length have been refused, or right behind a contact
+constexpr double same_mode = 0.9;             // cosine between a neutral mode and what it has become a step further
+constexpr double next_to_nothing = 1e-6;      // of the next stiffness
+constexpr int most_shifts = 5;                // of a step that ends on an event by chance
+constexpr int halvings_at_first = 8;          // then steps are quartered
+
+int sign_of(double x) { return x < 0 ? -1 : 1; }
+
+// The direction of a side branch where it arrives at a branch point.
+Direction passing(const Event& arrival, const Metric& metric) {
+  const double size = std::sqrt(metric.dot(arrival.passing, arrival.passing_load, arrival.passing, arrival.passing_load));
+  return {arrival.passing / size, arrival.passing_load / size};
+}
+
+// Zero modes that last along a branch and are no motions of rigid parts.
+void name_neutral(Stability& s) {
+  s.zero_modes.push_back(fmt::format("neutral: equilibria side by side at the same load factor ({} direction{})", s.critical, s.critical > 1 ? "s" : ""));
+  s.critical = 0;
+  s.stable = s.negative == 0;
+}
+
+// Of zero modes those along which no force acts at the last evaluation: what a force acts along is neutral no more.
+Eigen::MatrixXd without_force(const Energy& energy, const Eigen::MatrixXd& zero) {
+  const Vector along = zero.transpose() * energy.gradient();
+  if (zero.cols() < 2 || along.norm() == 0) return Eigen::MatrixXd(zero.rows(), 0);
+  return zero * complement(along);
+}
+
+}  // namespace
+
+Metric metric_for(const Energy& energy, const Equilibrium& start, double load_range) {
+  constexpr double least_length = 1e-6;         // of the extent
+  const double load = std::abs(load_range);
+  const double least = least_length * span(energy.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy.model().particles())));
+  return {std::max(load * start.tangent.norm(), least), load};
+}
+
+ArcOptions arc_options(const PathOptions& o) {
+  const double range = o.to - o.from;
+  const double low = o.lowest.value_or(range > 0 ? o.from - 2 * range : o.to), high = o.highest.value_or(range > 0 ? o.to : o.from - 2 * range);
+  ArcOptions a;
+  a.load_step = std::abs(range) / o.steps;
+  a.turn = std::clamp(5.0 / o.steps, 1e-3, 0.2);
+  a.contacts = o.contacts;
+  a.stops = o.stops;
+  for (const double end : {low, high, o.to}) a.stops.push_back(end);
+  std::sort(a.stops.begin(), a.stops.end());
+  a.stops.erase(std::unique(a.stops.begin(), a.stops.end()), a.stops.end());
+  a.watches = o.watches;
+  return a;
+}
+
+ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric metric, ArcOptions options)
+    : Branch(newton, std::move(from), options.contacts, options.watches), metric_(metric), options_(std::move(options)),
+      direction_(std::move(direction)) {
+  sign_ = sign_of(direction_.load);
+  if (negative_ < 0) neutral_ = current_.zero_modes;
+  constexpr double least = 1e-6;                               // of the span
+  least_length_ = std::min(metric_.length, least * span(newton.energy().model()));
+  step_ = options_.step > 0 ? options_.step : longest();
+  shortest_ = options_.shortest > 0 ? options_.shortest : least_part * step_;
+}
+
+// The step that neither the load factor nor the bonds forbid.
+double ArcSteps::longest() const {
+  const double turn = distortion(newton_.energy(), current_.point.state, direction_.x, direction_.load);
+  double most = std::numeric_limits<double>::infinity();
+  if (direction_.load != 0) most = std::min(most, options_.load_step / std::abs(direction_.load));
+  if (turn > 0) most = std::min(most, options_.turn / turn);
+  return std::isfinite(most) ? most : 1.0;
+}
+
+std::optional<Waypoint> ArcSteps::next() {
+  std::string why = "the corrector does not converge";
+  const bool meets = may_touch(newton_.energy().model());
+  int refused = 0, shifts = 0;
+  double natural = 1;                                           // of a load step
+  step_ = std::min(step_, longest());
+  for (double s = step_; s >= shortest_ && !interrupted();) {
+    double better = 0;
+    std::optional<Candidate> c = attempt(s, shifts, better, why);
+    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= least_natural && (at_contact_ || refused >= refused_first)) {
+      const double target = next_load(natural);
+      c = reach_load(current_, target, why);
+      if (c && c->events.empty() && std::binary_search(options_.stops.begin(), options_.stops.end(), target)) c->stop = target;
+      natural /= 4;
+    }
+    if (c) {
+      step_ = s;
+      return accept(std::move(*c));
+    }
+    if (better > 0) s = better;
+    else s /= ++refused > halvings_at_first ? 4 : 2;
+  }
+  const double here = current_.point.state.load_factor;
+  if (interrupted()) stop_here(Status::interrupted, fmt::format("interrupted at load factor {:.10g}", here));
+  else stop_here(Status::not_converged, fmt::format("the branch could not be followed beyond load factor {:.10g}, even in steps of {:.2g} of the first: {}",
+                                                    here, least_part, why));
+  return {};
+}
+
+// A step of the length s and what happens on it; else `better` is a length that suits the step, 0: a shorter one.
+std::optional<Branch::Candidate> ArcSteps::attempt(double s, int& shifts, double& better, std::string& why) {
+  const Arc arc(newton_, current_, direction_, metric_);
+  std::optional<Candidate> c = reach(arc, s, why);
+  const bool corner = !c && (c = reach_corner(arc, s)).has_value();
+  if (!c) return {};
+  if (!corner) {
+    const double change = std::abs(c->e.point.state.load_factor - current_.point.state.load_factor);
+    if (change > 1.5 * options_.load_step) return better = s * std::clamp(0.9 * std::sqrt(options_.load_step / change), 0.1, 0.9), std::nullopt;
+    const bool ends_on_event = c->e.point.stability.critical > 0 && c->e.zero_modes.cols() > current_.zero_modes.cols();
+    if (ends_on_event && shifts++ < most_shifts) return better = 0.87 * s, std::nullopt;      // by chance: let it be inside of a step
+  }
+  if (negative_ < 0 && !look_beyond(arc, *c)) return better = just_beyond * s, std::nullopt;
+  const Segment segment = beside({0, c->parameter, [&](double t, const Equilibrium& nearest) { return arc.at(t, nearest); },
+                                  [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
+                                  [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
+                                  [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
+  if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, *c, why) || !find_watches(segment, *c, why)) return {};
+  find_stop(segment, *c);
+  return c;
+}
+
+// The equilibrium a step further, if it is on the same branch.
+std::optional<Branch::Candidate> ArcSteps::reach(const Arc& arc, double s, std::string& why) {
+  Equilibrium e = arc.at(s, current_);
+  if (!e.point.report.converged() && neutral_.cols() > 0) {
+    Equilibrium from = current_;
+    from.zero_modes = without_force(newton_.energy(), from.zero_modes);
+    e = arc.at(s, from);
+  }
+  if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
+  if (!stays_on_branch(arc, s, e, why)) return {};
+  carry_neutral(e);
+  return Candidate{.parameter = s, .e = std::move(e)};
+}
+
+bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const {
+  if (arc.distance(e.point.state) > largest_departure * s) return why = "the corrector moved further than the predictor", false;
+  const Direction d = direction_of(e, metric_, direction_);
+  if (cosine(d, direction_, metric_) < std::cos(largest_angle)) return why = "the branch turns too sharply", false;
+  const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state), mean = d.x + direction_.x;
+  const double load = e.point.state.load_factor - current_.point.state.load_factor, mean_load = d.load + direction_.load;
+  const double part = metric_.dot(x, load, mean, mean_load) / metric_.dot(mean, mean_load, mean, mean_load);
+  const Vector off = x - part * mean;
+  const double off_load = load - part * mean_load;
+  if (std::sqrt(metric_.dot(off, off_load, off, off_load)) > largest_defect * std::sqrt(metric_.dot(x, load, x, load)))
+    return why = "the branch bends too sharply, or there is another one beside it", false;
+  return true;
+}
+
+// Of a branch that leaves a branch point: whether the index is the same right behind it as at the candidate.
+bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
+  const Equilibrium near = arc.at(just_beyond * c.parameter, current_);
+  if (!near.point.report.converged()) return false;
+  const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, direction_).load >= 0; };
+  if (near.point.stability.negative != c.e.point.stability.negative || rises(near) != rises(c.e)) return false;
+  negative_ = near.point.stability.negative, sign_ = rises(near) ? 1 : -1;
+  return true;
+}
+
+// A family of equilibria may cost a little to move along, as a polygon's does that stands for a ring: it stays neutral, and held, as long
+// as that is next to nothing beside the next stiffness.
+void ArcSteps::carry_neutral(Equilibrium& e) {
+  Stability& s = e.point.stability;
+  if (neutral_.cols() == 0 || e.zero_modes.cols() >= neutral_.cols()) return;
+  newton_.energy().evaluate(e.point.state);
+  const EigenPairs pairs = newton_.factors().lowest(s.negative + static_cast<int>(neutral_.cols()) + 1);
+  const Eigen::Index count = pairs.values.size();
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Vector& v = pairs.vectors.col(j);
+    if ((neutral_.transpose() * v).norm() < same_mode) continue;
+    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
+    double next = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < count; ++i)
+      if (i != j) next = std::min(next, std::abs(pairs.values[i]));
+    if (!(std::abs(pairs.values[j]) <= next_to_nothing * next) || !std::isfinite(next)) continue;
+    e.zero_modes = side_by_side(e.zero_modes, v);
+    ++s.zero, ++s.critical;
+    s.stable = false;
+    if (pairs.values[j] < 0) --s.negative, s.negative_rigid = std::min(s.negative_rigid, s.negative);
+  }
+}
+
+// Or, where the branch may end or turn in a corner, the corner.
+std::optional<Branch::Candidate> ArcSteps::reach_corner(const Arc& arc, double s) {
+  if (!contacts_) return {};
+  std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * direction_.x, s * direction_.load);
+  if (!change) return {};
+  const double t = arc.position(change->at.point.state);
+  constexpr double here = 1e-6;                                 // of the step: it may be where the walk stands
+  if (!(t >= -here * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(largest_departure * t, here * s)) return {};
+  return with_contact(Candidate{.parameter = t, .e = {}}, std::move(*change));
+}
+
+// A step and its two parts meet.
+bool ArcSteps::joins(const Arc& arc, const Equilibrium& start, const Equilibrium& end) const {
+  const Arc from(newton_, start, direction_of(start, metric_, arc.direction()), metric_);
+  State state;
+  if (!from.correct(state, from.position(end.point.state), start).converged()) return false;
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const auto apart = [&](const State& a, const State& b) {
+    const Vector x = kinematics.difference(a, b);
+    const double load = b.load_factor - a.load_factor;
+    return std::sqrt(metric_.dot(x, load, x, load));
+  };
+  const double way = apart(start.point.state, end.point.state);
+  return apart(state, end.point.state) <= same_end * std::max(way, same_end * std::abs(arc.position(end.point.state)));
+}
+
+// A part of a load step further, or the next stop where that comes before.
+double ArcSteps::next_load(double part) const {
+  const double here = current_.point.state.load_factor;
+  double next = here + sign_ * part * options_.load_step;
+  for (const double stop : options_.stops)
+    if ((stop - here) * sign_ > 0 && (stop - next) * sign_ < 0 && !(last_stop_ && stop == *last_stop_)) next = stop;
+  return next;
+}
+
+// The first of the load factors to stop at, exactly there.
+void ArcSteps::find_stop(Segment segment, Candidate& c) {
+  const double from = current_.point.state.load_factor, to = c.e.point.state.load_factor;
+  std::optional<double> first;
+  for (const double stop : options_.stops) {
+    if (last_stop_ && stop == *last_stop_) continue;
+    if ((from - stop) * (to - stop) > 0 || from == stop) continue;
+    if (!first || std::abs(stop - from) < std::abs(*first - from)) first = stop;
+  }
+  if (!first) return;
+  segment.b = c.parameter;
+  const std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& e) { return e.point.state.load_factor - *first; });
+  Equilibrium e = at_load(near ? near->at : c.e, *first);
+  if (!e.point.report.converged()) return;
+  const double s = segment.parameter(e.point.state);
+  if (s < 0 || s > c.parameter * (1 + 1e-6)) return;
+  c.parameter = s, c.e = std::move(e), c.events.clear(), c.stop = first;
+}
+
+// The equilibrium at a load factor, from one that is near: as load steps find it, with what is neutral in its phase, or, where no step of the load
+// factor can be told from rounding, as it is.
+Equilibrium ArcSteps::at_load(const Equilibrium& from, double load_factor) {
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  if (neutral_.cols() == 0)
+    if (Equilibrium e = continue_to(newton_, from, load_factor); e.point.report.converged()) return e;
+  State state = from.point.state;
+  const double change = load_factor - state.load_factor;
+  kinematics.prescribe(state, load_factor);
+  kinematics.retract(state, from.tangent, change);
+  const Report report = correct_in_phase(newton_.energy(), from, state, [&](State& x, const Eigen::MatrixXd& held) { return newton_.correct(x, held); });
+  if (report.converged()) {
+    Equilibrium e = assess(newton_, state, report);
+    carry_neutral(e);
+    return e;
+  }
+  Equilibrium e = from;
+  kinematics.prescribe(e.point.state, load_factor);
+  newton_.energy().evaluate(e.point.state);
+  if (newton_.energy().relative(newton_.energy().gradient()) > newton_.tolerance()) e.point.report.status = Status::not_converged;
+  return e;
+}
+
+Waypoint ArcSteps::accept(Candidate c) {
+  const Event* event = deciding(c);
+  neutral_ = !event && c.e.point.stability.critical > 0 ? c.e.zero_modes : Eigen::MatrixXd();
+  if (neutral_.cols() > 0) name_neutral(c.e.point.stability);
+  last_stop_ = c.stop, taken_ = c.natural ? 0 : c.parameter;
+  const bool corner = event && event->beyond;
+  if (c.natural && !corner && !is_critical(event)) {            // positions weigh as the load factor does from here on
+    metric_.length = std::max(metric_.length, metric_.load * c.e.tangent.norm());
+    direction_ = direction_of(c.e, metric_, {Vector::Zero(c.e.tangent.size()), sign_ * metric_.load});
+  } else {
+    rotate(c);
+  }
+  take(c);
+  if (corner) step_ = std::min(step_, longest());
+  else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, least_part * step_);
+  return {std::move(c.e), std::move(c.events), c.stop};
+}
+
+// The direction from the candidate on, and the next step from how this one went.
+void ArcSteps::rotate(const Candidate& c) {
+  const Event* event = deciding(c);
+  const bool corner = event && event->beyond, arrival = event && event->arrival, limit = is_critical(event) && event->kind == EventKind::limit;
+  Direction next = direction_of(corner ? *event->beyond : c.e, metric_, direction_);
+  if (corner && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
+  if (arrival) next = passing(*event, metric_);                 // on along the side branch, to its other half
+  if (arrival != limit) sign_ = -sign_;
+  if (arrival || limit) next.load = std::copysign(next.load, sign_);      // else rounding's
+  else if (!is_critical(event)) sign_ = sign_of(next.load);
+  const double angle = std::acos(std::clamp(cosine(next, direction_, metric_), -1.0, 1.0));
+  direction_ = std::move(next);
+  if (!c.events.empty() || c.stop) return;
+  const double ease = std::exp2((wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
+  step_ = c.parameter * std::clamp(std::min(ease, wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
+  weigh(c.e);
+}
+
+// Positions must not weigh less than the load factor, or the steps would be load steps: L ≤ Λ |dx/dλ|.
+void ArcSteps::weigh(const Equilibrium& e) {
+  const double length = std::max(metric_.load * e.tangent.norm(), least_length_);
+  if (length >= metric_.length) return;
+  metric_.length = length;
+  const double size = std::sqrt(cosine(direction_, direction_, metric_));
+  direction_.x /= size, direction_.load /= size;
+  step_ *= size, shortest_ *= size;
+}
+
+}  // namespace elamin

@@ -1,0 +1,70 @@
+#pragma once
+#include "path/arc.hpp"
+#include "path/branch.hpp"
+
+namespace elamin {
+
+struct ArcOptions {
+  double load_step = 0.01;             // no step changes the load factor by more
+  double turn = 0.05;                  // … nor turns or stretches a bond by more (rad)
+  bool contacts = true;
+  std::vector<double> stops = {};      // load factors at which it stops on the way
+  std::vector<Watch> watches = {};
+  double step = 0, shortest = 0;       // of the first step, in the metric; 0: as long as the limits above let it be
+};
+
+/// What steps of arc length within a path's options may do.
+ArcOptions arc_options(const PathOptions& options);
+
+/// L and Λ for a diagram that begins at an equilibrium: Λ = |to − from|, and L so that load factor and positions weigh alike
+/// there, but not less than 10⁻⁶ of the structure's extent.
+Metric metric_for(const Energy& energy, const Equilibrium& start, double load_range);
+
+/// A branch in steps of arc length, stable or not, through limit points and over branch points. Steps are as long as the corrector's
+/// iterations (4 are aimed at), the change of the branch's direction (0.25 rad) and the options allow.
+///
+/// A step from a to b is taken to have stayed on its branch where the corrector leaves the tangent at a by no more than half a step, the
+/// chord is parallel to the sum of the tangents at a and b, as it is, up to the third order in the step, on a smooth curve, and the Morse index and the sign
+/// of dλ/ds are the same at a and b or explained (see Branch).
+///
+/// Where contacts are made that are much stiffer than what they press on, the branch has corners that no step of arc length resolves: there
+/// steps of the load factor go on, in the direction in which it was going, as long as they are needed.
+class ArcSteps final : public Branch {
+ public:
+  ArcSteps(Newton& newton, Departure from, Direction direction, Metric metric, ArcOptions options);
+
+  std::optional<Waypoint> next() override;
+
+  const Direction& direction() const { return direction_; }
+  /// As it is now: L falls to the least Λ |dx/dλ| that is met.
+  const Metric& metric() const { return metric_; }
+  /// Length of the next step, and of the shortest that is tried.
+  double step() const { return step_; }
+  double shortest() const { return shortest_; }
+  /// Of the last one; 0: it was not one of arc length.
+  double taken() const { return taken_; }
+
+ private:
+  double longest() const;
+  std::optional<Candidate> attempt(double s, int& shifts, double& better, std::string& why);
+  std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
+  std::optional<Candidate> reach_corner(const Arc& arc, double s);
+  bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
+  bool look_beyond(const Arc& arc, const Candidate& c);
+  void carry_neutral(Equilibrium& e);
+  bool joins(const Arc& arc, const Equilibrium& start, const Equilibrium& end) const;
+  double next_load(double part) const;
+  void find_stop(Segment segment, Candidate& c);
+  Equilibrium at_load(const Equilibrium& from, double load_factor);
+  Waypoint accept(Candidate c);
+  void rotate(const Candidate& c);
+  void weigh(const Equilibrium& e);
+
+  Metric metric_;
+  ArcOptions options_;
+  Direction direction_;
+  std::optional<double> last_stop_;    // where it stands, if at a stop
+  double step_, shortest_, least_length_, taken_ = 0;
+};
+
+}  // namespace elamin

@@ -1,0 +1,137 @@
+#include "path/branch.hpp"
+
+#include "path/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace elamin {
+
+Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches)
+    : newton_(newton), current_(std::move(from.at)), negative_(from.negative), sign_(from.sign), singular_(from.singular || from.negative < 0),
+      at_contact_(from.at_contact), closed_(std::move(from.closed)), contacts_(contacts), watches_(std::move(watches)), side_(std::move(from.sides)) {
+  for (std::size_t k = side_.size(); k < watches_.size(); ++k) side_.push_back(watches_[k].side(current_.point.state));
+  newton_.factors().expect(negative_ > 0);
+}
+
+const Event* Branch::deciding(const Candidate& c) {
+  return c.events.empty() || c.events.front().kind == EventKind::watch ? nullptr : &c.events.front();
+}
+
+std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct) {
+  Equilibrium e = continue_to(newton_, from, target, correct);
+  if (e.point.report.status == Status::interrupted) stop_here(Status::interrupted, "interrupted");
+  if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
+  Candidate c{.parameter = target, .e = std::move(e), .natural = true};
+  const Segment segment = beside(segment_of_loads(newton_, current_.point.state.load_factor, target), c);
+  if (!find_contact(segment, c, why)) return {};
+  if (!c.events.empty() && !same_branch(newton_.energy(), current_, c.e)) return why = "the corrector went to another branch", std::nullopt;
+  if (!find_critical(segment, c, why) || !find_watches(segment, c, why)) return {};
+  return c;
+}
+
+Segment Branch::beside(Segment segment, const Candidate& c) const {
+  segment.at = [this, at = std::move(segment.at), end = c.e.point.state](double t, const Equilibrium& nearest) {
+    Equilibrium e = at(t, nearest);
+    if (e.point.report.converged() && !beside_chord(newton_.energy().kinematics(), current_.point.state, end, e.point.state))
+      e.point.report.status = Status::not_converged, e.point.report.why = "the corrector went to another branch";
+    return e;
+  };
+  return segment;
+}
+
+Branch::Candidate Branch::with_contact(Candidate c, ContactChange change) const {
+  Event event;
+  event.kind = EventKind::contact;
+  event.before = negative_;                                     // after: when it is known that nothing comes before
+  event.closed = std::move(change.after), event.what = std::move(change.what);
+  event.beyond = std::move(change.beyond), event.onward = change.onward;
+  event.at_parameter = c.parameter;
+  c.e = std::move(change.at);
+  event.at = c.e;
+  c.events = {std::move(event)};
+  return c;
+}
+
+bool Branch::find_contact(const Segment& segment, Candidate& c, std::string& why) {
+  if (!contacts_) return true;
+  std::optional<ContactChange> change = locate_contact(newton_, segment, closed_, current_, c.e);
+  if (!change) return true;
+  if (!change->found) return why = "a contact that is made or lost could not be located", false;
+  c.parameter = change->at_parameter;
+  c = with_contact(std::move(c), std::move(*change));
+  return true;
+}
+
+// Branch points and limit points: where the Morse index changes, and where the load factor turns though it does not.
+bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
+  segment.b = c.parameter;
+  const int after = c.e.point.stability.negative;
+  const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
+  const bool turns = !c.natural && rises(c.e) != sign_;
+  if (after == negative_ && !turns) {
+    if (c.events.empty()) return true;
+    Event& contact = c.events.front();
+    contact.after = contact.beyond ? contact.beyond->point.stability.negative : after;
+    if (contact.beyond && contact.onward == -sign_) contact.kind = EventKind::limit;
+    return true;
+  }
+  // What was neutral to rounding, and held, turns out to have a sign: no event.
+  const Eigen::Index resolved = current_.zero_modes.cols() - c.e.zero_modes.cols();
+  if (!turns && c.events.empty() && neutral_.cols() > 0 && resolved > 0 && std::abs(after - negative_) <= resolved) return true;
+  std::optional<Event> event;
+  if (after != negative_) {
+    event = locate_crossing(newton_, segment, current_, negative_, c.e, c.natural ? std::nullopt : std::optional(turns));
+    if (event && !explained(*event, segment, c)) event.reset();
+  } else if (rises(current_) == sign_) {
+    event = locate_arrival(newton_, segment, current_, c.e, segment.load_rate);
+  }
+  if (!event || event->modes.cols() == 0)
+    return why = "the Morse index changes, but there is no limit point and no branch point between: two branches pass by each other", false;
+  c.parameter = event->at_parameter, c.e = event->at;
+  c.events = {std::move(*event)};
+  return true;
+}
+
+// From the event the branch leads to both ends of the step. Where the load factor turns with one eigenvalue's sign the determinant keeps its own: one end is
+// enough; no step of the load factor meets a limit point.
+bool Branch::explained(const Event& event, const Segment& segment, const Candidate& c) const {
+  const auto leads_to = [&](const Equilibrium& end) { return segment.leads(event.at, end); };
+  if (event.kind == EventKind::limit) return !c.natural && (leads_to(c.e) || (!singular_ && leads_to(current_)));
+  return leads_to(c.e) && (singular_ || leads_to(current_));
+}
+
+bool Branch::find_watches(Segment segment, Candidate& c, std::string& why) {
+  segment.b = c.parameter;
+  bool missed = false;
+  Equilibrium end = c.e;
+  if (!c.events.empty() && c.events.front().arrival) {         // this branch, not the one that is met
+    const Event& arrival = c.events.front();
+    end.tangent = arrival.passing / (std::abs(arrival.passing_load) > 1e-100 ? arrival.passing_load : 1e-100);
+  }
+  std::vector<Event> seen = locate_watches(watches_, side_, segment, current_, end, negative_, missed);
+  if (missed) return why = "where an observable reaches its value could not be located", false;
+  if (seen.empty()) return true;
+  if (std::abs(c.parameter - seen.front().at_parameter) > coincide * std::abs(segment.b - segment.a))
+    c.parameter = seen.front().at_parameter, c.e = seen.front().at, c.events.clear();
+  std::move(seen.begin(), seen.end(), std::back_inserter(c.events));
+  return true;
+}
+
+void Branch::take(const Candidate& c) {
+  const Event* event = deciding(c);
+  singular_ = is_critical(event);
+  at_contact_ = event && event->kind == EventKind::contact;
+  negative_ = event ? event->after : c.e.point.stability.negative;
+  const bool told = event && (event->beyond || event->kind == EventKind::contact);
+  closed_ = told ? event->closed : closed_contacts(newton_.energy(), c.e.point.state);
+  pass_watches(watches_, c.events, c.e.point.state, side_);
+  current_ = event && event->beyond ? *event->beyond : c.e;
+  current_.point.label.clear();
+  if (c.events.empty()) return;
+  current_.lowest = {}, newton_.factors().expect(negative_ > 0);         // as where a path is taken up
+  if (event) current_.point.stability.critical = 0;             // what is singular here has been told
+}
+
+}  // namespace elamin

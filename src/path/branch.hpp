@@ -1,0 +1,93 @@
+#pragma once
+// A branch as an iterator over its equilibria, with what happens between them located.
+#include "path/event.hpp"
+#include "path/options.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace elamin {
+
+/// What a step led to: the next equilibrium, what happens there, or a stop.
+struct Waypoint {
+  Equilibrium at;
+  std::vector<Event> events = {};           // all at this point, the one that decides how the branch goes on first
+  std::optional<double> stop = {};          // the load factor of the stop that was met
+};
+
+/// Where a branch is taken up.
+struct Departure {
+  Equilibrium at = {};
+  int sign = 1;                             // of the change of the load factor, from here on
+  int negative = -1;                        // Morse index from here on; −1: not known, as at a branch point that a side branch leaves
+  ContactSet closed;                        // contacts from here on
+  bool singular = false;                    // it is a limit point or branch point …
+  bool at_contact = false;                  // … or a place where a contact is made or lost
+  std::vector<double> sides = {};           // of every watch: observable − value from here on, 0: not known; none: as the state tells
+};
+
+/// The steps of a branch are a strategy's (load_steps.hpp, arc_steps.hpp); what happens on a step is found here, the same for all:
+/// contacts made and lost, limit points and branch points, watched observables at their values. All on one step are found, the first is told.
+///
+/// A change of the Morse index is explained by an event between the ends of the step from which the branch leads back to the one and on to the other, or
+/// the step is refused: the determinant of the bordered matrix [H c; t_x/L² t_λ/Λ²] keeps its sign on a smooth branch (Keller 1977), so a step onto
+/// a branch that only passes by, as beside a pitchfork that a small force has unfolded, shows as a change of the index for which there is no event.
+class Branch {
+ public:
+  virtual ~Branch() = default;
+  Branch(const Branch&) = delete;
+  Branch& operator=(const Branch&) = delete;
+
+  /// The next waypoint; nothing at the end, or where the branch cannot be followed any further: status() and why() say which.
+  virtual std::optional<Waypoint> next() = 0;
+  Status status() const { return status_; }
+  const std::string& why() const { return why_; }
+
+  const Equilibrium& at() const { return current_; }
+  int negative() const { return negative_; }
+  const ContactSet& closed() const { return closed_; }
+  const std::vector<double>& sides() const { return side_; }
+
+ protected:
+  Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches);
+
+  struct Candidate {
+    double parameter;                  // on the segment from here
+    Equilibrium e;
+    std::vector<Event> events = {};
+    std::optional<double> stop = {};
+    bool natural = false;              // a step of the load factor
+  };
+  /// The event that decides how the branch goes on behind a candidate; none if there are only watches.
+  static const Event* deciding(const Candidate& c);
+  static bool is_critical(const Event* event) { return event && !event->beyond && (event->kind == EventKind::limit || event->kind == EventKind::branch); }
+
+  /// The equilibrium at a load factor, if it is on the same branch, or what happens before.
+  std::optional<Candidate> reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
+  /// Equilibria between here and the candidate lie beside the chord.
+  Segment beside(Segment segment, const Candidate& c) const;
+  Candidate with_contact(Candidate c, ContactChange change) const;
+  bool find_contact(const Segment& segment, Candidate& c, std::string& why);
+  bool find_critical(Segment segment, Candidate& c, std::string& why);
+  bool explained(const Event& event, const Segment& segment, const Candidate& c) const;
+  bool find_watches(Segment segment, Candidate& c, std::string& why);
+  /// The branch is at the candidate from now on.
+  void take(const Candidate& c);
+  void stop_here(Status status, std::string why) { status_ = status, why_ = std::move(why); }
+
+  Newton& newton_;
+  Equilibrium current_;
+  int negative_, sign_;                // Morse index, and of dλ, from here on
+  Eigen::MatrixXd neutral_;            // zero modes of it that are no motions of rigid parts (dofs × count)
+  bool singular_, at_contact_;
+  ContactSet closed_;
+  bool contacts_;
+  std::vector<Watch> watches_;
+  std::vector<double> side_;
+
+ private:
+  Status status_ = Status::converged;
+  std::string why_;
+};
+
+}  // namespace elamin

@@ -1,0 +1,258 @@
+#include "path/continuation.hpp"
+
+#include "path/cause.hpp"
+#include "path/jump.hpp"
+#include "path/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+constexpr double fall_beyond = 1e-3;          // of the range of load factors: where a fall begins
+constexpr double same_load = 1e-13;           // of the range: load factors that are one
+constexpr double same_point = 1e-6;           // of the structure's displacement scale: one branch point met twice
+
+// The two particles of a bond that has shrunk to nothing, where its energy has a kink and a branch its end; else "".
+std::string collapsed(const Model& model, const State& state) {
+  constexpr double nothing = 1e-6;            // of the rest length
+  for (const Bond& b : model.bonds) {
+    const auto [i, j] = b.particles;
+    if ((state.at(j) - state.at(i)).hi.norm() <= nothing * model.bond_types[b.type].rest_length)
+      return fmt::format("particles {} and {}, which a bond joins, come together", model.id[i], model.id[j]);
+  }
+  return "";
+}
+
+}  // namespace
+
+Continuation::Continuation(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
+    : Path(numbering), newton_(newton), options_(std::move(options)), start_(start) {}
+
+Continuation::Continuation(Newton& newton, SideBranch side, std::string parent, const std::vector<Event>& known, Metric metric,
+                           PathOptions options, Numbering* numbering)
+    : Path(numbering), newton_(newton), options_(std::move(options)), side_(std::move(side)), known_(known), metric_(metric) {
+  options_.method = PathMethod::arc_length;
+  parent_ = std::move(parent);
+}
+
+void Continuation::advance() {
+  if (!steps_) return begin();
+  const int most = options_.most_points > 0 ? options_.most_points : 20 * options_.steps;
+  if (arcs() && ++points_ > most)
+    return end(Status::converged, fmt::format("stopped after {} points of one branch (path.points), at load factor {:.10g}", most,
+                                              steps_->at().point.state.load_factor));
+  std::optional<Waypoint> waypoint = steps_->next();
+  if (waypoint) show(std::move(*waypoint));
+  else break_off();
+}
+
+void Continuation::begin() {
+  if (side_) {
+    branch_ = ++numbering().branches;
+    Equilibrium at = side_->at;
+    at.point.label.clear();
+    return set_out({.at = at, .closed = closed_contacts(newton_.energy(), at.point.state)}, side_->direction, side_->step);
+  }
+  std::string sentence;
+  const double at = options_.start.value_or(options_.from);
+  Equilibrium e = first_equilibrium(newton_, start_, at, options_.when_unstable, options_.resume.has_value(), sentence);
+  if (!sentence.empty()) note(sentence);
+  if (!e.point.report.converged()) return end(e.point.report.status, e.point.report.why);
+  metric_ = metric_for(newton_.energy(), e, range());
+  if (arcs())
+    note(fmt::format("arc length: |(x, λ)|² = |x|²/L² + λ²/Λ², |x| over all free coordinates, Λ = {:.4g}, L = {:.4g} and further on the least "
+                     "Λ |dx/dλ| of the branch so far", metric_.load, metric_.length));
+  e.point.label = "initial";
+  emit(e.point);
+  e.point.label.clear();
+  if (options_.resume && (!arcs() || options_.resume->direction.size() == e.tangent.size())) return take_up(std::move(e), *options_.resume);
+  if (e.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop) return end(Status::converged, "the starting state is unstable");
+  ContactSet closed = closed_contacts(newton_.energy(), e.point.state);
+  const int negative = e.point.stability.negative;
+  const Direction direction = towards_end(e);
+  set_out({.at = std::move(e), .negative = negative, .closed = std::move(closed)}, direction);
+}
+
+Direction Continuation::towards_end(const Equilibrium& e) const {
+  return direction_of(e, metric_, {Vector::Zero(e.tangent.size()), range() > 0 ? metric_.load : -metric_.load});
+}
+
+// As if the path had never stopped here.
+void Continuation::take_up(Equilibrium at, const Resume& resume) {
+  if (arcs()) metric_.length = resume.length;
+  Departure from{.negative = resume.after >= 0 ? resume.after : at.point.stability.negative, .closed = resumed_contacts(resume)};
+  std::optional<Event> event = resumed_event(resume, at);
+  if (event) {
+    if (!goes_on_behind(*event)) return;
+    at = event->at;
+  }
+  if (resume.tangent.size() == at.tangent.size()) at.tangent = resume.tangent;
+  at.point.label.clear();
+  at.point.stability.critical = 0;
+  from.at_contact = resume.label.starts_with("contact:"), from.singular = event.has_value();
+  for (const Watch& w : options_.watches) from.sides.push_back(resume.label.starts_with(w.name + ":") ? 0 : w.side(at.point.state));
+  from.at = std::move(at);
+  set_out(std::move(from), {resume.direction, resume.load}, resume.step, resume.shortest);
+}
+
+void Continuation::set_out(Departure from, const Direction& direction, double step, double shortest) {
+  if (arcs()) {
+    ArcOptions a = arc_options(options_);
+    a.step = step, a.shortest = shortest;
+    first_ = from.at, first_direction_ = direction, left_ = false, travelled_ = 0;
+    steps_ = std::make_unique<ArcSteps>(newton_, std::move(from), direction, metric_, std::move(a));
+  } else {
+    steps_ = std::make_unique<LoadSteps>(newton_, std::move(from), options_);
+  }
+}
+
+void Continuation::show(Waypoint waypoint) {
+  const double load = waypoint.at.point.state.load_factor;
+  waypoint.at.point.resume = resume_here(waypoint);
+  if (arcs()) {
+    const Vector from_first = newton_.energy().kinematics().difference(first_.point.state, waypoint.at.point.state);
+    const double change = load - first_.point.state.load_factor;
+    travelled_ = std::max(travelled_, std::sqrt(arc_steps().metric().dot(from_first, change, from_first, change)));
+  }
+  for (Event& event : waypoint.events) {
+    event.at.point.resume = waypoint.at.point.resume;
+    const bool located = event.kind == EventKind::limit ? options_.limits : event.kind == EventKind::branch ? options_.branch_points : true;
+    if (event.kind == EventKind::branch && meets_known(waypoint, event)) return;
+    if (located) emit(event);
+    else emit(waypoint.at.point);
+  }
+  for (const Event& event : waypoint.events)
+    if (event.kind == EventKind::watch && options_.watches[event.watch].stop)
+      return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, load));
+  for (Event& event : waypoint.events)
+    if (event.kind != EventKind::watch && !goes_on_behind(event)) return;
+  if (!waypoint.events.empty()) return;
+  emit(waypoint.at.point);
+  if (!arcs()) return;
+  if (waypoint.stop) {
+    const double stop = *waypoint.stop;
+    if (stop == options_.to) return end(Status::converged, fmt::format("load factor {:.10g} reached", stop));
+    if (std::find(options_.stops.begin(), options_.stops.end(), stop) == options_.stops.end())
+      return end(Status::converged, fmt::format("the branch leaves the range of load factors at {:.10g}", stop));
+  }
+  if (closes_loop(waypoint)) end(Status::converged, fmt::format("the branch closes to a loop at load factor {:.10g}", load));
+}
+
+// What the state alone does not tell of how the path goes on from here.
+std::optional<Resume> Continuation::resume_here(const Waypoint& waypoint) const {
+  const bool any = !waypoint.events.empty();
+  if (!arcs() && !any) return {};
+  Resume r = any ? resume_of(waypoint.events.front(), steps_->closed()) : Resume{};
+  if (!any) store(steps_->closed(), r);
+  r.tangent = waypoint.at.tangent;
+  if (!arcs()) return r;
+  r.direction = arc_steps().direction().x, r.load = arc_steps().direction().load;
+  r.length = arc_steps().metric().length, r.step = arc_steps().step(), r.shortest = arc_steps().shortest();
+  return r;
+}
+
+// Whether the path goes on along the branch behind an event; else it has ended or fallen.
+bool Continuation::goes_on_behind(Event& event) {
+  const std::string at = fmt::format("{}, load factor {:.10g}", event.at.point.label.empty() ? "the loss of stability" : event.at.point.label,
+                                     event.at.point.state.load_factor);
+  const bool loses = event.before == 0 && event.after > 0, ends = event.kind == EventKind::limit && !arcs();
+  if (!loses && !ends) return true;
+  switch (options_.when_unstable) {
+    case WhenUnstable::jump: jump(event); return false;
+    case WhenUnstable::stop:
+      if (loses) return end(Status::converged, "stopped at " + at), false;
+      break;
+    case WhenUnstable::follow: break;
+  }
+  if (ends) end(Status::not_converged, at + ": load steps cannot follow the branch beyond; use path.method = \"arc_length\"");
+  return !ends;
+}
+
+// Just past the event the branch has turned unstable or ended: the state falls to the minimum below.
+void Continuation::jump(const Event& event) {
+  const double at = event.at.point.state.load_factor;
+  double way = fall_beyond * std::abs(range());                 // but not beyond what is to be hit
+  for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
+    if (const double ahead = (target - at) / range(); ahead > same_load) way = std::min(way, ahead * std::abs(range()) / 2);
+  std::string what;
+  Equilibrium landed = jump_from(newton_, event, at + std::copysign(way, range()), what);
+  note(fmt::format("jump at {}: {}", event.at.point.label, what));
+  if (!landed.point.report.converged()) return end(landed.point.report.status, landed.point.report.why);
+  land(std::move(landed), what, event.before, event.at.point.label);
+}
+
+// The path goes on from where it has fallen to.
+void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
+  ContactSet closed = closed_contacts(newton_.energy(), at.point.state);
+  set_out({.at = at, .negative = at.point.stability.negative, .closed = std::move(closed)}, towards_end(at));
+  at.point.resume = resume_here({at});
+  emit_landing(std::move(at.point), what, before, parent);
+}
+
+// The branch cannot be followed any further, or there is nothing left to hit.
+void Continuation::break_off() {
+  if (steps_->status() != Status::not_converged) return end(steps_->status(), steps_->why());
+  if (!arcs() && options_.when_unstable == WhenUnstable::jump && fall()) return;
+  const State& last = steps_->at().point.state;
+  if (const std::string together = collapsed(newton_.energy().model(), last); arcs() && !together.empty())
+    return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", last.load_factor, together));
+  const std::string cause = cause_at(newton_, steps_->at());
+  end(Status::not_converged, steps_->why() + (cause.empty() ? "" : "; " + cause));
+}
+
+// Where the branch ends within the finest step, at an event that could not be resolved: the minimum that is reached by going
+// down from there, beyond.
+bool Continuation::fall() {
+  const Equilibrium last = steps_->at();
+  const double at = last.point.state.load_factor, before = newton_.energy().value(last.point.state), target = static_cast<const LoadSteps&>(*steps_).goal();
+  State state = last.point.state;
+  newton_.energy().kinematics().prescribe(state, target);
+  if (newton_.energy().passage(last.point.state, state) < 1) return false;
+  const Report report = newton_.minimise(state, Pace::downhill);
+  if (!report.converged() || !(report.energy < before)) return false;
+  note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
+                   at, before, report.energy));
+  land(assess(newton_, state, report), fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target),
+       steps_->negative(), "");
+  return true;
+}
+
+// Whether this is a branch point that the diagram has already: then the branch ends there.
+bool Continuation::meets_known(const Waypoint& waypoint, const Event& event) {
+  if (known_.empty()) return false;
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const State& state = waypoint.at.point.state;
+  const Metric& metric = arc_steps().metric();
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    const State& other = known_[k].at.point.state;
+    const Vector apart = kinematics.difference(other, state);
+    const double load = state.load_factor - other.load_factor;
+    if (std::sqrt(metric.dot(apart, load, apart, load)) > same_point * travelled_) continue;
+    emit(waypoint.at.point);
+    arrived_at_ = static_cast<int>(k);
+    arrival_ = event.arrival ? Vector(-arc_steps().direction().x.normalized()) : Vector(Vector::Zero(apart.size()));
+    end(Status::converged, fmt::format("the branch arrives at {}, load factor {:.10g}", known_[k].at.point.label, state.load_factor));
+    return true;
+  }
+  return false;
+}
+
+// Whether the last step passed the point where the branch began, in the same direction, after it had left it.
+bool Continuation::closes_loop(const Waypoint& waypoint) {
+  const Metric& metric = arc_steps().metric();
+  const Arc arc(newton_, waypoint.at, arc_steps().direction(), metric);
+  const double s = arc.position(first_.point.state), away = arc.distance(first_.point.state), step = arc_steps().taken();
+  if (!left_) {
+    left_ = std::hypot(s, away) > 8 * step;
+    return false;
+  }
+  return s <= 0 && s > -step && away < 0.25 * step &&
+         cosine(arc_steps().direction(), first_direction_, metric) > 0.5 * std::sqrt(cosine(first_direction_, first_direction_, metric));
+}
+
+}  // namespace elamin
