@@ -22,7 +22,7 @@ constexpr double largest_defect = 0.2;        // of the chord from the sum of th
 constexpr double least_part = 1e-12;          // of the first step: shorter ones are given up
 constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;             // of the way: an event leads there
-constexpr double least_natural = 1e-9;        // of a load step: the shortest that is tried …
+constexpr double first_natural = 0.01, least_natural = 1e-9;   // of a load step: the longest and the shortest that is tried over a contact …
 constexpr int refused_first = 3;              // … where so many of arc length have been refused, or right behind a contact
 constexpr double same_mode = 0.9;             // cosine between a neutral mode and what it has become a step further
 constexpr double next_to_nothing = 1e-6;      // of the next stiffness
@@ -99,7 +99,7 @@ std::optional<Waypoint> ArcSteps::next() {
   std::string why = "the corrector does not converge";
   const bool meets = may_touch(newton_.energy().model());
   int refused = 0, shifts = 0;
-  double natural = 1;                                           // of a load step
+  double natural = first_natural;
   step_ = std::min(step_, longest());
   for (double s = step_; s >= shortest_ && !interrupted();) {
     double better = 0;

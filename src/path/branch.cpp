@@ -130,6 +130,7 @@ void Branch::take(const Candidate& c) {
   current_ = event && event->beyond ? *event->beyond : c.e;
   current_.point.label.clear();
   if (c.events.empty()) return;
+  current_.point.stability.negative = negative_;
   current_.lowest = {}, newton_.factors().expect(negative_ > 0);         // as where a path is taken up
   if (event) current_.point.stability.critical = 0;             // what is singular here has been told
 }

@@ -92,8 +92,8 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   change.onward = back == 0 ? came : ahead == 0 ? -came : 0;
 }
 
-// Completes the equilibrium at which these contacts change.
-void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vector<ContactKey>& changed, const Vector& way, double load_change) {
+// Completes the equilibrium at which these contacts change; negative: the Morse index where the way begins.
+void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
   Energy& energy = newton.energy();
   constexpr std::size_t most_told = 4;
   std::vector<std::string> sentences;
@@ -107,7 +107,9 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vect
   for (std::size_t k = 0; k < std::min(most_told, sentences.size()); ++k) change.what += (k ? ", " : "") + sentences[k];
   if (sentences.size() > most_told) change.what += fmt::format(" and {} more", sentences.size() - most_told);
   change.after = std::move(now);
-  std::erase_if(here, [](const ContactKey& key) { return key.feature < 0; });
+  // What particles do to each other begins from nothing. Where they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses
+  // zero nearer to the event than rounding lets it be seen.
+  if (change.at.point.stability.negative == negative) std::erase_if(here, [](const ContactKey& key) { return key.feature < 0; });
   if (!here.empty()) look_both_ways(newton, change, here, way, load_change);
 }
 
@@ -280,7 +282,8 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   change.at = at ? std::move(*at) : assess(newton, found, report);
   std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
   const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
-  tell(newton, change, std::move(now), changed, chord, b.point.state.load_factor - a.point.state.load_factor);
+  tell(newton, change, std::move(now), changed, chord, b.point.state.load_factor - a.point.state.load_factor,
+       a.point.stability.negative);
   return change;
 }
 
@@ -333,7 +336,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
       changed.push_back(key);
     }
   }
-  tell(newton, change, before, changed, way, load_change);
+  tell(newton, change, before, changed, way, load_change, a.point.stability.negative);
   return change;
 }
 

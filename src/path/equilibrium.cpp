@@ -139,9 +139,12 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
   if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more " + (model.bodies.empty() ? "particles" : "particles and bodies"));
 }
 
-// Whether contacts are made from one state to the other, and none is lost.
+// Whether contacts are made from one state to the other, and none is lost; what just touches at the first one is closed there.
 bool only_touches_more(Energy& energy, const State& from, const State& to) {
-  const ContactSet before = closed_contacts(energy, from), after = closed_contacts(energy, to);
+  constexpr double just = 1e-9;               // of the smallest size
+  ContactSet before = closed_contacts(energy, from);
+  for (const Touch& t : energy.touches(from, just * energy.kinematics().smallest_size())) before.insert({t.particle, t.other, t.wall, t.feature});
+  const ContactSet after = closed_contacts(energy, to);
   return after.size() > before.size() && std::includes(after.begin(), after.end(), before.begin(), before.end());
 }
 
@@ -240,7 +243,8 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = predicted;
-    report = newton.minimise(state, Pace::long_steps, most_in_contact);
+    report = newton.minimise(state, Pace::stationary, most_in_contact);
+    if (report.converged() && report.negative > 0) report = newton.correct(state, from.zero_modes, &start, most_iterations);
   }
   if (!report.converged()) return fail(state, report);
   if (energy.passage(start, state) < 1)

@@ -106,14 +106,15 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   const bool settled = descent.report.residual <= options_.tolerance;
   if (std::isfinite(descent.report.energy))
     if (const auto halt = no_factor()) return halt;
-  if (settled && is_minimum(state, descent))
-    return Halt{Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance)};
+  const bool stays = descent.pace == Pace::stationary;
+  if (settled && (is_minimum(state, descent) || stays))
+    return stays ? Halt{Status::converged, fmt::format("the residual is below {:g}", options_.tolerance)} : Halt{Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance)};
   if (const auto halt = must_halt(state, descent.report, descent.most)) return halt;
 
   const Vector g = energy_.gradient();
   steady_bodies(energy_, g);
   bool left;
-  const std::optional<double> convex = make_convex(state, g, descent.shift, settled, std::exchange(descent.left, false), left);
+  const std::optional<double> convex = make_convex(state, g, descent.shift, settled, std::exchange(descent.left, false) || stays, left);
   if (!convex) return without_factor();
   descent.shift = *convex;
   if (left) {
@@ -194,7 +195,7 @@ std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step
   descent.reach = part.free < 0.5 ? std::min(descent.reach, 2 * part.first * infinity_norm(step.p))
                                   : std::min(std::max(descent.reach, 4 * descent.moved), extent_);
   descent.previous = state;
-  descent.linearised = descent.pace == Pace::long_steps;
+  descent.linearised = descent.pace != Pace::downhill;
   state = next;
   return {};
 }

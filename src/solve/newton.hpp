@@ -16,8 +16,9 @@ struct NewtonOptions {
 
 /// How minimise() goes. long_steps: as described at Newton, the fewest iterations. downhill: exact Hessian, the energy falls
 /// at every step, simplified Newton corrections bend a step back that stretched the structure; it stays in the valley that
-/// it starts in, which is what a fall from an unstable state wants.
-enum class Pace { long_steps, downhill };
+/// it starts in, which is what a fall from an unstable state wants. stationary: long steps that do not leave a saddle; converged means a small residual
+/// alone, which is what a branch wants that is about to lose stability.
+enum class Pace { long_steps, downhill, stationary };
 
 /// A hyperplane across a branch, in the space of positions and load factor, through the state that a corrector begins at:
 ///   row · Δx + corner Δλ = 0.
@@ -52,7 +53,7 @@ class Newton {
  public:
   explicit Newton(Energy& energy, NewtonOptions options = {});
 
-  /// Finds a minimum: converged means a small residual and no negative eigenvalue. A saddle is left along its negative
+  /// Finds a minimum: converged means a small residual and (but see Pace) no negative eigenvalue. A saddle is left along its negative
   /// curvature. Steps lower the energy (Armijo on what was predicted); where rounding hides the energy's change, they
   /// must lower the residual. Not more than `most` iterations, where that is less than the options allow.
   Report minimise(State& state, Pace pace = Pace::long_steps, int most = std::numeric_limits<int>::max());
