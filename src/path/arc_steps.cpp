@@ -23,7 +23,7 @@ constexpr double least_part = 1e-12;          // of the first step: shorter ones
 constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;             // of the way: an event leads there
 constexpr double first_natural = 0.01, least_natural = 1e-9;   // of a load step: the longest and the shortest that is tried over a contact …
-constexpr int refused_first = 3;              // … where so many of arc length have been refused, or right behind a contact
+constexpr int refused_first = 6;              // … where so many of arc length have been refused, or right behind a contact
 constexpr double same_mode = 0.9;             // cosine between a neutral mode and what it has become a step further
 constexpr double next_to_nothing = 1e-6;      // of the next stiffness
 constexpr int most_shifts = 5;                // of a step that ends on an event by chance
@@ -290,8 +290,8 @@ Waypoint ArcSteps::accept(Candidate c) {
   if (neutral_.cols() > 0) name_neutral(c.e.point.stability);
   last_stop_ = c.stop, taken_ = c.natural ? 0 : c.parameter;
   const bool corner = event && event->beyond;
-  if (c.natural && !corner && !is_critical(event)) {            // positions weigh as the load factor does from here on
-    metric_.length = std::max(metric_.length, metric_.load * c.e.tangent.norm());
+  if (c.natural && !corner && !is_critical(event)) {
+    if (at_contact_) metric_.length = std::max(metric_.length, metric_.load * c.e.tangent.norm());      // nothing may have moved before it
     direction_ = direction_of(c.e, metric_, {Vector::Zero(c.e.tangent.size()), sign_ * metric_.load});
   } else {
     rotate(c);

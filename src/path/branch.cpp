@@ -31,6 +31,18 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
   return c;
 }
 
+void Branch::look_past_contact(double way) {
+  constexpr double least = 1e-7;                                // of it
+  at_contact_ = false;
+  for (double part = 1; part >= least; part /= 16) {
+    const Equilibrium e = continue_to(newton_, current_, current_.point.state.load_factor + sign_ * part * way);
+    if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
+    if (closed_contacts(newton_.energy(), e.point.state) != closed_) continue;
+    current_.tangent = e.tangent;
+    return;
+  }
+}
+
 Segment Branch::beside(Segment segment, const Candidate& c) const {
   segment.at = [this, at = std::move(segment.at), end = c.e.point.state](double t, const Equilibrium& nearest) {
     Equilibrium e = at(t, nearest);

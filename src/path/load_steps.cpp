@@ -14,6 +14,17 @@ namespace {
 
 constexpr int first_detour = 3, next_detour = 6;    // halvings after which the branch is explored in arc length, and every so many more
 constexpr int longest_detour = 400;                 // its steps
+constexpr double past_contact = 0.01;               // of a step: where the tangent behind a contact is taken
+constexpr int fine = 6;                             // halvings after which bends are no reason to halve again
+constexpr double most_bend = 0.3;                   // of a step, from the mean of the tangents at both ends
+
+// Whether the chord between two equilibria is another one than the mean of their tangents tells, as over a pitchfork, one branch of which
+// is as stable as what is before.
+bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b) {
+  const Vector moved = kinematics.difference(a.point.state, b.point.state);
+  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = 1e-12 * b.point.state.position.norm();
+  return (moved - change / 2 * (a.tangent + b.tangent)).norm() > most_bend * moved.norm() + rounding;
+}
 
 }  // namespace
 
@@ -61,7 +72,10 @@ std::optional<Waypoint> LoadSteps::next() {
 
 // Right behind a branch point its critical modes are free, or held where that leads to another branch.
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
+  if (at_contact_) look_past_contact(past_contact * std::abs(target - current_.point.state.load_factor));
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
+  if (c && grid_.halvings() < fine && may_touch(newton_.energy().model()) && !singular_ && bends(newton_.energy().kinematics(), current_, c->e))
+    return why = "the branch bends too much to be told from another one", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;
   held.zero_modes = side_by_side(held.zero_modes, critical_);
