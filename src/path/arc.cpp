@@ -1,18 +1,14 @@
 #include "path/arc.hpp"
 
 #include "model/entities.hpp"
+#include "path/limits.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace elamin {
 
-namespace {
-constexpr int most_iterations = 16;           // of a corrector
-constexpr double off_plane = 1e-9;            // of the step: rounding
-constexpr double resolved = 1e6;              // spacings of the load factors: a step that rounding does not turn
-constexpr double least_cosine = 0.1;          // between the directions at two samples of a segment
-}  // namespace
+using namespace limits::arc;
 
 double span(const Model& model) {
   return std::max(sides_of(model.start).maxCoeff(), largest_size(model));

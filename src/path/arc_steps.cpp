@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "path/limits.hpp"
 #include "path/locate.hpp"
 
 #include <fmt/format.h>
@@ -12,22 +13,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::arc_steps;
 
-constexpr double largest_angle = 0.7;         // between the directions at both ends of a step [rad]
-constexpr double wanted_angle = 0.25;
-constexpr int wanted_iterations = 4;
-constexpr double largest_departure = 0.5;     // of the corrector, in parts of the step
-constexpr double largest_defect = 0.2;        // of the chord from the sum of the tangents, in parts of the chord
-constexpr double least_part = 1e-12;          // of the first step: shorter ones are given up
-constexpr double just_beyond = 0.125;         // of a first step from a branch point: where the Morse index is looked at, too
-constexpr double same_end = 1e-3;             // of the way: an event leads there
-constexpr double first_natural = 0.01, least_natural = 1e-9;   // of a load step: the longest and the shortest that is tried over a contact …
-constexpr int refused_first = 6;              // … where so many of arc length have been refused, or right behind a contact
-constexpr double same_mode = 0.9;             // cosine between a neutral mode and what it has become a step further
-constexpr double next_to_nothing = 1e-6;      // of the next stiffness
-constexpr int most_shifts = 5;                // of a step that ends on an event by chance
-constexpr int halvings_at_first = 8;          // then steps are quartered
+namespace {
 
 int sign_of(double x) { return x < 0 ? -1 : 1; }
 
@@ -54,7 +42,6 @@ Eigen::MatrixXd without_force(const Energy& energy, const Eigen::MatrixXd& zero)
 }  // namespace
 
 Metric metric_for(const Energy& energy, const Equilibrium& start, double load_range) {
-  constexpr double least_length = 1e-6;         // of the extent
   const double load = std::abs(load_range);
   const double least = least_length * span(energy.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy.model().particles())));
   return {std::max(load * start.tangent.norm(), least), load};
@@ -80,8 +67,7 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
       direction_(std::move(direction)) {
   sign_ = sign_of(direction_.load);
   if (negative_ < 0) neutral_ = current_.zero_modes;
-  constexpr double least = 1e-6;                               // of the span
-  least_length_ = std::min(metric_.length, least * span(newton.energy().model()));
+  least_length_ = std::min(metric_.length, least_length * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
   shortest_ = options_.shortest > 0 ? options_.shortest : least_part * step_;
 }
@@ -213,8 +199,7 @@ std::optional<Branch::Candidate> ArcSteps::reach_corner(const Arc& arc, double s
   std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * direction_.x, s * direction_.load);
   if (!change) return {};
   const double t = arc.position(change->at.point.state);
-  constexpr double here = 1e-6;                                 // of the step: it may be where the walk stands
-  if (!(t >= -here * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(largest_departure * t, here * s)) return {};
+  if (!(t >= -standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(largest_departure * t, standing * s)) return {};
   return with_contact(Candidate{.parameter = t, .e = {}}, std::move(*change));
 }
 

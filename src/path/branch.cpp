@@ -1,5 +1,6 @@
 #include "path/branch.hpp"
 
+#include "path/limits.hpp"
 #include "path/locate.hpp"
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <iterator>
 
 namespace elamin {
+
+using namespace limits::branch;
 
 Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches)
     : newton_(newton), current_(std::move(from.at)), negative_(from.negative), sign_(from.sign), singular_(from.singular || from.negative < 0),
@@ -32,9 +35,8 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
 }
 
 void Branch::look_past_contact(double way) {
-  constexpr double least = 1e-7;                                // of it
   at_contact_ = false;
-  for (double part = 1; part >= least; part /= 16) {
+  for (double part = 1; part >= least_past; part /= 16) {
     const Equilibrium e = continue_to(newton_, current_, current_.point.state.load_factor + sign_ * part * way);
     if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
     if (closed_contacts(newton_.energy(), e.point.state) != closed_) continue;

@@ -1,6 +1,7 @@
 #include "path/cause.hpp"
 
 #include "model/entities.hpp"
+#include "path/limits.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +9,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::cause;
 
-constexpr double flat = 1e-3;                 // rad: an angle that passes π
-constexpr double bent = 1e-9;                 // rad: a rest angle that is not straight
-constexpr double touching = 1e-6;             // of a diameter: a gap that is about to open or to close
-constexpr double soft = 1e-6;                 // of the largest stiffness: an eigenvalue about to vanish
+namespace {
 
 std::string flat_angle(const Model& model, const State& state) {
   if (model.plane_normal) return "";

@@ -3,6 +3,7 @@
 #include "energy/body_touches.hpp"
 #include "energy/wall_group.hpp"
 #include "model/entities.hpp"
+#include "path/limits.hpp"
 #include "path/root.hpp"
 
 #include <fmt/format.h>
@@ -15,16 +16,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::contact_event;
 
-constexpr double together = 1e-10;            // of the size: gaps that vanish at one load factor
-constexpr double rounding = 1e-13;            // of the size: of a gap …
-constexpr double exact_rounding = 1e-18;      // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
-constexpr double together_in_step = 1e-9;     // … or of its change over the step
-constexpr double beside = 1e-9;               // of the size: where one side of a corner is looked at, …
-constexpr double most_beside = 0.05;          // … but no farther than this part of the step …
-constexpr double least_beside = 1e-12;        // … where that is more than rounding, of the size
-constexpr double along_chord = 0.1;           // of the step: beyond its ends, where a gap that vanishes at one of them may be found
+namespace {
 
 std::vector<ContactKey> difference(const ContactSet& a, const ContactSet& b) {
   std::vector<ContactKey> keys;
@@ -95,7 +89,6 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
 // Completes the equilibrium at which these contacts change; negative: the Morse index where the way begins.
 void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
   Energy& energy = newton.energy();
-  constexpr std::size_t most_told = 4;
   std::vector<std::string> sentences;
   std::vector<ContactKey> here;
   for (const ContactKey& key : changed) {
@@ -166,7 +159,6 @@ bool slope(const Energy& energy, const ContactKey& key, const State& state, doub
 // The equilibrium at which a gap vanishes, from a state that is near:  g(x, λ) = 0, gap(x, λ) = 0. way, load_change: the scales of
 // what may move. The state is moved along the way first, to where the gap vanishes to first order.
 Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from, const Vector& way, double load_change, State& state) {
-  constexpr int most = 12;
   Energy& energy = newton.energy();
   Plane plane;
   plane.length = std::max(way.norm(), 1e-300), plane.load = std::max(std::abs(load_change), 1e-300);
@@ -183,7 +175,7 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   for (const double part : {exact_rounding, rounding}) {         // gaps of particles are exact; of a wall it is rounding where it stands
     state = guess;
     plane.close = part * size_of(energy.model(), key.particle);
-    report = newton.correct(state, from.zero_modes, nullptr, most, &plane);
+    report = newton.correct(state, from.zero_modes, nullptr, most_closing, &plane);
     if (report.converged() || report.status == Status::interrupted) break;
   }
   if (!defined) report.status = Status::not_converged;
@@ -192,7 +184,6 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
 
 // Where on the way from one equilibrium towards another its tangent closes a gap; nothing if it does not.
 std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey& key, const Equilibrium& from, const Equilibrium& towards) {
-  constexpr double little = 1e-4;
   const double load_change = towards.point.state.load_factor - from.point.state.load_factor;
   const Vector way = load_change * from.tangent;
   const auto at = [&](double part) { return moved_by(energy.kinematics(), from.point.state, way, load_change, part); };

@@ -2,6 +2,7 @@
 
 #include "path/cause.hpp"
 #include "path/jump.hpp"
+#include "path/limits.hpp"
 #include "path/start.hpp"
 
 #include <fmt/format.h>
@@ -11,18 +12,15 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::continuation;
 
-constexpr double fall_beyond = 1e-3;          // of the range of load factors: where a fall begins
-constexpr double same_load = 1e-13;           // of the range: load factors that are one
-constexpr double same_point = 1e-6;           // of the structure's displacement scale: one branch point met twice
+namespace {
 
 // The two particles of a bond that has shrunk to nothing, where its energy has a kink and a branch its end; else "".
 std::string collapsed(const Model& model, const State& state) {
-  constexpr double nothing = 1e-6;            // of the rest length
   for (const Bond& b : model.bonds) {
     const auto [i, j] = b.particles;
-    if ((state.at(j) - state.at(i)).hi.norm() <= nothing * model.bond_types[b.type].rest_length)
+    if ((state.at(j) - state.at(i)).hi.norm() <= collapsed_bond * model.bond_types[b.type].rest_length)
       return fmt::format("particles {} and {}, which a bond joins, come together", model.id[i], model.id[j]);
   }
   return "";

@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "path/arc.hpp"
+#include "path/limits.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +12,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::deflation;
 
-constexpr int most_iterations = 60, most_modes = 4;
-constexpr double largest_turn = 0.3;          // of a bond in one step [rad]
-constexpr double same = 1e-6;                 // of ρ: states that are one
+namespace {
 
 class Deflation {
  public:
@@ -109,7 +108,6 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
   for (const double load_factor : at) {
     // The states next to the load factor on the branches stand for all of them.
     std::vector<State> near = states;
-    constexpr std::size_t most_near = 12;
     std::stable_sort(near.begin(), near.end(), [&](const State& a, const State& b) {
       return std::abs(a.load_factor - load_factor) < std::abs(b.load_factor - load_factor);
     });

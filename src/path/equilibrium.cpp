@@ -4,12 +4,15 @@
 #include "model/rigid_motion.hpp"
 #include "path/arc.hpp"
 #include "path/contact_event.hpp"
+#include "path/limits.hpp"
 #include "solve/contact_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace elamin {
+
+using namespace limits::equilibrium;
 
 namespace {
 
@@ -61,7 +64,6 @@ class Explained {
 
   /// Whether the rest are motions of the parts as rigid bodies against each other, which no force opposes.
   void take_relative(const std::vector<RigidMotion>& motions) {
-    constexpr std::size_t most_motions = 600;
     if (all() || motions.empty() || motions.size() > most_motions) return;
     Eigen::MatrixXd span(zero_.rows(), static_cast<Eigen::Index>(motions.size()));
     for (std::size_t k = 0; k < motions.size(); ++k)
@@ -104,7 +106,6 @@ bool name_zero_modes(Energy& energy, Equilibrium& e) {
 // Single particles and bodies that no stiffness holds: one that flies is named as such, one that slides or spins on a plane by
 // direction.
 void name_idle(const Energy& energy, std::vector<std::string>& names) {
-  constexpr std::size_t most_names = 20;
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
   const auto entity_of = [&](int dof) {
@@ -141,15 +142,12 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
 
 // Whether contacts are made from one state to the other, and none is lost; what just touches at the first one is closed there.
 bool only_touches_more(Energy& energy, const State& from, const State& to) {
-  constexpr double just = 1e-9;               // of the smallest size
   ContactSet before = closed_contacts(energy, from);
-  for (const Touch& t : energy.touches(from, just * energy.kinematics().smallest_size())) before.insert({t.particle, t.other, t.wall, t.feature});
+  for (const Touch& t : energy.touches(from, just_touching * energy.kinematics().smallest_size())) before.insert({t.particle, t.other, t.wall, t.feature});
   const ContactSet after = closed_contacts(energy, to);
   return after.size() > before.size() && std::includes(after.begin(), after.end(), before.begin(), before.end());
 }
 
-constexpr int most_iterations = 12;           // of a corrector that stays on its branch
-constexpr int most_in_contact = 40;           // an overlap that the tangent runs into shrinks to a third a step: 21 for ten decades of stiffness
 
 }  // namespace
 
@@ -201,7 +199,6 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
 }
 
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
-  constexpr double largest_part = 0.45, least_cosine = 0.5;
   const Vector moved = energy.kinematics().difference(a.point.state, b.point.state);
   const double change = b.point.state.load_factor - a.point.state.load_factor;
   const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
@@ -256,7 +253,6 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 }
 
 bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to) {
-  constexpr double same_end = 1e-3;           // of the way
   const Kinematics& kinematics = newton.energy().kinematics();
   State state = from.point.state;
   const double change = to.point.state.load_factor - state.load_factor;
@@ -288,7 +284,6 @@ Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, cons
 
 // Whether a mode changes angles by more than rounding, as a rigid motion does not.
 bool bends(const Energy& energy, const Vector& change, const Vector& mode) {
-  constexpr double rigid = 1e-6;              // of what it moves
   return change.norm() * span(energy.model()) > rigid * mode.norm();
 }
 
@@ -329,15 +324,13 @@ Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const
 
 Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
                         const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct) {
-  constexpr int most = 6;
-  constexpr double drifted = 1e-13;           // rad
   const Eigen::MatrixXd& modes = from.zero_modes;
   const Eigen::MatrixXd held = phase_conditions(energy, from.point.state, modes), change = changes_of_angles(energy, from.point.state, modes);
   Report report = correct(state, held);
   for (Eigen::Index j = 0; j < modes.cols() && change.rows() > 0; ++j) {
     if (!bends(energy, change.col(j), modes.col(j))) continue;
     double shift = 0, before = 0;
-    for (int k = 0; k < most && report.converged(); ++k) {
+    for (int k = 0; k < most_shifts && report.converged(); ++k) {
       const double drift = change.col(j).normalized().dot(opened(energy.model(), from.point.state, state));
       if (std::abs(drift) <= drifted || (k > 0 && !(std::abs(drift) < std::abs(before) / 2))) break;
       shift = k == 0 ? -drift / change.col(j).norm() : shift * drift / (before - drift);
@@ -360,11 +353,10 @@ Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const 
   if (modes.cols() != 2) return canonical_modes(energy.kinematics(), modes);
   const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
   if (change.rows() == 0) return canonical_modes(energy.kinematics(), modes);
-  constexpr double alike = 1e-6;
   const Vector size = change.rowwise().norm();
   const double most = size.maxCoeff();
   Eigen::Index k = 0;
-  while (size[k] < (1 - alike) * most) ++k;
+  while (size[k] < (1 - alike_angles) * most) ++k;
   if (!(most > 0)) return canonical_modes(energy.kinematics(), modes);
   Eigen::MatrixXd both(modes.rows(), 2);
   both.col(0) = (modes * change.row(k).transpose()).normalized();
@@ -381,7 +373,6 @@ Vector symmetric_direction(const Energy& energy, const State& state, const Eigen
 }
 
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {
-  constexpr double close_values = 1e-6;       // lengths that a symmetry makes equal
   Eigen::MatrixXd left = modes, chosen(modes.rows(), 0);
   while (left.cols() > 0) {
     Vector best = left.col(0);

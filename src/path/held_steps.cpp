@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "path/limits.hpp"
 #include "path/load_steps.hpp"
 #include "path/locate.hpp"
 #include "path/root.hpp"
@@ -15,28 +16,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::held_steps;
 
-constexpr int finest = 12;                          // halvings of a step
-constexpr int most_changes = 20;                    // of contacts at one load factor
-constexpr double beyond_event = 1e-3;               // of the path: where a fall begins …
-constexpr double before_target = 0.5;               // … or of the way to the next step
-constexpr double aside = 1e-3;                      // turn of what is glued, and way in diameters, to where a fall begins
-constexpr double nearest = 1e-5;                   // the barrier where a fall begins, as small as leads to a minimum near by
-constexpr double alike = 1e-6;                      // of the energy that is lost
-constexpr int look_for_limit = 3;                   // after so many halvings, and again
-constexpr int most_crossings = 20;                  // of modes in one step, before the first one is found
-constexpr double just_before = 1e-6;                // of the way to a branch point
-constexpr int most_along = 30;                      // equilibria on the way to a limit point
-constexpr double turns_little = 1.2;                // 1/cos of the angle between the tangent and the way
-constexpr double most_bend = 0.2;                   // of the way, over which tangents tell it; √λ from its vertex has 0.5
-constexpr double at_the_limit = 1e-6;               // of the way ahead: a load factor that does not grow further
-constexpr double vanished = 1e-9;                   // of its size where the step begins: a curvature, a slope
-constexpr double rounding = 1e-12;                  // of a diameter, of the largest force
-constexpr double near_by = 1e-3;                    // of the smallest size: gaps that are looked at
-constexpr double together = 1e-10;                  // of the path: changes of contacts that are so near are one
-constexpr int short_enough = 6;                     // halvings after which what has opened has not closed again on the way
-constexpr int most_first = 100;                     // contacts that are tried before the first one is found
+namespace {
 
 bool in(const std::vector<HardForce>& contacts, const HardForce& contact) {
   return std::any_of(contacts.begin(), contacts.end(), [&](const HardForce& h) { return key(h) == key(contact); });
@@ -308,7 +290,6 @@ void HeldSteps::corner(Equilibrium at, const Contacts& slack) {
 
 // An event where other contacts are closed from here on, and the branch behind it.
 void HeldSteps::change(Equilibrium at, Contacts now, const Contacts& slack) {
-  constexpr std::size_t most_told = 4;
   const Model& model = newton_.energy().model();
   std::vector<std::string> sentences;
   for (const HardForce& h : slack)
@@ -344,7 +325,6 @@ void HeldSteps::change(Equilibrium at, Contacts now, const Contacts& slack) {
 // The equilibrium at which modes become critical, as an event: those whose eigenvalues vanish beside `scale`, of at most as many as change
 // sign. `after`: the Morse index behind the last of them.
 Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, double scale) {
-  constexpr double zero = 1e-6;
   Event event;
   event.kind = kind;
   const int before = current_.point.stability.negative, sign = after > before ? 1 : -1, least = std::min(before, after), most = std::abs(after - before);
@@ -358,7 +338,7 @@ Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, double scal
   }
   std::sort(by_size.begin(), by_size.end(), [&](Eigen::Index i, Eigen::Index j) { return std::abs(lowest.values[i]) < std::abs(lowest.values[j]); });
   int count = 1;
-  while (count < most && count < static_cast<int>(by_size.size()) && std::abs(lowest.values[by_size[static_cast<std::size_t>(count)]]) <= zero * scale) ++count;
+  while (count < most && count < static_cast<int>(by_size.size()) && std::abs(lowest.values[by_size[static_cast<std::size_t>(count)]]) <= vanishing * scale) ++count;
   event.modes.resize(lowest.vectors.rows(), std::min<Eigen::Index>(count, static_cast<Eigen::Index>(by_size.size())));
   for (Eigen::Index j = 0; j < event.modes.cols(); ++j) event.modes.col(j) = lowest.vectors.col(by_size[static_cast<std::size_t>(j)]);
   event.modes = canonical_modes(newton_.energy().kinematics(), event.modes);

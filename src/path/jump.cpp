@@ -1,11 +1,14 @@
 #include "path/jump.hpp"
 
+#include "path/limits.hpp"
+
 #include <fmt/format.h>
 
 namespace elamin {
 
+using namespace limits::jump;
+
 namespace {
-constexpr int most_downhill = 50;             // iterations
 }
 
 Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what) {

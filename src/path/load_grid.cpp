@@ -1,15 +1,14 @@
 #include "path/load_grid.hpp"
 
+#include "path/limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace elamin {
 
-namespace {
-constexpr int finest = 20;
-constexpr std::int64_t whole = std::int64_t(1) << finest;
-}  // namespace
+using namespace limits::load_grid;
 
 LoadGrid::LoadGrid(std::vector<double> targets, double start) : targets_(std::move(targets)), start_(start) {}
 

@@ -1,6 +1,7 @@
 #include "path/load_steps.hpp"
 
 #include "core/interrupt.hpp"
+#include "path/limits.hpp"
 #include "path/locate.hpp"
 
 #include <fmt/format.h>
@@ -10,13 +11,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::load_steps;
 
-constexpr int first_detour = 3, next_detour = 6;    // halvings after which the branch is explored in arc length, and every so many more
-constexpr int longest_detour = 400;                 // its steps
-constexpr double past_contact = 0.01;               // of a step: where the tangent behind a contact is taken
-constexpr int fine = 6;                             // halvings after which bends are no reason to halve again
-constexpr double most_bend = 0.3;                   // of a step, from the mean of the tangents at both ends
+namespace {
 
 // Whether the chord between two equilibria is another one than the mean of their tangents tells, as over a pitchfork, one branch of which
 // is as stable as what is before.

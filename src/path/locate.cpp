@@ -1,5 +1,6 @@
 #include "path/locate.hpp"
 
+#include "path/limits.hpp"
 #include "path/root.hpp"
 
 #include <algorithm>
@@ -7,11 +8,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::locate;
 
-constexpr int most_iterations = 16;           // of a corrector between two equilibria
-constexpr double held_together = 10;          // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
-constexpr double orthogonal = 1e-5;           // of a load to a critical mode, where nothing else tells limit from branch points
+namespace {
 
 // The lowest eigenpairs at the equilibrium without the known zero modes Z: of the span V of so many eigenvectors more as
 // there are known ones, what is orthogonal to VᵀZ. So it does not matter how a critical mode and a zero mode mix where
@@ -29,8 +28,7 @@ EigenPairs lowest_but(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& kno
 
 // The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
 double eigenvalue(Newton& newton, Equilibrium& e, int index) {
-  constexpr int more = 2;                                      // partners of a multiple one, so that a neighbour knows them
-  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1 + more).values;
+  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1 + more_modes).values;
   return values.size() == 0 ? 0.0 : values[std::min<Eigen::Index>(index, values.size() - 1)];
 }
 
@@ -50,7 +48,6 @@ double critical_value(Newton& newton, Equilibrium& e, int index) {
 
 // Eigenvectors whose eigenvalues are zero beside `scale`, without the zero modes that were there before.
 Eigen::MatrixXd critical_modes(Newton& newton, Equilibrium& e, int index, double scale, const Eigen::MatrixXd& known) {
-  constexpr int most_multiple = 6;
   const EigenPairs pairs = lowest_but(newton, e, known, index + most_multiple);
   Eigen::MatrixXd modes(pairs.vectors.rows(), 0);
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j)
@@ -201,7 +198,7 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
 std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::vector<double>& sides, const Segment& segment,
                                   const Equilibrium& a, const Equilibrium& b, int negative, bool& missed) {
   std::vector<Event> first;
-  const double together = coincide * std::abs(segment.b - segment.a);
+  const double together = limits::branch::coincide * std::abs(segment.b - segment.a);
   for (std::size_t k = 0; k < watches.size(); ++k) {
     const Watch& w = watches[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
@@ -240,9 +237,7 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
   Sample lower{segment.a, slope(a), a}, upper{segment.b, slope(b), b};
   if ((lower.f < 0) == (upper.f < 0)) return {};
   const auto zero_of = [](const Sample& x, const Sample& y) { return x.t - x.f * (y.t - x.t) / (y.f - x.f); };
-  constexpr int most = 6;
-  constexpr double near = 1e-3;                                // of the segment
-  for (int k = 0; k < most && upper.t - lower.t > near * (segment.b - segment.a); ++k) {
+  for (int k = 0; k < most_narrowings && upper.t - lower.t > narrow * (segment.b - segment.a); ++k) {
     // Samples on both sides, near, but not where the equations are singular.
     const double zero = zero_of(lower, upper), margin = 0.1 * (upper.t - lower.t);
     const double t = zero - lower.t > upper.t - zero ? std::min(zero - margin, (lower.t + 3 * zero) / 4) : std::max(zero + margin, (upper.t + 3 * zero) / 4);

@@ -8,8 +8,6 @@
 
 namespace elamin {
 
-inline constexpr double coincide = 1e-10;      // of a segment: events that are at one place
-
 /// The first change of the Morse index on a segment from `a`, beyond which it is `before`, to `b`: root finding (Illinois,
 /// bracketed) on the sorted eigenvalue that changes sign, at equilibria that the corrector itself computes. A limit point if
 /// the load factor turns on the segment, else a branch point; where that is not known, or may be both, because the index changes by more

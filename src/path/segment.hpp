@@ -1,6 +1,7 @@
 #pragma once
 // A piece of a branch between two equilibria as a function of one parameter: load factor, or arc length.
 #include "path/equilibrium.hpp"
+#include "path/limits.hpp"
 
 #include <functional>
 
@@ -29,10 +30,9 @@ Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, c
 
 /// Whether an equilibrium computed between two of a branch lies beside their chord: on another branch it would not.
 inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, const State& between) {
-  constexpr double widest = 0.5;       // of the chord, to the side and beyond its ends: a branch that is resolved bends less
   const Vector chord = kinematics.difference(a, b), way = kinematics.difference(a, between);
   const double length = chord.norm(), along = length > 0 ? way.dot(chord) / (length * length) : 0.0;
-  return along >= -widest && along <= 1 + widest && (way - along * chord).norm() <= widest * length;
+  return along >= -limits::segment::widest && along <= 1 + limits::segment::widest && (way - along * chord).norm() <= limits::segment::widest * length;
 }
 
 }  // namespace elamin

@@ -1,6 +1,7 @@
 #include "path/switching.hpp"
 
 #include "energy/step_limits.hpp"
+#include "path/limits.hpp"
 #include "path/root.hpp"
 
 #include <algorithm>
@@ -8,12 +9,9 @@
 
 namespace elamin {
 
-namespace {
+using namespace limits::switching;
 
-constexpr double least_part = 1e-4;           // of the first amplitude: shorter ones are given up
-constexpr double same = 1e-6;                 // images by symmetry: load factors and energies, beside their changes
-constexpr int rays = 32;                      // on half a circle
-constexpr double no_force = 1e-12;            // of the scale of internal forces
+namespace {
 
 // An equilibrium beside a branch point.
 struct Beside {

@@ -1,0 +1,177 @@
+#pragma once
+// The constants of this folder that decide something, by the file that they are of, each with its reason. [1] unless told otherwise.
+// Where no other reason is told they were chosen by trial on the random problems of tests/bench/path_stress, and decide how long steps are rather than
+// what is found.
+#include "core/types.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace elamin::limits {
+
+/// One equilibrium from its neighbour, and what its zero modes are.
+namespace equilibrium {
+constexpr int most_iterations = 12;  // of a corrector that stays on its branch
+constexpr int most_in_contact = 40;  // an overlap that the tangent runs into shrinks to a third a step: 21 for ten decades of stiffness
+constexpr std::size_t most_motions = 600;  // of parts against each other, among which zero modes are looked for: a dense matrix
+constexpr std::size_t most_names = 20;  // of loose particles that are told
+constexpr double just_touching = 1e-9;  // of the smallest size
+/// Of the way between two equilibria, what their tangents do not tell of it; a parabola from its vertex has 0.5. And the cosine between the tangents.
+constexpr double largest_part = 0.45, least_cosine = 0.5;
+constexpr double same_end = 1e-3;  // of the way: a step and its parts meet
+constexpr double rigid = 1e-6;  // of what a mode moves: by how much it may change angles
+constexpr int most_shifts = 6;  // along a neutral mode, until its phase is kept
+constexpr double drifted = 1e-13;  // of the phase: rounding [rad]
+constexpr double alike_angles = 1e-6;  // changes that a symmetry makes equal
+constexpr double close_values = 1e-6;  // lengths that a symmetry makes equal
+}
+
+/// What lies between two equilibria.
+namespace segment {
+constexpr double widest = 0.5;  // of the chord, to the side and beyond its ends: a branch that is resolved bends less
+}
+
+/// Correctors across a branch.
+namespace arc {
+constexpr int most_iterations = 16;  // of a corrector
+constexpr double off_plane = 1e-9;  // of the step: rounding
+constexpr double resolved = 1e6;  // spacings of the load factors: a step that rounding does not turn
+constexpr double least_cosine = 0.1;  // between the directions at two samples of a segment
+}
+
+/// A step and what happens on it.
+namespace branch {
+constexpr double coincide = 1e-10;  // of a segment: events that are at one place
+constexpr double least_past = 1e-7;  // of the way over which the other side of a contact is looked for
+}
+
+/// Steps of arc length.
+namespace arc_steps {
+constexpr double largest_angle = 0.7;  // between the directions at both ends of a step [rad]
+constexpr double wanted_angle = 0.25;  // … that is aimed at [rad]
+constexpr int wanted_iterations = 4;  // of the corrector: quadratic convergence from a tenth to rounding
+constexpr double largest_departure = 0.5;  // of the corrector, in parts of the step
+constexpr double largest_defect = 0.2;  // of the chord from the sum of the tangents, in parts of the chord
+constexpr double least_part = 1e-12;  // of the first step: shorter ones are given up
+constexpr double just_beyond = 0.125;  // of a first step from a branch point: where the Morse index is looked at, too
+constexpr double same_end = 1e-3;  // of the way: an event leads there
+constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step: the longest and the shortest that is tried over a contact …
+constexpr int refused_first = 6;  // … where so many of arc length have been refused, or right behind a contact
+constexpr double same_mode = 0.9;  // cosine between a neutral mode and what it has become a step further
+constexpr double next_to_nothing = 1e-6;  // of the next stiffness
+constexpr int most_shifts = 5;  // of a step that ends on an event by chance
+constexpr int halvings_at_first = 8;  // then steps are quartered
+constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
+constexpr double standing = 1e-6;  // of the step: a corner may be where the branch stands
+}
+
+/// Halving of load steps.
+namespace load_grid {
+constexpr int finest = 20;  // halvings
+constexpr std::int64_t whole = std::int64_t(1) << finest;
+}
+
+/// Steps of the load factor.
+namespace load_steps {
+constexpr int first_detour = 3, next_detour = 6;  // halvings after which the branch is explored in arc length, and every so many more
+constexpr int longest_detour = 400;  // its steps
+constexpr double past_contact = 0.01;  // of a step: where the tangent behind a contact is taken
+constexpr int fine = 6;  // halvings after which bends are no reason to halve again
+constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents at both ends
+}
+
+/// Bracketed root finding.
+namespace root {
+constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2⁻²⁰; the rest converge superlinearly
+}
+
+/// Eigenvalues that vanish.
+namespace locate {
+constexpr int most_iterations = 16;  // of a corrector between two equilibria
+constexpr double held_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
+constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
+constexpr int more_modes = 2;  // partners of a multiple one, so that a neighbour knows them
+constexpr int most_multiple = 6;  // eigenvalues that vanish together
+constexpr int most_narrowings = 6;  // of the segment on which a side branch arrives, …
+constexpr double narrow = 1e-3;  // … until it is this part of the first
+}
+
+/// Contacts that change.
+namespace contact_event {
+constexpr double together = 1e-10;  // of the size: gaps that vanish at one load factor
+constexpr double rounding = 1e-13;  // of the size: of a gap …
+constexpr double exact_rounding = 1e-18;  // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
+constexpr double together_in_step = 1e-9;  // … or of its change over the step
+constexpr double beside = 1e-9;  // of the size: where one side of a corner is looked at, …
+constexpr double most_beside = 0.05;  // … but no farther than this part of the step …
+constexpr double least_beside = 1e-12;  // … where that is more than rounding, of the size
+constexpr double along_chord = 0.1;  // of the step: beyond its ends, where a gap that vanishes at one of them may be found
+constexpr std::size_t most_told = 4;  // names in one event
+constexpr int most_closing = 12;  // iterations that close a gap
+constexpr double little = 1e-4;  // of the way: over which a gap's rate is taken
+}
+
+/// What comes after events.
+namespace continuation {
+constexpr double fall_beyond = 1e-3;  // of the range of load factors: where a fall begins
+constexpr double same_load = 1e-13;  // of the range: load factors that are one
+constexpr double same_point = 1e-6;  // of the structure's displacement scale: one branch point met twice
+constexpr double collapsed_bond = 1e-6;  // of the rest length: there its energy has a kink, and a branch its end
+}
+
+/// Falls.
+namespace jump {
+constexpr int most_downhill = 50;  // iterations before long steps are allowed
+}
+
+/// Branches that leave a branch point.
+namespace switching {
+constexpr double least_part = 1e-4;  // of the first amplitude: shorter ones are given up
+constexpr double same = 1e-6;  // images by symmetry: load factors and energies, beside their changes
+constexpr int rays = 32;  // on half a circle
+constexpr double no_force = 1e-12;  // of the scale of internal forces
+}
+
+/// Equilibria that no branch leads to.
+namespace deflation {
+constexpr int most_iterations = 60, most_modes = 4;  // of one search; along which searches begin
+constexpr double largest_turn = 0.3;  // of a bond in one step [rad]
+constexpr double same = 1e-6;  // of ρ: states that are one
+constexpr std::size_t most_near = 12;  // states that stand for the branches
+}
+
+/// Paths with hard contacts.
+namespace held_steps {
+constexpr int finest = 12;  // halvings of a step
+constexpr int most_changes = 20;  // of contacts at one load factor
+constexpr double beyond_event = 1e-3;  // of the path: where a fall begins …
+constexpr double before_target = 0.5;  // … or of the way to the next step
+constexpr double aside = 1e-3;  // turn of what is glued, and way in diameters, to where a fall begins
+constexpr double nearest = 1e-5;  // the barrier where a fall begins, as small as leads to a minimum near by
+constexpr double alike = 1e-6;  // of the energy that is lost
+constexpr int look_for_limit = 3;  // after so many halvings, and again
+constexpr int most_crossings = 20;  // of modes in one step, before the first one is found
+constexpr double just_before = 1e-6;  // of the way to a branch point
+constexpr int most_along = 30;  // equilibria on the way to a limit point
+constexpr double turns_little = 1.2;  // 1/cos of the angle between the tangent and the way
+constexpr double most_bend = 0.2;  // of the way, over which tangents tell it; √λ from its vertex has 0.5
+constexpr double at_the_limit = 1e-6;  // of the way ahead: a load factor that does not grow further
+constexpr double vanished = 1e-9;  // of its size where the step begins: a curvature, a slope
+constexpr double rounding = 1e-12;  // of a diameter, of the largest force
+constexpr double near_by = 1e-3;  // of the smallest size: gaps that are looked at
+constexpr double together = 1e-10;  // of the path: changes of contacts that are so near are one
+constexpr int short_enough = 6;  // halvings after which what has opened has not closed again on the way
+constexpr int most_first = 100;  // contacts that are tried before the first one is found
+constexpr double vanishing = 1e-6;  // of the scale: eigenvalues that vanish with the first one
+constexpr std::size_t most_told = 4;  // names in one event
+}
+
+/// What is said of an end.
+namespace cause {
+constexpr double flat = 1e-3;  // rad: an angle that passes π
+constexpr double bent = 1e-9;  // rad: a rest angle that is not straight
+constexpr double touching = 1e-6;  // of a diameter: a gap that is about to open or to close
+constexpr double soft = 1e-6;  // of the largest stiffness: an eigenvalue about to vanish
+}
+
+}  // namespace elamin::limits
