@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace elamin {
@@ -163,18 +164,21 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   Plane plane;
   plane.length = std::max(way.norm(), 1e-300), plane.load = std::max(std::abs(load_change), 1e-300);
   bool defined = true;
+  double aim = 0;
   plane.condition = [&](const State& at, Plane& p) {
     defined = defined && slope(energy, key, at, load_change, p.row, p.corner);
-    return defined ? gap(energy, key, at) : 0.0;
+    return defined ? gap(energy, key, at) - aim : 0.0;
   };
   Report report;
   const double off = plane.condition(state, plane), rate = defined ? plane.row.dot(way) + plane.corner * load_change : 0.0;
   if (rate == 0) return report;
   state = moved_by(energy.kinematics(), state, way, load_change, -off / rate);
   const State guess = state;
-  for (const double part : {exact_rounding, rounding}) {         // gaps of particles are exact; of a wall it is rounding where it stands
+  const double size = size_of(energy.model(), key.particle);
+  // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
+  for (const auto& [close, beside] : {std::pair(exact_rounding, 0.0), std::pair(rounding, 0.0), std::pair(rounding, just_open)}) {
     state = guess;
-    plane.close = part * size_of(energy.model(), key.particle);
+    aim = beside * size, plane.close = close * size;
     report = newton.correct(state, from.zero_modes, nullptr, most_closing, &plane);
     if (report.converged() || report.status == Status::interrupted) break;
   }

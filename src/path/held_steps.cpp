@@ -40,15 +40,6 @@ void toggle(std::vector<HardForce>& contacts, const HardForce& contact) {
   std::sort(contacts.begin(), contacts.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
 }
 
-// Whether the way between two equilibria is not the mean of their tangents, as it is of a parabola: a step over a bend, where the equilibrium that
-// Newton's method finds may belong to a branch on the other side.
-bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b) {
-  const Vector moved = kinematics.difference(a.point.state, b.point.state);
-  const double change = b.point.state.load_factor - a.point.state.load_factor;
-  const double rounding_of_places = 1e-12 * b.point.state.position.norm();
-  return !((moved - change / 2 * (a.tangent + b.tangent)).norm() <= most_bend * moved.norm() + rounding_of_places);
-}
-
 // Who touches or leaves whom.
 std::string told(const Model& model, const HardForce& h, bool made) {
   const std::string one = fmt::format("particle {}", model.id[h.particle]);
@@ -186,7 +177,7 @@ void HeldSteps::step() {
       if (std::optional<Event> limit = limit_point(target)) return lose(std::move(*limit));
     return halve(target, candidate.point.report.why);
   }
-  if (halvings_ < finest && bends(newton_.energy().kinematics(), current_, candidate)) return halve(target, "the branch bends too much to be told from another one");
+  if (halvings_ < finest && bends(newton_.energy().kinematics(), current_, candidate, most_bend)) return halve(target, "the branch bends too much to be told from another one");
   Judgement judgement = judge(candidate, &current_);
   for (int k = 0; !judgement.wrong.empty(); ++k) {
     const auto dips = std::find_if(judgement.wrong.begin(), judgement.wrong.end(), [&](const HardForce& h) { return in(slack_, h); });

@@ -13,18 +13,6 @@ namespace elamin {
 
 using namespace limits::load_steps;
 
-namespace {
-
-// Whether the chord between two equilibria is another one than the mean of their tangents tells, as over a pitchfork, one branch of which
-// is as stable as what is before.
-bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b) {
-  const Vector moved = kinematics.difference(a.point.state, b.point.state);
-  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = 1e-12 * b.point.state.position.norm();
-  return (moved - change / 2 * (a.tangent + b.tangent)).norm() > most_bend * moved.norm() + rounding;
-}
-
-}  // namespace
-
 std::vector<double> load_targets(const PathOptions& o) {
   std::vector<double> targets;
   const double sign = o.to > o.from ? 1 : -1, start = o.start.value_or(o.from);
@@ -71,7 +59,7 @@ std::optional<Waypoint> LoadSteps::next() {
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
   if (at_contact_) look_past_contact(past_contact * std::abs(target - current_.point.state.load_factor));
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
-  if (c && grid_.halvings() < fine && may_touch(newton_.energy().model()) && !singular_ && bends(newton_.energy().kinematics(), current_, c->e))
+  if (c && grid_.halvings() < fine && may_touch(newton_.energy().model()) && !singular_ && bends(newton_.energy().kinematics(), current_, c->e, most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;

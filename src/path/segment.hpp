@@ -35,4 +35,12 @@ inline bool beside_chord(const Kinematics& kinematics, const State& a, const Sta
   return along >= -limits::segment::widest && along <= 1 + limits::segment::widest && (way - along * chord).norm() <= limits::segment::widest * length;
 }
 
+/// Whether the way between two equilibria is by more than `most` of it another one than the mean of their tangents, as it is of a parabola: a step over a
+/// bend, where what the corrector finds may belong to another branch, as over a pitchfork, one branch of which is as stable as what is before.
+inline bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b, double most) {
+  const Vector moved = kinematics.difference(a.point.state, b.point.state);
+  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = 1e-12 * b.point.state.position.norm();
+  return !((moved - change / 2 * (a.tangent + b.tangent)).norm() <= most * moved.norm() + rounding);
+}
+
 }  // namespace elamin
