@@ -12,7 +12,7 @@ namespace elamin {
 using namespace limits::branch;
 
 Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches)
-    : newton_(newton), current_(std::move(from.at)), negative_(from.negative), sign_(from.sign), singular_(from.singular || from.negative < 0),
+    : newton_(newton), current_(std::move(from.at)), negative_(from.negative), singular_(from.singular || from.negative < 0),
       at_contact_(from.at_contact), closed_(std::move(from.closed)), contacts_(contacts), watches_(std::move(watches)), side_(std::move(from.sides)) {
   for (std::size_t k = side_.size(); k < watches_.size(); ++k) side_.push_back(watches_[k].side(current_.point.state));
   newton_.factors().expect(negative_ > 0);

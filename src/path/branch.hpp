@@ -18,7 +18,6 @@ struct Waypoint {
 /// Where a branch is taken up.
 struct Departure {
   Equilibrium at = {};
-  int sign = 1;                             // of the change of the load factor, from here on
   int negative = -1;                        // Morse index from here on; −1: not known, as at a branch point that a side branch leaves
   ContactSet closed;                        // contacts from here on
   bool singular = false;                    // it is a limit point or branch point …
@@ -46,7 +45,6 @@ class Branch {
   const Equilibrium& at() const { return current_; }
   int negative() const { return negative_; }
   const ContactSet& closed() const { return closed_; }
-  const std::vector<double>& sides() const { return side_; }
 
  protected:
   Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches);
@@ -79,7 +77,7 @@ class Branch {
 
   Newton& newton_;
   Equilibrium current_;
-  int negative_, sign_;                // Morse index, and of dλ, from here on
+  int negative_, sign_ = 1;            // Morse index, and of dλ, from here on; the strategy tells the sign
   Eigen::MatrixXd neutral_;            // zero modes of it that are no motions of rigid parts (dofs × count)
   bool singular_, at_contact_;
   ContactSet closed_;

@@ -2,7 +2,6 @@
 
 #include "core/interrupt.hpp"
 #include "path/limits.hpp"
-#include "path/locate.hpp"
 
 #include <fmt/format.h>
 
@@ -83,7 +82,7 @@ void LoadSteps::set_out_on_detour() {
   std::sort(a.stops.begin(), a.stops.end());
   const Metric metric = metric_for(newton_.energy(), current_, way);
   const Direction towards{Vector::Zero(current_.tangent.size()), sign_ * metric.load};
-  const Departure from{current_, sign_, negative_, closed_, singular_, at_contact_, side_};
+  const Departure from{current_, negative_, closed_, singular_, at_contact_, side_};
   detour_.emplace(newton_, from, direction_of(current_, metric, towards), metric, std::move(a));
 }
 
