@@ -2,7 +2,16 @@
 // Models made by hand for tests: straight chains with any ends.
 #include "model/model.hpp"
 
+#include <numeric>
+
 namespace elamin {
+
+/// first, first + 1, …: n of them.
+inline std::vector<int> numbers(int n, int first = 0) {
+  std::vector<int> v(n);
+  std::iota(v.begin(), v.end(), first);
+  return v;
+}
 
 /// A straight chain along `axis` with the first particle at the origin, spacing = rest length q0.
 inline Model chain(int particles, double K, double B, double q0, const Vec3& axis = Vec3::UnitZ()) {
@@ -31,5 +40,11 @@ inline void hold(Model& m, int first, int last, std::array<bool, 3> directions =
   s.held = directions, s.displacement = displacement;
   m.supports.push_back(s);
 }
+
+/// Gravity g down z on all particles.
+inline void weigh(Model& m, double g) { m.gravity.push_back({"", numbers(m.particles()), Vec3(0, 0, -g), Scaling::constant()}); }
+
+/// Stiffnesses K and B of a round section of unit modulus and diameter 1, on spacing 1.
+constexpr double round_bond = 3.14159265358979323846 / 8, round_angle = 3.14159265358979323846 / 64;
 
 }  // namespace elamin

@@ -8,12 +8,6 @@
 
 namespace elamin {
 
-inline std::vector<int> numbers(int n) {
-  std::vector<int> v(n);
-  std::iota(v.begin(), v.end(), 0);
-  return v;
-}
-
 inline void meet_hard(Model& m) {
   PairContact c;
   c.particles = {numbers(m.particles()), numbers(m.particles())}, c.hard = true;
@@ -26,8 +20,6 @@ inline Wall& hard_plane(Model& m, const Vec3& point = Vec3::Zero()) {
   m.walls.push_back(w);
   return m.walls.back();
 }
-
-inline void weigh(Model& m, double g) { m.gravity.push_back({"", numbers(m.particles()), Vec3(0, 0, -g), Scaling::constant()}); }
 
 // Nothing overlaps, nothing pulls, and where there is a force there is no gap.
 inline void check_contacts(Energy& energy, const State& state, double tolerance = 1e-12) {

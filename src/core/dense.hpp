@@ -4,6 +4,9 @@
 
 namespace elamin {
 
+/// The largest |vᵢ|; 0 of an empty vector.
+inline double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+
 /// Eigenvalues, ascending, and eigenvectors, orthonormal, in columns.
 struct EigenPairs {
   Vector values;

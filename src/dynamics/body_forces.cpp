@@ -11,8 +11,6 @@ namespace elamin {
 
 namespace {
 
-Vec3 vector(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-Triple<double> triple(const Vec3& a) { return {a[0], a[1], a[2]}; }
 
 RoundedFriction friction_of(const RoundedDamping& d, const RoundedKernel& kernel) {
   return {d.normal, d.tangential, d.friction, kernel.normal, d.slip, d.apart};

@@ -5,7 +5,6 @@
 namespace elamin {
 
 namespace {
-Vec3 vector(const Triple<double>& a) { return {a.x, a.y, a.z}; }
 Lanes lanes(const Vec3& a) { return {a[0], a[1], a[2], 0}; }
 }  // namespace
 

@@ -8,6 +8,9 @@
 
 namespace elamin {
 
+inline Vec3 vector(const Triple<double>& a) { return {a.x, a.y, a.z}; }
+inline Triple<double> triple(const Vec3& a) { return {a[0], a[1], a[2]}; }
+
 /// Places for n particles in blocks of four, and some zeros behind them that may be read.
 inline int padded(int n) { return (n + 3) / 4 * 4 + 8; }
 

@@ -6,7 +6,6 @@
 namespace elamin {
 
 namespace {
-Triple<double> triple(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 // On the axis or in the centre of a round wall, where it has no direction.
 bool central(const Region& region, const Vec3& x) {

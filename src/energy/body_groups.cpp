@@ -8,7 +8,7 @@ namespace elamin {
 
 namespace {
 
-constexpr std::int64_t grain = 20;
+constexpr std::int64_t bodies_per_thread = 20;
 
 // Turn rows and columns of a Local of n sites, per unit of length: those of site k divided by lever[k], 1 for places.
 template <int n>
@@ -60,13 +60,13 @@ class RoundedGroup final : public BodyGroup<n> {
   }
 
   void values(const State& state, double* value) const override {
-    parallel_for(this->elements(), grain, [&](std::int64_t e) {
+    parallel_for(this->elements(), bodies_per_thread, [&](std::int64_t e) {
       value[e] = rounded_value(model_.rounded[table_[e]], first(e, state), second(e, state));
     });
   }
 
   void derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const override {
-    parallel_for(this->elements(), grain, [&](std::int64_t e) {
+    parallel_for(this->elements(), bodies_per_thread, [&](std::int64_t e) {
       const PairLocal whole = rounded_derivatives(model_.rounded[table_[e]], first(e, state), second(e, state));
       Local<n> u;
       u.value = whole.value;
@@ -107,14 +107,14 @@ class BodyWallGroup final : public BodyGroup<2> {
   bool moves() const override { return moves_; }
 
   void values(const State& state, double* value) const override {
-    parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = law(e, state).value(body(e, state)); });
+    parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) { value[e] = law(e, state).value(body(e, state)); });
   }
   void derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const override {
-    parallel_for(elements(), grain, [&](std::int64_t e) { store(local(e, state), e, value, gradient, hessian); });
+    parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) { store(local(e, state), e, value, gradient, hessian); });
   }
   // ∂(∇U)/∂λ = −s′ ∂(∇U)/∂x d.
   void load_rates(const State& state, double* rate) const override {
-    parallel_for(elements(), grain, [&](std::int64_t e) {
+    parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) {
       const Wall& wall = model_.walls[wall_[e]];
       Eigen::Map<Eigen::Matrix<double, 6, 1>>(rate + 6 * e) =
           -wall.scaling.rate * (local(e, state).hessian.leftCols<3>() * wall.displacement);

@@ -13,7 +13,7 @@ namespace elamin {
 
 namespace {
 
-constexpr double keep = 0.2;                   // of the distance
+constexpr double bodies_keep = 0.2;            // of the distance
 constexpr int most_advances = 60;
 
 // How each entity goes: on a straight way, turning evenly.
@@ -51,7 +51,7 @@ template <class Distance>
 double advance(double most, double speed, const Distance& distance) {
   double here = distance(0.0), s = 0;
   if (!(speed > 0) || !(here > 0)) return most;
-  const double floor = keep * here;
+  const double floor = bodies_keep * here;
   for (int k = 0; k < most_advances && s < most; ++k) {
     const double room = here - floor;
     if (room <= 1e-2 * floor && k > 0) break;

@@ -9,16 +9,9 @@ namespace elamin {
 
 namespace {
 
-Points<2> points(int i, int j, const State& state) {
-  Points<2> x;
-  x.position << state.position.col(i), state.position.col(j);
-  x.tail << state.tail.col(i), state.tail.col(j);
-  return x;
-}
-
 void between_particles(const Model& model, int i, int j, const State& state, HardGap& gap) {
   const HardContact law{-1, (model.diameter[i] + model.diameter[j]) / 2};      // f = −1: U is the gap
-  const Points<2> x = points(i, j, state);
+  const Points<2> x = points<2>(state, {i, j});
   const Local<2> c = law.derivatives(x);
   gap.sites = 2, gap.site = {i, j};
   gap.value = c.value, gap.gradient = c.gradient, gap.hessian = c.hessian;
@@ -29,8 +22,7 @@ bool at_wall(const Model& model, const HardForce& contact, const State& state, H
   const Wall& wall = model.walls[contact.wall];
   const double r = model.diameter[contact.particle] / 2;
   const HardWall law{-1, wall_at(wall, state.load_factor).region, wall.inside, r, contact.face};
-  Points<1> x;
-  x.position = state.position.col(contact.particle), x.tail = state.tail.col(contact.particle);
+  const Points<1> x = points<1>(state, {contact.particle});
   WallGap g;
   if (!law.find(x, g)) return false;
   gap.sites = 1, gap.site = {contact.particle, -1};

@@ -13,6 +13,14 @@
 
 namespace elamin {
 
+/// The positions and their low words at n sites.
+template <int n>
+Points<n> points(const State& state, const std::array<int, n>& sites) {
+  Points<n> x;
+  for (int i = 0; i < n; ++i) x.position.col(i) = state.position.col(sites[i]), x.tail.col(i) = state.tail.col(sites[i]);
+  return x;
+}
+
 /// What the assembler sees of a group: stencils, and buffers that each element fills at its own place.
 class ElementGroup {
  public:
@@ -142,12 +150,7 @@ class LawGroup final : public ElementGroup {
     return laws_[kind_[e]].derivatives(gather(state, e));
   }
   Points<n> gather(const State& state, std::int64_t e) const {
-    Points<n> x;
-    for (int i = 0; i < n; ++i) {
-      x.position.col(i) = state.position.col(stencils_[e][i]);
-      x.tail.col(i) = state.tail.col(stencils_[e][i]);
-    }
-    return x;
+    return points<n>(state, stencils_[e]);
   }
 
   void at(const State& state) const {

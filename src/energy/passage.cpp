@@ -14,7 +14,7 @@ namespace elamin {
 
 namespace {
 
-constexpr double keep = 0.8;                   // of the distance, at least
+constexpr double particles_keep = 0.8;         // of the distance, at least
 constexpr double chunk = 10;                   // movement looked at in one go, in smallest distances of touch
 constexpr double most_pieces = 100;            // looked at: a step of a thousand such distances is no step to an equilibrium nearby
 
@@ -49,7 +49,7 @@ double among_particles(const Model& model, const ContactRules& rules, const Stat
     for (const auto& [i, j] : near_pairs(from.position + (begin + width / 2) * u, radii,
                                          [&](int p, int q) { return touching(model, rules, p, q) > 0; })) {
       const Vec3 d = (from.at(j) - from.at(i)).hi;
-      least = std::min(least, root(d, u.col(j) - u.col(i), keep * std::min(d.norm(), touching(model, rules, i, j))));
+      least = std::min(least, root(d, u.col(j) - u.col(i), particles_keep * std::min(d.norm(), touching(model, rules, i, j))));
     }
     if (least <= begin + width) return std::min(looked_at, least);
   }
@@ -91,7 +91,7 @@ double at_wall(const Model& model, const Wall& wall, int p, const State& from, d
     if (here == first) return most;
     if (!(here > first) || !std::isfinite(here)) return 0;
   }
-  const double floor = keep * std::min(here, r);
+  const double floor = particles_keep * std::min(here, r);
   for (int k = 0; k < most_advances && s < most; ++k) {
     const double room = here - floor;
     if (room <= 1e-3 * floor && k > 0) break;

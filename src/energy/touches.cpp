@@ -29,13 +29,6 @@ std::vector<IndexPair> candidates(const Model& model, const ContactRules& rules,
   return pairs;
 }
 
-Points<2> points(int i, int j, const State& state) {
-  Points<2> x;
-  x.position << state.position.col(i), state.position.col(j);
-  x.tail << state.tail.col(i), state.tail.col(j);
-  return x;
-}
-
 // Hard contacts: closed where they bear a force, or overlap by more than rounding.
 class HardTouches {
  public:
@@ -70,7 +63,7 @@ class HardTouches {
 };
 
 Touch between(const Model& model, const HertzContact& law, int i, int j, const State& state) {
-  const Points<2> x = points(i, j, state);
+  const Points<2> x = points<2>(state, {i, j});
   Touch t{i, j, -1, law.gap(x), Vec3::Zero(), Vec3::Zero()};
   const Vec3 d = x.edge(0, 1).hi;
   const double r = d.norm();
@@ -83,7 +76,7 @@ Touch between(const Model& model, const HertzContact& law, int i, int j, const S
 }  // namespace
 
 double pair_gap(const Model& model, int i, int j, const State& state) {
-  return HertzContact{0, (model.diameter[i] + model.diameter[j]) / 2}.gap(points(i, j, state));
+  return HertzContact{0, (model.diameter[i] + model.diameter[j]) / 2}.gap(points<2>(state, {i, j}));
 }
 
 double wall_gap(const Model& model, int particle, int wall, const State& state) {

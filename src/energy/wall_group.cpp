@@ -3,7 +3,7 @@
 namespace elamin {
 
 namespace {
-constexpr std::int64_t grain = 500;
+constexpr std::int64_t touches_per_thread = 500;
 }
 
 WallContact wall_at(const Wall& wall, double load_factor) {
@@ -30,21 +30,21 @@ const std::vector<WallContact>& WallGroup::at(double load_factor) const {
 
 void WallGroup::values(const State& state, double* value) const {
   const std::vector<WallContact>& walls = at(state.load_factor);
-  parallel_for(elements(), grain, [&](std::int64_t e) {
+  parallel_for(elements(), touches_per_thread, [&](std::int64_t e) {
     value[e] = walls[wall_[e]].value(state.at(particle_[e]), model_.diameter[particle_[e]] / 2);
   });
 }
 
 void WallGroup::derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const {
   const std::vector<WallContact>& walls = at(state.load_factor);
-  parallel_for(elements(), grain, [&](std::int64_t e) {
+  parallel_for(elements(), touches_per_thread, [&](std::int64_t e) {
     store(walls[wall_[e]].derivatives(state.at(particle_[e]), model_.diameter[particle_[e]] / 2), e, value, gradient, hessian);
   });
 }
 
 void WallGroup::load_rates(const State& state, double* rate) const {
   const std::vector<WallContact>& walls = at(state.load_factor);
-  parallel_for(elements(), grain, [&](std::int64_t e) {
+  parallel_for(elements(), touches_per_thread, [&](std::int64_t e) {
     const Wall& wall = model_.walls[wall_[e]];
     const WallContact& law = walls[wall_[e]];
     const ExactVector x = state.at(particle_[e]);

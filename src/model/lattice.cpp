@@ -7,7 +7,7 @@
 namespace elamin {
 namespace {
 
-constexpr double tolerance = 1e-9;                 // of the spacing: edges are within
+constexpr double within_edges = 1e-9;              // of the spacing: what is that far beyond an edge is on it
 constexpr double half_root_three = 0.86602540378443864676;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -43,11 +43,11 @@ Interval row_of(const Outline& o, double j) {
   switch (o.kind) {
     case Outline::Kind::rectangle: {
       const double next_u = o.cosine / 2 - half_root_three * o.sine, next_v = o.sine / 2 + half_root_three * o.cosine;
-      return where(o.cosine, j * next_u, -tolerance, o.width + tolerance) &
-             where(o.sine, j * next_v, -tolerance, o.height + tolerance);
+      return where(o.cosine, j * next_u, -within_edges, o.width + within_edges) &
+             where(o.sine, j * next_v, -within_edges, o.height + within_edges);
     }
     case Outline::Kind::circle: {
-      const double radius = o.width + tolerance, above = std::abs(j) * half_root_three;
+      const double radius = o.width + within_edges, above = std::abs(j) * half_root_three;
       if (above > radius) return {1, 0};
       const double half = std::sqrt((radius - above) * (radius + above));
       return where(1, j / 2, -half, half);

@@ -10,7 +10,7 @@
 namespace elamin {
 namespace {
 
-constexpr double tolerance = 1e-9;                 // of the spacing
+constexpr double on_edge = 1e-9;                 // of the spacing
 constexpr double most_around = 1e7;                // spacings around a cylinder
 
 /// √3/2 |C|⁻¹ times the spacing of the rolled lattice, √3πR/|C|²: a step up the cylinder.
@@ -36,7 +36,7 @@ Outline outline_of(const Sheet& s) {
     const Rolled r = rolled(s);
     o.kind = Outline::Kind::rolled;
     o.n1 = r.n1, o.n2 = r.n2;
-    o.height = std::floor((s.height + tolerance * s.spacing) / step_up(s, o).hi);
+    o.height = std::floor((s.height + on_edge * s.spacing) / step_up(s, o).hi);
   }
   return o;
 }

@@ -8,7 +8,7 @@
 
 namespace elamin {
 
-using namespace limits::arc;
+using namespace limits;
 
 double span(const Model& model) {
   return std::max(sides_of(model.start).maxCoeff(), largest_size(model));
@@ -50,7 +50,7 @@ Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Direction d = along(nearest);
-  const double step = (s - position(nearest.point.state)) / std::max(cosine(d, direction_, metric_), least_cosine);
+  const double step = (s - position(nearest.point.state)) / std::max(cosine(d, direction_, metric_), arc::least_cosine);
   state = nearest.point.state;
   kinematics.prescribe(state, state.load_factor + step * d.load);
   kinematics.retract(state, d.x, step);
@@ -70,20 +70,20 @@ Report Arc::settle(State& state, const Eigen::MatrixXd& held) const { return on_
 Report Arc::on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const {
   Plane across = plane();
   const double wanted = position(state);
-  Report report = newton_.correct(state, held, from, most_iterations, &across);
-  if (report.status != Status::not_converged || !(std::abs(position(state) - wanted) <= off_plane * std::abs(wanted))) return report;
+  Report report = newton_.correct(state, held, from, arc::most_iterations, &across);
+  if (report.status != Status::not_converged || !(std::abs(position(state) - wanted) <= arc::off_plane * std::abs(wanted))) return report;
   const double here = from_.point.state.load_factor, change = state.load_factor - here;
-  if (!(std::abs(change) > resolved * epsilon * std::max(std::abs(here), std::abs(state.load_factor)))) return report;
+  if (!(std::abs(change) > arc::resolved * epsilon * std::max(std::abs(here), std::abs(state.load_factor)))) return report;
   State fixed = state;
-  const Report at_load = newton_.correct(fixed, held, nullptr, most_iterations);
-  if (!at_load.converged() || !(std::abs(position(fixed) - wanted) <= off_plane * std::abs(wanted))) return report;
+  const Report at_load = newton_.correct(fixed, held, nullptr, arc::most_iterations);
+  if (!at_load.converged() || !(std::abs(position(fixed) - wanted) <= arc::off_plane * std::abs(wanted))) return report;
   state = std::move(fixed);
   return at_load;
 }
 
 double Arc::load_rate(const Equilibrium& e) const {
   const Direction d = along(e);
-  return d.load / std::max(cosine(d, direction_, metric_), least_cosine);
+  return d.load / std::max(cosine(d, direction_, metric_), arc::least_cosine);
 }
 
 Equilibrium Arc::at(double s, const Equilibrium& nearest) const {

@@ -13,7 +13,7 @@
 
 namespace elamin {
 
-using namespace limits::arc_steps;
+using namespace limits;
 
 namespace {
 
@@ -43,7 +43,7 @@ Eigen::MatrixXd without_force(const Energy& energy, const Eigen::MatrixXd& zero)
 
 Metric metric_for(const Energy& energy, const Equilibrium& start, double load_range) {
   const double load = std::abs(load_range);
-  const double least = least_length * span(energy.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy.model().particles())));
+  const double least = arc_steps::least_length * span(energy.model()) * std::sqrt(std::max(1.0, static_cast<double>(energy.model().particles())));
   return {std::max(load * start.tangent.norm(), least), load};
 }
 
@@ -67,9 +67,9 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
       direction_(std::move(direction)) {
   sign_ = sign_of(direction_.load);
   if (negative_ < 0) neutral_ = current_.zero_modes;
-  least_length_ = std::min(metric_.length, least_length * span(newton.energy().model()));
+  least_length_ = std::min(metric_.length, arc_steps::least_length * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
-  shortest_ = options_.shortest > 0 ? options_.shortest : least_part * step_;
+  shortest_ = options_.shortest > 0 ? options_.shortest : arc_steps::least_part * step_;
 }
 
 // The step that neither the load factor nor the bonds forbid.
@@ -85,12 +85,12 @@ std::optional<Waypoint> ArcSteps::next() {
   std::string why = "the corrector does not converge";
   const bool meets = may_touch(newton_.energy().model());
   int refused = 0, shifts = 0;
-  double natural = first_natural;
+  double natural = arc_steps::first_natural;
   step_ = std::min(step_, longest());
   for (double s = step_; s >= shortest_ && !interrupted();) {
     double better = 0;
     std::optional<Candidate> c = attempt(s, shifts, better, why);
-    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= least_natural && (at_contact_ || refused >= refused_first)) {
+    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (at_contact_ || refused >= arc_steps::refused_first)) {
       const double target = next_load(natural);
       c = reach_load(current_, target, why);
       if (c && c->events.empty() && std::binary_search(options_.stops.begin(), options_.stops.end(), target)) c->stop = target;
@@ -101,12 +101,12 @@ std::optional<Waypoint> ArcSteps::next() {
       return accept(std::move(*c));
     }
     if (better > 0) s = better;
-    else s /= ++refused > halvings_at_first ? 4 : 2;
+    else s /= ++refused > arc_steps::halvings_at_first ? 4 : 2;
   }
   const double here = current_.point.state.load_factor;
   if (interrupted()) stop_here(Status::interrupted, fmt::format("interrupted at load factor {:.10g}", here));
   else stop_here(Status::not_converged, fmt::format("the branch could not be followed beyond load factor {:.10g}, even in steps of {:.2g} of the first: {}",
-                                                    here, least_part, why));
+                                                    here, arc_steps::least_part, why));
   return {};
 }
 
@@ -120,9 +120,9 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, int& shifts, double
     const double change = std::abs(c->e.point.state.load_factor - current_.point.state.load_factor);
     if (change > 1.5 * options_.load_step) return better = s * std::clamp(0.9 * std::sqrt(options_.load_step / change), 0.1, 0.9), std::nullopt;
     const bool ends_on_event = c->e.point.stability.critical > 0 && c->e.zero_modes.cols() > current_.zero_modes.cols();
-    if (ends_on_event && shifts++ < most_shifts) return better = 0.87 * s, std::nullopt;      // by chance: let it be inside of a step
+    if (ends_on_event && shifts++ < arc_steps::most_shifts) return better = 0.87 * s, std::nullopt;      // by chance: let it be inside of a step
   }
-  if (negative_ < 0 && !look_beyond(arc, *c)) return better = just_beyond * s, std::nullopt;
+  if (negative_ < 0 && !look_beyond(arc, *c)) return better = arc_steps::just_beyond * s, std::nullopt;
   const Segment segment = beside({0, c->parameter, [&](double t, const Equilibrium& nearest) { return arc.at(t, nearest); },
                                   [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
@@ -147,22 +147,22 @@ std::optional<Branch::Candidate> ArcSteps::reach(const Arc& arc, double s, std::
 }
 
 bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const {
-  if (arc.distance(e.point.state) > largest_departure * s) return why = "the corrector moved further than the predictor", false;
+  if (arc.distance(e.point.state) > arc_steps::largest_departure * s) return why = "the corrector moved further than the predictor", false;
   const Direction d = direction_of(e, metric_, direction_);
-  if (cosine(d, direction_, metric_) < std::cos(largest_angle)) return why = "the branch turns too sharply", false;
+  if (cosine(d, direction_, metric_) < std::cos(arc_steps::largest_angle)) return why = "the branch turns too sharply", false;
   const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state), mean = d.x + direction_.x;
   const double load = e.point.state.load_factor - current_.point.state.load_factor, mean_load = d.load + direction_.load;
   const double part = metric_.dot(x, load, mean, mean_load) / metric_.dot(mean, mean_load, mean, mean_load);
   const Vector off = x - part * mean;
   const double off_load = load - part * mean_load;
-  if (std::sqrt(metric_.dot(off, off_load, off, off_load)) > largest_defect * std::sqrt(metric_.dot(x, load, x, load)))
+  if (std::sqrt(metric_.dot(off, off_load, off, off_load)) > arc_steps::largest_defect * std::sqrt(metric_.dot(x, load, x, load)))
     return why = "the branch bends too sharply, or there is another one beside it", false;
   return true;
 }
 
 // Of a branch that leaves a branch point: whether the index is the same right behind it as at the candidate.
 bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
-  const Equilibrium near = arc.at(just_beyond * c.parameter, current_);
+  const Equilibrium near = arc.at(arc_steps::just_beyond * c.parameter, current_);
   if (!near.point.report.converged()) return false;
   const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, direction_).load >= 0; };
   if (near.point.stability.negative != c.e.point.stability.negative || rises(near) != rises(c.e)) return false;
@@ -180,12 +180,12 @@ void ArcSteps::carry_neutral(Equilibrium& e) {
   const Eigen::Index count = pairs.values.size();
   for (Eigen::Index j = 0; j < count; ++j) {
     const Vector& v = pairs.vectors.col(j);
-    if ((neutral_.transpose() * v).norm() < same_mode) continue;
+    if ((neutral_.transpose() * v).norm() < arc_steps::same_mode) continue;
     if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
     double next = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < count; ++i)
       if (i != j) next = std::min(next, std::abs(pairs.values[i]));
-    if (!(std::abs(pairs.values[j]) <= next_to_nothing * next) || !std::isfinite(next)) continue;
+    if (!(std::abs(pairs.values[j]) <= arc_steps::next_to_nothing * next) || !std::isfinite(next)) continue;
     e.zero_modes = side_by_side(e.zero_modes, v);
     ++s.zero, ++s.critical;
     s.stable = false;
@@ -199,7 +199,7 @@ std::optional<Branch::Candidate> ArcSteps::reach_corner(const Arc& arc, double s
   std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * direction_.x, s * direction_.load);
   if (!change) return {};
   const double t = arc.position(change->at.point.state);
-  if (!(t >= -standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(largest_departure * t, standing * s)) return {};
+  if (!(t >= -arc_steps::standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(arc_steps::largest_departure * t, arc_steps::standing * s)) return {};
   return with_contact(Candidate{.parameter = t, .e = {}}, std::move(*change));
 }
 
@@ -215,7 +215,7 @@ bool ArcSteps::joins(const Arc& arc, const Equilibrium& start, const Equilibrium
     return std::sqrt(metric_.dot(x, load, x, load));
   };
   const double way = apart(start.point.state, end.point.state);
-  return apart(state, end.point.state) <= same_end * std::max(way, same_end * std::abs(arc.position(end.point.state)));
+  return apart(state, end.point.state) <= arc_steps::same_end * std::max(way, arc_steps::same_end * std::abs(arc.position(end.point.state)));
 }
 
 // A part of a load step further, or the next stop where that comes before.
@@ -283,7 +283,7 @@ Waypoint ArcSteps::accept(Candidate c) {
   }
   take(c);
   if (corner) step_ = std::min(step_, longest());
-  else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, least_part * step_);
+  else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, arc_steps::least_part * step_);
   return {std::move(c.e), std::move(c.events), c.stop};
 }
 
@@ -300,8 +300,8 @@ void ArcSteps::rotate(const Candidate& c) {
   const double angle = std::acos(std::clamp(cosine(next, direction_, metric_), -1.0, 1.0));
   direction_ = std::move(next);
   if (!c.events.empty() || c.stop) return;
-  const double ease = std::exp2((wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
-  step_ = c.parameter * std::clamp(std::min(ease, wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
+  const double ease = std::exp2((arc_steps::wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
+  step_ = c.parameter * std::clamp(std::min(ease, arc_steps::wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
   weigh(c.e);
 }
 

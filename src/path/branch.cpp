@@ -9,7 +9,7 @@
 
 namespace elamin {
 
-using namespace limits::branch;
+using namespace limits;
 
 Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches)
     : newton_(newton), current_(std::move(from.at)), negative_(from.negative), singular_(from.singular || from.negative < 0),
@@ -36,7 +36,7 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
 
 void Branch::look_past_contact(double way) {
   at_contact_ = false;
-  for (double part = 1; part >= least_past; part /= 16) {
+  for (double part = 1; part >= branch::least_past; part /= 16) {
     const Equilibrium e = continue_to(newton_, current_, current_.point.state.load_factor + sign_ * part * way);
     if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
     if (closed_contacts(newton_.energy(), e.point.state) != closed_) continue;
@@ -127,7 +127,7 @@ bool Branch::find_watches(Segment segment, Candidate& c, std::string& why) {
   std::vector<Event> seen = locate_watches(watches_, side_, segment, current_, end, negative_, missed);
   if (missed) return why = "where an observable reaches its value could not be located", false;
   if (seen.empty()) return true;
-  if (std::abs(c.parameter - seen.front().at_parameter) > coincide * std::abs(segment.b - segment.a))
+  if (std::abs(c.parameter - seen.front().at_parameter) > branch::coincide * std::abs(segment.b - segment.a))
     c.parameter = seen.front().at_parameter, c.e = seen.front().at, c.events.clear();
   std::move(seen.begin(), seen.end(), std::back_inserter(c.events));
   return true;

@@ -9,17 +9,17 @@
 
 namespace elamin {
 
-using namespace limits::cause;
+using namespace limits;
 
 namespace {
 
 std::string flat_angle(const Model& model, const State& state) {
   if (model.plane_normal) return "";
   for (const Angle& a : model.angles) {
-    if (std::abs(model.angle_types[a.type].rest - pi) <= bent) continue;
+    if (std::abs(model.angle_types[a.type].rest - pi) <= cause::bent) continue;
     const auto [i, j, k] = a.particles;
     const Vec3 u = (state.at(i) - state.at(j)).hi.normalized(), v = (state.at(k) - state.at(j)).hi.normalized();
-    if (u.cross(v).norm() > flat || u.dot(v) > 0) continue;
+    if (u.cross(v).norm() > cause::flat || u.dot(v) > 0) continue;
     return fmt::format("the angle at particle {} is flat here, and rest angles have no sign in space; in a plane they have: give the file "
                        "plane = \"xy\", \"xz\" or \"yz\"", model.id[j]);
   }
@@ -30,8 +30,8 @@ std::string changing_contact(Energy& energy, const State& state) {
   const Model& model = energy.model();
   double smallest = 0;
   for (int e = 0; e < entities(model); ++e) smallest = smallest == 0 ? size_of(model, e) : std::min(smallest, size_of(model, e));
-  for (const Touch& t : energy.touches(state, touching * smallest))
-    if (std::abs(t.gap) <= touching * size_of(model, t.particle))
+  for (const Touch& t : energy.touches(state, cause::touching * smallest))
+    if (std::abs(t.gap) <= cause::touching * size_of(model, t.particle))
       return fmt::format("{} just touches {} here; where contacts are much stiffer than what they press on, more path.steps or a softer contact may do",
                          called(model, t.particle), t.wall >= 0 ? "wall " + model.walls[t.wall].name : called(model, t.other));
   return "";
@@ -48,7 +48,7 @@ std::string cause_at(Newton& newton, const Equilibrium& last) {
   energy.evaluate(state);
   const double stiffest = newton.factors().zero_level() / (16 * epsilon);
   const EigenPairs lowest = newton.factors().lowest(std::min(energy.dofs(), last.point.stability.negative + 1));
-  if (lowest.values.size() > 0 && lowest.values.cwiseAbs().minCoeff() <= soft * stiffest)
+  if (lowest.values.size() > 0 && lowest.values.cwiseAbs().minCoeff() <= cause::soft * stiffest)
     return "a limit point or branch point is near, and branches run close to each other; more path.steps may do, or a larger imperfection, or none";
   return "";
 }

@@ -17,7 +17,7 @@
 
 namespace elamin {
 
-using namespace limits::contact_event;
+using namespace limits;
 
 namespace {
 
@@ -66,8 +66,8 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   double part = 0;
   for (const ContactKey& key : keys) {
     const double size = size_of(energy.model(), key.particle), moved = std::abs(rate(key, way, load_change, 1e-4));
-    if (!(most_beside * moved > least_beside * size)) return;
-    part = std::max(part, std::min(beside * size / moved, most_beside));     // stiff bodies overlap by hardly more than that in all
+    if (!(contact_event::most_beside * moved > contact_event::least_beside * size)) return;
+    part = std::max(part, std::min(contact_event::beside * size / moved, contact_event::most_beside));     // stiff bodies overlap by hardly more than that in all
   }
   const auto side = [&](double where) {
     Equilibrium e = assess(newton, moved_by(kinematics, state, way, load_change, where), change.at.point.report);
@@ -98,8 +98,8 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vect
     const std::string sentence = told(energy.model(), key, now.count(key) > 0);
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   }
-  for (std::size_t k = 0; k < std::min(most_told, sentences.size()); ++k) change.what += (k ? ", " : "") + sentences[k];
-  if (sentences.size() > most_told) change.what += fmt::format(" and {} more", sentences.size() - most_told);
+  for (std::size_t k = 0; k < std::min(contact_event::most_told, sentences.size()); ++k) change.what += (k ? ", " : "") + sentences[k];
+  if (sentences.size() > contact_event::most_told) change.what += fmt::format(" and {} more", sentences.size() - contact_event::most_told);
   change.after = std::move(now);
   // What particles do to each other begins from nothing. Where they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses
   // zero nearer to the event than rounding lets it be seen.
@@ -176,10 +176,10 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   const State guess = state;
   const double size = size_of(energy.model(), key.particle);
   // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
-  for (const auto& [close, beside] : {std::pair(exact_rounding, 0.0), std::pair(rounding, 0.0), std::pair(rounding, just_open)}) {
+  for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
     state = guess;
     aim = beside * size, plane.close = close * size;
-    report = newton.correct(state, from.zero_modes, nullptr, most_closing, &plane);
+    report = newton.correct(state, from.zero_modes, nullptr, contact_event::most_closing, &plane);
     if (report.converged() || report.status == Status::interrupted) break;
   }
   if (!defined) report.status = Status::not_converged;
@@ -191,7 +191,7 @@ std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey
   const double load_change = towards.point.state.load_factor - from.point.state.load_factor;
   const Vector way = load_change * from.tangent;
   const auto at = [&](double part) { return moved_by(energy.kinematics(), from.point.state, way, load_change, part); };
-  const double here = gap(energy, key, from.point.state), rate = (gap(energy, key, at(little)) - here) / little;
+  const double here = gap(energy, key, from.point.state), rate = (gap(energy, key, at(contact_event::little)) - here) / contact_event::little;
   const double part = -here / rate;
   if (!(part > 0 && part <= 1)) return {};
   return at(part);
@@ -229,7 +229,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   Report report;
   const auto near = [&](const ContactKey& key, const State& state) {
     const double moved = std::abs(gap(key, b.point.state) - gap(key, a.point.state));
-    return std::abs(gap(key, state)) <= std::max(together * size_of(energy.model(), key.particle), together_in_step * moved);
+    return std::abs(gap(key, state)) <= std::max(contact_event::together * size_of(energy.model(), key.particle), contact_event::together_in_step * moved);
   };
   for (std::size_t round = 0; round <= changed.size(); ++round) {
     // The one that changes first, as far as straight lines tell, of those that change before.
@@ -249,7 +249,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       if (!report.converged()) return false;
       t = segment.parameter(state);
       const double part = (t - segment.a) / (change.at_parameter - segment.a);
-      if (!(part > -along_chord && part < 1 + along_chord && beside_chord(kinematics, a.point.state, found, state) &&
+      if (!(part > -contact_event::along_chord && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
             energy.passage(a.point.state, state) == 1)) return false;
       found = std::move(state);
       return true;
@@ -303,8 +303,8 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
       candidates.insert(key);
       const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
       const bool closed = before.count(key) > 0;
-      const bool at = std::abs(here) <= together * size_of(model, key.particle);
-      if (at ? (there < 0) == closed || std::abs(there) <= rounding * size_of(model, key.particle) : (here < 0) != closed) continue;
+      const bool at = std::abs(here) <= contact_event::together * size_of(model, key.particle);
+      if (at ? (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle) : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);
       if (part >= 0 && part <= 1.5 && part < least) least = part, first = key;
     }
@@ -313,7 +313,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   State state = moved_by(kinematics, from, way, load_change, least);
   const Report report = close_gap(newton, first, a, way, load_change, state);
   if (!report.converged()) return {};
-  if (std::abs(gap(energy, first, state)) > together * size_of(model, first.particle)) return {};
+  if (std::abs(gap(energy, first, state)) > contact_event::together * size_of(model, first.particle)) return {};
   if (energy.passage(from, state) < 1) return {};
   change.found = true;
   change.at.point.state = state, change.at.point.report = report;
@@ -325,7 +325,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
     const double here = gap(energy, key, state);
     const bool closed = before.count(key) > 0;
     if (key == first || !std::isfinite(here)) continue;
-    if (std::abs(here) > together * size_of(model, key.particle)) {
+    if (std::abs(here) > contact_event::together * size_of(model, key.particle)) {
       if ((here < 0) != closed) return {};
     } else if ((gap(energy, key, ahead) < 0) != closed) {
       changed.push_back(key);

@@ -12,7 +12,7 @@
 
 namespace elamin {
 
-using namespace limits::continuation;
+using namespace limits;
 
 namespace {
 
@@ -20,7 +20,7 @@ namespace {
 std::string collapsed(const Model& model, const State& state) {
   for (const Bond& b : model.bonds) {
     const auto [i, j] = b.particles;
-    if ((state.at(j) - state.at(i)).hi.norm() <= collapsed_bond * model.bond_types[b.type].rest_length)
+    if ((state.at(j) - state.at(i)).hi.norm() <= continuation::collapsed_bond * model.bond_types[b.type].rest_length)
       return fmt::format("particles {} and {}, which a bond joins, come together", model.id[i], model.id[j]);
   }
   return "";
@@ -174,9 +174,9 @@ bool Continuation::goes_on_behind(Event& event) {
 // Just past the event the branch has turned unstable or ended: the state falls to the minimum below.
 void Continuation::jump(const Event& event) {
   const double at = event.at.point.state.load_factor;
-  double way = fall_beyond * std::abs(range());                 // but not beyond what is to be hit
+  double way = continuation::fall_beyond * std::abs(range());                 // but not beyond what is to be hit
   for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
-    if (const double ahead = (target - at) / range(); ahead > same_load) way = std::min(way, ahead * std::abs(range()) / 2);
+    if (const double ahead = (target - at) / range(); ahead > continuation::same_load) way = std::min(way, ahead * std::abs(range()) / 2);
   std::string what;
   Equilibrium landed = jump_from(newton_, event, at + std::copysign(way, range()), what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
@@ -230,7 +230,7 @@ bool Continuation::meets_known(const Waypoint& waypoint, const Event& event) {
     const State& other = known_[k].at.point.state;
     const Vector apart = kinematics.difference(other, state);
     const double load = state.load_factor - other.load_factor;
-    if (std::sqrt(metric.dot(apart, load, apart, load)) > same_point * travelled_) continue;
+    if (std::sqrt(metric.dot(apart, load, apart, load)) > continuation::same_point * travelled_) continue;
     emit(waypoint.at.point);
     arrived_at_ = static_cast<int>(k);
     arrival_ = event.arrival ? Vector(-arc_steps().direction().x.normalized()) : Vector(Vector::Zero(apart.size()));

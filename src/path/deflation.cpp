@@ -12,7 +12,7 @@
 
 namespace elamin {
 
-using namespace limits::deflation;
+using namespace limits;
 
 namespace {
 
@@ -31,7 +31,7 @@ class Deflation {
   /// A further equilibrium from a guess, or nothing; the list grows by it.
   std::optional<Equilibrium> find(State state) {
     double size = 0;
-    for (int k = 0; k < most_iterations && !interrupted(); ++k) {
+    for (int k = 0; k < deflation::most_iterations && !interrupted(); ++k) {
       energy_.evaluate(state);
       if (!std::isfinite(energy_.last_terms().total())) return {};
       newton_.factors().factorize_holding({});
@@ -42,7 +42,7 @@ class Deflation {
       const double tau = 1 / (1 - slope(state).dot(p));
       p *= std::isfinite(tau) ? tau : 1.0;
       const double turn = distortion(energy_, state, p);
-      const double part = std::min(1.0, largest_turn / std::max(turn, 1e-300));
+      const double part = std::min(1.0, deflation::largest_turn / std::max(turn, 1e-300));
       State next = state;
       energy_.kinematics().retract(next, p, part);
       if (const double free = energy_.passage(state, next); free < 1) {
@@ -56,7 +56,7 @@ class Deflation {
     const Report report = newton_.correct(state, {}, nullptr, 20);
     if (!report.converged() || apart(near, state).norm() > 0.1 * radius_) return {};
     for (const State& s : known_)
-      if (apart(s, state).norm() <= same * radius_) return {};
+      if (apart(s, state).norm() <= deflation::same * radius_) return {};
     known_.push_back(state);
     return assess(newton_, state, report);
   }
@@ -111,7 +111,7 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
     std::stable_sort(near.begin(), near.end(), [&](const State& a, const State& b) {
       return std::abs(a.load_factor - load_factor) < std::abs(b.load_factor - load_factor);
     });
-    if (near.size() > most_near) near.resize(most_near);
+    if (near.size() > deflation::most_near) near.resize(deflation::most_near);
     Deflation deflation(newton, brought_to(newton, near, load_factor));
     if (deflation.known().empty()) {
       notes.push_back(fmt::format("deflation: no equilibrium is known at load factor {:.10g}", load_factor));
@@ -121,7 +121,7 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
     for (std::size_t k = 0; k < deflation.known().size() && count < options.deflate; ++k) {
       const State base = deflation.known()[k];
       energy.evaluate(base);
-      const EigenPairs pairs = newton.factors().lowest(std::min(most_modes, energy.dofs()));
+      const EigenPairs pairs = newton.factors().lowest(std::min(deflation::most_modes, energy.dofs()));
       for (Eigen::Index m = 0; m < pairs.vectors.cols(); ++m)
         for (const double way : {0.02, -0.02, 0.3, -0.3}) {
           if (count == options.deflate) break;

@@ -12,7 +12,7 @@
 
 namespace elamin {
 
-using namespace limits::equilibrium;
+using namespace limits;
 
 namespace {
 
@@ -64,7 +64,7 @@ class Explained {
 
   /// Whether the rest are motions of the parts as rigid bodies against each other, which no force opposes.
   void take_relative(const std::vector<RigidMotion>& motions) {
-    if (all() || motions.empty() || motions.size() > most_motions) return;
+    if (all() || motions.empty() || motions.size() > equilibrium::most_motions) return;
     Eigen::MatrixXd span(zero_.rows(), static_cast<Eigen::Index>(motions.size()));
     for (std::size_t k = 0; k < motions.size(); ++k)
       span.col(static_cast<Eigen::Index>(k)) = energy_.kinematics().restrict(motions[k].velocity_field(energy_.kinematics().sites()));
@@ -127,7 +127,7 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
       if (body >= 0) free += kinematics.dof(kinematics.turn_of(body), c) >= 0;
     }
     const auto tell = [&](std::string name) {
-      if (names.size() >= most_names) ++left_out;
+      if (names.size() >= equilibrium::most_names) ++left_out;
       else names.push_back(std::move(name));
     };
     if (without_stiffness == free) {
@@ -143,7 +143,7 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
 // Whether contacts are made from one state to the other, and none is lost; what just touches at the first one is closed there.
 bool only_touches_more(Energy& energy, const State& from, const State& to) {
   ContactSet before = closed_contacts(energy, from);
-  for (const Touch& t : energy.touches(from, just_touching * energy.kinematics().smallest_size())) before.insert({t.particle, t.other, t.wall, t.feature});
+  for (const Touch& t : energy.touches(from, equilibrium::just_touching * energy.kinematics().smallest_size())) before.insert({t.particle, t.other, t.wall, t.feature});
   const ContactSet after = closed_contacts(energy, to);
   return after.size() > before.size() && std::includes(after.begin(), after.end(), before.begin(), before.end());
 }
@@ -206,8 +206,8 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   double place = b.point.state.position.squaredNorm();
   for (const Pose& p : b.point.state.bodies) place += p.position.hi.squaredNorm();
   const double rounding = 1e-12 * std::sqrt(place);
-  if (std::min({by_a, by_b, by_both}) > largest_part * moved.norm() + rounding) return false;
-  if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
+  if (std::min({by_a, by_b, by_both}) > equilibrium::largest_part * moved.norm() + rounding) return false;
+  if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= equilibrium::least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 
@@ -235,13 +235,13 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     if (energy.passage(start, predicted) < 1) predicted = driven;
   }
   State state = predicted;
-  Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, most_iterations);
+  Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   const bool meets = may_touch(energy.model());
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = predicted;
-    report = newton.minimise(state, Pace::stationary, most_in_contact);
-    if (report.converged() && report.negative > 0) report = newton.correct(state, from.zero_modes, &start, most_iterations);
+    report = newton.minimise(state, Pace::stationary, equilibrium::most_in_contact);
+    if (report.converged() && report.negative > 0) report = newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   }
   if (!report.converged()) return fail(state, report);
   if (energy.passage(start, state) < 1)
@@ -258,8 +258,8 @@ bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to) {
   const double change = to.point.state.load_factor - state.load_factor;
   kinematics.prescribe(state, to.point.state.load_factor);
   kinematics.retract(state, from.tangent, change);
-  if (!newton.correct(state, from.zero_modes, &from.point.state, most_iterations).converged()) return false;
-  return kinematics.difference(state, to.point.state).norm() <= same_end * kinematics.difference(from.point.state, to.point.state).norm();
+  if (!newton.correct(state, from.zero_modes, &from.point.state, equilibrium::most_iterations).converged()) return false;
+  return kinematics.difference(state, to.point.state).norm() <= equilibrium::same_end * kinematics.difference(from.point.state, to.point.state).norm();
 }
 
 // How modes change the angles of a model in a plane, angles × modes [1]: unlike displacements the same whatever holds a ring in its plane.
@@ -284,7 +284,7 @@ Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, cons
 
 // Whether a mode changes angles by more than rounding, as a rigid motion does not.
 bool bends(const Energy& energy, const Vector& change, const Vector& mode) {
-  return change.norm() * span(energy.model()) > rigid * mode.norm();
+  return change.norm() * span(energy.model()) > equilibrium::rigid * mode.norm();
 }
 
 // By how much every angle of a model in a plane has opened from one state to another [rad].
@@ -330,9 +330,9 @@ Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& st
   for (Eigen::Index j = 0; j < modes.cols() && change.rows() > 0; ++j) {
     if (!bends(energy, change.col(j), modes.col(j))) continue;
     double shift = 0, before = 0;
-    for (int k = 0; k < most_shifts && report.converged(); ++k) {
+    for (int k = 0; k < equilibrium::most_shifts && report.converged(); ++k) {
       const double drift = change.col(j).normalized().dot(opened(energy.model(), from.point.state, state));
-      if (std::abs(drift) <= drifted || (k > 0 && !(std::abs(drift) < std::abs(before) / 2))) break;
+      if (std::abs(drift) <= equilibrium::drifted || (k > 0 && !(std::abs(drift) < std::abs(before) / 2))) break;
       shift = k == 0 ? -drift / change.col(j).norm() : shift * drift / (before - drift);
       before = drift;
       energy.kinematics().retract(state, modes.col(j), shift);
@@ -356,7 +356,7 @@ Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const 
   const Vector size = change.rowwise().norm();
   const double most = size.maxCoeff();
   Eigen::Index k = 0;
-  while (size[k] < (1 - alike_angles) * most) ++k;
+  while (size[k] < (1 - equilibrium::alike_angles) * most) ++k;
   if (!(most > 0)) return canonical_modes(energy.kinematics(), modes);
   Eigen::MatrixXd both(modes.rows(), 2);
   both.col(0) = (modes * change.row(k).transpose()).normalized();
@@ -384,14 +384,14 @@ Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::Matri
       const Singular svd = singular_values(along);
       if (svd.values[0] < 0.5) continue;
       best = left * svd.v.col(0);
-      told = svd.values[1] < (1 - close_values) * svd.values[0];
+      told = svd.values[1] < (1 - equilibrium::close_values) * svd.values[0];
       break;
     }
     if (!told) {                                            // all alike: the one that moves a single coordinate most, the first such
       const Vector reach = left.rowwise().norm();
       const double most = reach.maxCoeff();
       Eigen::Index d = 0;
-      while (reach[d] < (1 - close_values) * most) ++d;
+      while (reach[d] < (1 - equilibrium::close_values) * most) ++d;
       best = left * left.row(d).transpose();
     }
     best.normalize();

@@ -16,7 +16,7 @@
 
 namespace elamin {
 
-using namespace limits::held_steps;
+using namespace limits;
 
 namespace {
 
@@ -68,7 +68,7 @@ void HeldSteps::begin() {
   const Inertia inertia = newton_.energy().dofs() > 0 ? equilibrium_.inertia(near) : Inertia{};
   if (inertia.negative == 0) {
     const Eigen::MatrixXd held = inertia.zero > 0 ? equilibrium_.lowest(near, inertia.zero).vectors : Eigen::MatrixXd();
-    report = equilibrium_.correct(near, newton_.tolerance(), nullptr, near_by * newton_.energy().kinematics().smallest_size(), held);
+    report = equilibrium_.correct(near, newton_.tolerance(), nullptr, held_steps::near_by * newton_.energy().kinematics().smallest_size(), held);
     if (report.converged() && equilibrium_.inertia(near).negative == 0) state = near;
     else report = {};
   }
@@ -97,7 +97,7 @@ void HeldSteps::go_on(Equilibrium from) {
 // Forces that are nothing are not told.
 void HeldSteps::tell(PathPoint point) {
   newton_.energy().evaluate(point.state, false);
-  std::erase_if(point.state.hard, [&](const HardForce& h) { return !(h.force > 0 && newton_.energy().relative(Vector::Constant(1, h.force)) > rounding); });
+  std::erase_if(point.state.hard, [&](const HardForce& h) { return !(h.force > 0 && newton_.energy().relative(Vector::Constant(1, h.force)) > held_steps::rounding); });
   emit(std::move(point));
 }
 
@@ -145,15 +145,15 @@ HeldSteps::Judgement HeldSteps::judge(const Equilibrium& e, const Equilibrium* b
   Energy& energy = newton_.energy();
   const State& state = e.point.state;
   Contacts all = closed_;
-  for (const HardForce& h : energy.hard_contacts(state, near_by * energy.kinematics().smallest_size()))
+  for (const HardForce& h : energy.hard_contacts(state, held_steps::near_by * energy.kinematics().smallest_size()))
     if (!in(closed_, h)) all.push_back(h);
   energy.evaluate(state, false);                                // its force scale
   const double way = before ? std::abs(state.load_factor - before->point.state.load_factor) : 0;
   Judgement found;
   for (const HardForce& h : all) {
     const double left = margin(h, e), place = state.position.col(h.particle).cwiseAbs().maxCoeff() / energy.model().diameter[h.particle];
-    double nothing = std::max(rounding, 8 * epsilon * place);
-    if (way > 0) nothing = std::max(nothing, std::abs(margin(h, *before) - left) * together * std::abs(options_.to - options_.from) / way);
+    double nothing = std::max(held_steps::rounding, 8 * epsilon * place);
+    if (way > 0) nothing = std::max(nothing, std::abs(margin(h, *before) - left) * held_steps::together * std::abs(options_.to - options_.from) / way);
     if (left < -nothing) found.wrong.push_back(h);
     else if (left <= nothing) found.slack.push_back(h);
   }
@@ -173,17 +173,17 @@ void HeldSteps::step() {
 
   Equilibrium candidate = follow(current_, closed_, target);
   if (!candidate.point.report.converged()) {
-    if (halvings_ % look_for_limit == look_for_limit - 1)
+    if (halvings_ % held_steps::look_for_limit == held_steps::look_for_limit - 1)
       if (std::optional<Event> limit = limit_point(target)) return lose(std::move(*limit));
     return halve(target, candidate.point.report.why);
   }
-  if (halvings_ < finest && bends(newton_.energy().kinematics(), current_, candidate, most_bend)) return halve(target, "the branch bends too much to be told from another one");
+  if (halvings_ < held_steps::finest && bends(newton_.energy().kinematics(), current_, candidate, held_steps::most_bend)) return halve(target, "the branch bends too much to be told from another one");
   Judgement judgement = judge(candidate, &current_);
   for (int k = 0; !judgement.wrong.empty(); ++k) {
     const auto dips = std::find_if(judgement.wrong.begin(), judgement.wrong.end(), [&](const HardForce& h) { return in(slack_, h); });
     const bool from_here = dips != judgement.wrong.end();
-    if (from_here && halvings_ >= short_enough && turn_back(*dips)) return;
-    std::optional<Equilibrium> nearer = !from_here && k < most_first ? first_change(judgement.wrong, candidate) : std::nullopt;
+    if (from_here && halvings_ >= held_steps::short_enough && turn_back(*dips)) return;
+    std::optional<Equilibrium> nearer = !from_here && k < held_steps::most_first ? first_change(judgement.wrong, candidate) : std::nullopt;
     if (!nearer) return halve(target, "contacts change in a way that could not be located");
     candidate = std::move(*nearer);
     judgement = judge(candidate, &current_);
@@ -192,10 +192,10 @@ void HeldSteps::step() {
   const int after = candidate.point.stability.negative;
   if (after != current_.point.stability.negative) {
     std::optional<Event> event = branch_point(candidate);
-    if (!event && halvings_ % look_for_limit == look_for_limit - 1) event = limit_point(arrived);
+    if (!event && halvings_ % held_steps::look_for_limit == held_steps::look_for_limit - 1) event = limit_point(arrived);
     return event ? lose(std::move(*event)) : miss(arrived, after);
   }
-  if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < finest) {
+  if (!same_branch(newton_.energy(), current_, candidate) && halvings_ < held_steps::finest) {
     return halve(arrived, "the corrector went to another branch");
   }
   const auto between = [&](double t, const Equilibrium& nearest) { return follow(nearest, closed_, t); };
@@ -203,7 +203,7 @@ void HeldSteps::step() {
   Segment segment = segment_of_loads(newton_, here, arrived);
   segment.at = between;
   const std::vector<Event> seen = locate_watches(options_.watches, side_, segment, current_, candidate, after, missed);
-  if (missed && halvings_ < finest) return halve(arrived, "where an observable reaches its value could not be located");
+  if (missed && halvings_ < held_steps::finest) return halve(arrived, "where an observable reaches its value could not be located");
   if (!seen.empty()) {
     const double there = seen.front().at_parameter;
     for (Event event : seen) {
@@ -216,7 +216,7 @@ void HeldSteps::step() {
       if (options_.watches[event.watch].stop) return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, there));
     return;
   }
-  if (std::abs(arrived - here) > together * std::abs(options_.to - options_.from)) changes_ = 0;
+  if (std::abs(arrived - here) > held_steps::together * std::abs(options_.to - options_.from)) changes_ = 0;
   halvings_ = std::max(0, halvings_ - 1);
   if (std::any_of(judgement.slack.begin(), judgement.slack.end(), [&](const HardForce& h) { return !in(slack_, h); }))
     return corner(std::move(candidate), judgement.slack);
@@ -249,7 +249,7 @@ std::optional<Equilibrium> HeldSteps::first_change(const Contacts& wrong, const 
 
 // The rates at the beginning of a step did not tell that this contact changes there: it does, for the step shows it.
 bool HeldSteps::turn_back(const HardForce& contact) {
-  if (++changes_ > most_changes) return false;
+  if (++changes_ > held_steps::most_changes) return false;
   Contacts now = closed_;
   toggle(now, contact);
   change(current_, std::move(now), slack_);
@@ -259,7 +259,7 @@ bool HeldSteps::turn_back(const HardForce& contact) {
 // An equilibrium at which contacts have neither gap nor force that had one before: which of them are closed behind? If no choice
 // is right the stable branch ends here, and those that have come change sides.
 void HeldSteps::corner(Equilibrium at, const Contacts& slack) {
-  if (++changes_ > most_changes) {
+  if (++changes_ > held_steps::most_changes) {
     tell(at.point);
     accept(std::move(at), slack);
     const double here = current_.point.state.load_factor;
@@ -296,8 +296,8 @@ void HeldSteps::change(Equilibrium at, Contacts now, const Contacts& slack) {
   if (options_.contacts) {
     Event event;
     event.kind = EventKind::contact;
-    for (std::size_t k = 0; k < std::min(most_told, sentences.size()); ++k) event.what += (k ? ", " : "") + sentences[k];
-    if (sentences.size() > most_told) event.what += fmt::format(" and {} more", sentences.size() - most_told);
+    for (std::size_t k = 0; k < std::min(held_steps::most_told, sentences.size()); ++k) event.what += (k ? ", " : "") + sentences[k];
+    if (sentences.size() > held_steps::most_told) event.what += fmt::format(" and {} more", sentences.size() - held_steps::most_told);
     event.at = std::move(at);
     event.before = before, event.after = after;
     std::erase_if(event.at.point.state.hard, [&](const HardForce& h) { return !(h.force > 0) || in(slack, h); });
@@ -329,7 +329,7 @@ Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, double scal
   }
   std::sort(by_size.begin(), by_size.end(), [&](Eigen::Index i, Eigen::Index j) { return std::abs(lowest.values[i]) < std::abs(lowest.values[j]); });
   int count = 1;
-  while (count < most && count < static_cast<int>(by_size.size()) && std::abs(lowest.values[by_size[static_cast<std::size_t>(count)]]) <= vanishing * scale) ++count;
+  while (count < most && count < static_cast<int>(by_size.size()) && std::abs(lowest.values[by_size[static_cast<std::size_t>(count)]]) <= held_steps::vanishing * scale) ++count;
   event.modes.resize(lowest.vectors.rows(), std::min<Eigen::Index>(count, static_cast<Eigen::Index>(by_size.size())));
   for (Eigen::Index j = 0; j < event.modes.cols(); ++j) event.modes.col(j) = lowest.vectors.col(by_size[static_cast<std::size_t>(j)]);
   event.modes = canonical_modes(newton_.energy().kinematics(), event.modes);
@@ -346,11 +346,11 @@ Event HeldSteps::critical(Equilibrium at, EventKind kind, int after, double scal
 // Where on the way to the candidate, which is on the same branch, an eigenvalue goes through zero: its mode keeps still along the branch, and held the
 // equations are regular.
 std::optional<Event> HeldSteps::branch_point(Equilibrium candidate) {
-  for (int k = 0; k < most_crossings && !interrupted(); ++k) {
+  for (int k = 0; k < held_steps::most_crossings && !interrupted(); ++k) {
     const std::optional<Vanishing> found = crossing(candidate);
     if (!found) return {};
     // Another mode may have crossed zero before this one.
-    const double here = current_.point.state.load_factor, beside = here + (1 - just_before) * (found->at.point.state.load_factor - here);
+    const double here = current_.point.state.load_factor, beside = here + (1 - held_steps::just_before) * (found->at.point.state.load_factor - here);
     Equilibrium nearer = follow(current_, closed_, beside);
     if (!nearer.point.report.converged()) return {};
     if (nearer.point.stability.negative == current_.point.stability.negative) return critical(found->at, EventKind::branch, candidate.point.stability.negative, found->scale);
@@ -392,7 +392,7 @@ std::optional<HeldSteps::Vanishing> HeldSteps::crossing(const Equilibrium& candi
     return sample(e);
   });
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
-  if (!zero || !(std::abs(zero->f) <= vanished * scale)) return {};
+  if (!zero || !(std::abs(zero->f) <= held_steps::vanished * scale)) return {};
   return Vanishing{assess(newton_, zero->e.point.state, zero->e.point.report), scale};
 }
 
@@ -411,26 +411,26 @@ std::optional<Event> HeldSteps::limit_point(double target) {
   double slope = 0;
   if (!equilibrium_.slide(state, origin, mode, 0, newton_.tolerance(), known, slope).converged()) return {};
   const double forward = target < here ? -1 : 1, a_little = 0.1 / std::max(movement(energy, mode), 1e-300);
-  const bool there = !(slope * a_little > at_the_limit * std::abs(target - here));                 // or all but
+  const bool there = !(slope * a_little > held_steps::at_the_limit * std::abs(target - here));                 // or all but
   double a = 0, slope_a = slope, b = forward * (there ? 0.1 * a_little : std::min(std::abs(target - here) / slope, a_little));
   double steepest = std::abs(slope);
   State found = state;
-  for (int k = 0; k < most_along && !interrupted(); ++k) {      // the secant of dλ/ds
+  for (int k = 0; k < held_steps::most_along && !interrupted(); ++k) {      // the secant of dλ/ds
     State next = found;
     energy.kinematics().retract(next, mode, b - a);
     double slope_b = 0;
     const Report report = equilibrium_.slide(next, origin, mode, b, newton_.tolerance(), known, slope_b);
     if (!report.converged() || energy.passage(origin, next) < 1) return {};
     // The branch turns little on the way, or the step is too long to tell this branch from another one.
-    if (energy.kinematics().difference(origin, next).norm() > turns_little * std::abs(b)) return {};
+    if (energy.kinematics().difference(origin, next).norm() > held_steps::turns_little * std::abs(b)) return {};
     // On this branch one more eigenvalue is negative behind the limit point, and none before it.
     if (!there && std::abs(slope_b) > 1e-3 * slope && equilibrium_.inertia(next).negative != before + (slope_b < 0 ? 1 : 0)) return {};
     steepest = std::max(steepest, std::abs(slope_b));
     found = next;
     const double step = -slope_b * (b - a) / (slope_b - slope_a);
-    if (std::abs(slope_b) <= vanished * steepest) {
+    if (std::abs(slope_b) <= held_steps::vanished * steepest) {
       const double part = (next.load_factor - here) / (target - here);
-      if (!(part >= -at_the_limit && part <= 1)) return {};
+      if (!(part >= -held_steps::at_the_limit && part <= 1)) return {};
       Equilibrium at = assess(newton_, next, report);
       at.tangent = current_.tangent;
       if (!judge(at, nullptr).wrong.empty()) return {};         // contacts change before
@@ -470,7 +470,7 @@ void HeldSteps::lose(Event event) {
 void HeldSteps::miss(double target, int after) {
   const double here = current_.point.state.load_factor;
   const int before = current_.point.stability.negative;
-  if (halvings_ < finest) return halve(target, "stability changes");
+  if (halvings_ < held_steps::finest) return halve(target, "stability changes");
   note(fmt::format("between load factors {:.10g} and {:.10g} the number of negative eigenvalues goes from {} to {}: a branch point or a "
                    "limit point, not located further", here, target, before, after));
   current_.point.stability.negative = after;
@@ -485,7 +485,7 @@ void HeldSteps::leave_unstable() {
 
 void HeldSteps::halve(double target, const std::string& why) {
   if (interrupted()) return end(Status::interrupted, "interrupted");
-  if (halvings_++ < finest) return;
+  if (halvings_++ < held_steps::finest) return;
   const double here = current_.point.state.load_factor;
   note(fmt::format("load factor {:.10g} could not be passed in steps of {:.3g}: {}", here, std::abs(target - here), why));
   if (options_.when_unstable == WhenUnstable::stop)
@@ -498,7 +498,7 @@ void HeldSteps::halve(double target, const std::string& why) {
 void HeldSteps::fall(double target, const std::string& why) {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
-  const double here = current_.point.state.load_factor, past = here + direction() * std::min(beyond_event * std::abs(options_.to - options_.from), before_target * std::abs(target - here));
+  const double here = current_.point.state.load_factor, past = here + direction() * std::min(held_steps::beyond_event * std::abs(options_.to - options_.from), held_steps::before_target * std::abs(target - here));
   const auto ends = [&](Status status, const std::string& sentence) {
     end(status, fmt::format("the branch ends at load factor {:.10g}{}", here, sentence));
   };
@@ -516,7 +516,7 @@ void HeldSteps::fall(double target, const std::string& why) {
       on.point.report.converged() && on.point.stability.negative > 0 && judge(on, nullptr).wrong.empty()) {
     state = on.point.state;
     const Vector mode = canonical_modes(kinematics, equilibrium_.lowest(state, 1).vectors).col(0);
-    const double part = std::min(aside / std::max(distortion(energy, state, mode), 1e-300), aside / std::max(movement(energy, mode), 1e-300));
+    const double part = std::min(held_steps::aside / std::max(distortion(energy, state, mode), 1e-300), held_steps::aside / std::max(movement(energy, mode), 1e-300));
     for (const double side : {1.0, -1.0}) {
       starts.push_back(state);
       kinematics.retract(starts.back(), mode, side * part);
@@ -528,8 +528,8 @@ void HeldSteps::fall(double target, const std::string& why) {
   Report report;
   double lowest = std::numeric_limits<double>::infinity();
   for (State& from : starts) {
-    const Report found = minimise(newton_, from, IpoptOptions{.tolerance = newton_.tolerance(), .barrier = nearest});
-    if (found.converged() ? !(found.energy < lowest - alike * std::abs(before - lowest)) && report.converged() : report.converged()) continue;
+    const Report found = minimise(newton_, from, IpoptOptions{.tolerance = newton_.tolerance(), .barrier = held_steps::nearest});
+    if (found.converged() ? !(found.energy < lowest - held_steps::alike * std::abs(before - lowest)) && report.converged() : report.converged()) continue;
     report = found;
     if (found.converged()) state = from, lowest = found.energy;
   }

@@ -6,7 +6,7 @@
 
 namespace elamin {
 
-using namespace limits::jump;
+using namespace limits;
 
 namespace {
 }
@@ -26,7 +26,7 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
   energy.evaluate(from);
   const double before = energy.last_terms().total();
   // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
-  Report report = newton.minimise(state, Pace::downhill, most_downhill);
+  Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
   if (report.status == Status::not_converged) report = newton.minimise(state);
   what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
   if (report.converged()) return assess(newton, state, report);

@@ -10,7 +10,7 @@
 
 namespace elamin {
 
-using namespace limits::load_steps;
+using namespace limits;
 
 std::vector<double> load_targets(const PathOptions& o) {
   std::vector<double> targets;
@@ -41,7 +41,7 @@ std::optional<Waypoint> LoadSteps::next() {
       if (std::optional<Waypoint> w = on_detour()) return w;
     } else {
       if (std::optional<Candidate> c = reach(grid_.next(), why)) return accept(std::move(*c));
-      if (grid_.halvings() >= first_detour && (grid_.halvings() - first_detour) % next_detour == 0) {
+      if (grid_.halvings() >= load_steps::first_detour && (grid_.halvings() - load_steps::first_detour) % load_steps::next_detour == 0) {
         set_out_on_detour();
         continue;
       }
@@ -56,7 +56,7 @@ std::optional<Waypoint> LoadSteps::next() {
 
 // Right behind a branch point its critical modes are free, or held where that leads to another branch.
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
-  if (at_contact_) look_past_contact(past_contact * std::abs(target - current_.point.state.load_factor));
+  if (at_contact_) look_past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor));
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
   if (c && grid_.halvings() < fine && may_touch(newton_.energy().model()) && !singular_ && bends(newton_.energy().kinematics(), current_, c->e, most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
@@ -88,7 +88,7 @@ void LoadSteps::set_out_on_detour() {
 
 // It ends at its goal, at the first event, or where it leads nowhere: nothing is told then, and the next step is shorter.
 std::optional<Waypoint> LoadSteps::on_detour() {
-  std::optional<Waypoint> w = ++taken_ <= longest_detour ? detour_->next() : std::nullopt;
+  std::optional<Waypoint> w = ++taken_ <= load_steps::longest_detour ? detour_->next() : std::nullopt;
   if (w && w->stop && *w->stop != goal_) w.reset();
   if (!w) return detour_.reset(), std::nullopt;
   const double load = w->at.point.state.load_factor;

@@ -8,7 +8,7 @@
 
 namespace elamin {
 
-using namespace limits::locate;
+using namespace limits;
 
 namespace {
 
@@ -28,7 +28,7 @@ EigenPairs lowest_but(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& kno
 
 // The eigenvalue number `index` (from 0, ascending) that belongs to neither a rigid motion nor a symmetry.
 double eigenvalue(Newton& newton, Equilibrium& e, int index) {
-  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1 + more_modes).values;
+  const Vector values = lowest_but(newton, e, e.zero_modes, index + 1 + locate::more_modes).values;
   return values.size() == 0 ? 0.0 : values[std::min<Eigen::Index>(index, values.size() - 1)];
 }
 
@@ -48,7 +48,7 @@ double critical_value(Newton& newton, Equilibrium& e, int index) {
 
 // Eigenvectors whose eigenvalues are zero beside `scale`, without the zero modes that were there before.
 Eigen::MatrixXd critical_modes(Newton& newton, Equilibrium& e, int index, double scale, const Eigen::MatrixXd& known) {
-  const EigenPairs pairs = lowest_but(newton, e, known, index + most_multiple);
+  const EigenPairs pairs = lowest_but(newton, e, known, index + locate::most_multiple);
   Eigen::MatrixXd modes(pairs.vectors.rows(), 0);
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j)
     if (std::abs(pairs.values[j]) <= scale) {
@@ -101,8 +101,8 @@ Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eige
   event.modes = critical_modes(newton, at, index, scale, known);
   newton.energy().evaluate(at.point.state);
   const double work = work_along(event.modes, newton.energy().load_derivative());
-  const bool limit = turns.value_or(work > orthogonal);
-  if (!limit && work > orthogonal) event.modes.resize(event.modes.rows(), 0);       // nor a branch point: two branches pass by each other
+  const bool limit = turns.value_or(work > locate::orthogonal);
+  if (!limit && work > locate::orthogonal) event.modes.resize(event.modes.rows(), 0);       // nor a branch point: two branches pass by each other
   event.kind = limit && event.modes.cols() == 1 ? EventKind::limit : EventKind::branch;
   hold_modes(newton, at, known, event.kind == EventKind::branch ? event.modes : Eigen::MatrixXd());
   at.point.multiplicity = static_cast<int>(event.modes.cols());
@@ -143,7 +143,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     // At a branch point the equations are regular with the critical modes held where the branch has them.
     Equilibrium e;
-    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, held_together * std::abs(from.f), known);
+    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, locate::held_together * std::abs(from.f), known);
     if (modes.cols() > 0) {
       State state = between(t).state;
       const Report report = segment.settle(state, side_by_side(known, modes));
@@ -176,7 +176,7 @@ Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, c
 
 Segment segment_of_loads(Newton& newton, double from, double to) {
   return {from, to, [&newton](double t, const Equilibrium& nearest) { return continue_to(newton, nearest, t); },
-          [&newton](State& state, const Eigen::MatrixXd& held) { return newton.correct(state, held, nullptr, most_iterations); },
+          [&newton](State& state, const Eigen::MatrixXd& held) { return newton.correct(state, held, nullptr, locate::most_iterations); },
           [](const State& state) { return state.load_factor; }, [](const Equilibrium&) { return 1.0; },
           [&newton](const Equilibrium& a, const Equilibrium& b) { return leads_to(newton, a, b); }};
 }
@@ -237,7 +237,7 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
   Sample lower{segment.a, slope(a), a}, upper{segment.b, slope(b), b};
   if ((lower.f < 0) == (upper.f < 0)) return {};
   const auto zero_of = [](const Sample& x, const Sample& y) { return x.t - x.f * (y.t - x.t) / (y.f - x.f); };
-  for (int k = 0; k < most_narrowings && upper.t - lower.t > narrow * (segment.b - segment.a); ++k) {
+  for (int k = 0; k < locate::most_narrowings && upper.t - lower.t > locate::narrow * (segment.b - segment.a); ++k) {
     // Samples on both sides, near, but not where the equations are singular.
     const double zero = zero_of(lower, upper), margin = 0.1 * (upper.t - lower.t);
     const double t = zero - lower.t > upper.t - zero ? std::min(zero - margin, (lower.t + 3 * zero) / 4) : std::max(zero + margin, (upper.t + 3 * zero) / 4);

@@ -6,12 +6,12 @@
 
 namespace elamin {
 
-using namespace limits::root;
+using namespace limits;
 
 std::optional<Sample> find_zero(Sample a, Sample b, double resolution,
                                 const std::function<std::optional<Sample>(double, const Sample&)>& evaluate) {
   double weight_a = a.f, weight_b = b.f;
-  for (int k = 0; k < most_evaluations; ++k) {
+  for (int k = 0; k < root::most_evaluations; ++k) {
     const double width = b.t - a.t;
     double t = a.t - weight_a * width / (weight_b - weight_a);
     if (k % 4 == 3) t = (a.t + b.t) / 2;

@@ -9,7 +9,7 @@
 
 namespace elamin {
 
-using namespace limits::switching;
+using namespace limits;
 
 namespace {
 
@@ -63,7 +63,7 @@ class Switch {
   }
 
   std::optional<Beside> leave(const Vector& along, double longest) const {
-    for (double a = longest; a >= least_part * longest; a /= 3) {
+    for (double a = longest; a >= switching::least_part * longest; a /= 3) {
       State state;
       const Report report = at(state, along, a, {});
       if (!report.converged() || !near(state, a)) continue;
@@ -103,14 +103,14 @@ class Switch {
 // Angles in [0, π) at which the force along the circle vanishes; only 0 where it vanishes everywhere.
 std::vector<double> angles_between(const Switch& s, const Vector& u, const Vector& v) {
   const double amplitude = std::min(s.amplitude(u, v), s.amplitude(v, u));
-  std::vector<double> force(rays + 1);
-  const double step = pi / rays, shift = step / 3;             // rays beside the axes of symmetry
-  for (int k = 0; k <= rays; ++k) force[k] = s.around(shift + k * step, u, v, amplitude);
+  std::vector<double> force(switching::rays + 1);
+  const double step = pi / switching::rays, shift = step / 3;             // rays beside the axes of symmetry
+  for (int k = 0; k <= switching::rays; ++k) force[k] = s.around(shift + k * step, u, v, amplitude);
   double largest = 0;
   for (const double f : force) largest = std::max(largest, std::abs(f));
-  if (largest <= no_force) return {0.0};
+  if (largest <= switching::no_force) return {0.0};
   std::vector<double> angles;
-  for (int k = 0; k < rays; ++k) {
+  for (int k = 0; k < switching::rays; ++k) {
     if ((force[k] < 0) == (force[k + 1] < 0)) continue;
     const auto zero = find_zero({shift + k * step, force[k], {}}, {shift + (k + 1) * step, force[k + 1], {}}, 1e-9,
                                 [&](double t, const Sample&) -> std::optional<Sample> {
@@ -124,10 +124,10 @@ std::vector<double> angles_between(const Switch& s, const Vector& u, const Vecto
 // Whether one is an image of the other: at the same distance the same load factor and energy, beside their changes.
 bool images(const Kinematics& kinematics, const Equilibrium& at, const Beside& a, const Beside& b) {
   const auto shape = [&](const Beside& side) { return kinematics.extend(side.leaving).colwise().norm().eval().lpNorm<4>(); };
-  const auto close = [](double x, double y, double from) { return std::abs(x - y) <= same * std::max(std::abs(x - from), std::abs(y - from)) + 64 * epsilon * std::abs(from); };
+  const auto close = [](double x, double y, double from) { return std::abs(x - y) <= switching::same * std::max(std::abs(x - from), std::abs(y - from)) + 64 * epsilon * std::abs(from); };
   return close(a.e.point.state.load_factor, b.e.point.state.load_factor, at.point.state.load_factor) &&
          close(a.e.point.energy.total(), b.e.point.energy.total(), at.point.energy.total()) &&
-         std::abs(shape(a) - shape(b)) <= 1e3 * same * shape(a);
+         std::abs(shape(a) - shape(b)) <= 1e3 * switching::same * shape(a);
 }
 
 // What costs nothing on a side branch within the span of the critical modes, orthonormal: the directions of a family.

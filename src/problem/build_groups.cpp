@@ -72,7 +72,7 @@ const Members* Groups::find(const TablePlace& table, const char* key, const std:
     for (const std::string& known : order_)
       if (is_type_group(known)) types.push_back(known);
     mistakes_.add(table, key,
-                  quoted(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
+                  in_quotes(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
   }
   return nullptr;
 }

@@ -34,9 +34,9 @@ bool acts(const PairContact& c) { return c.hard || c.effective_modulus > 0 || c.
 bool acts(const RoundedPair& r) { return r.kernel.normal > 0 || r.kernel.attraction > 0; }
 
 /// The glued parts, and which of them may touch each other.
-class Parts {
+class HeldParts {
  public:
-  explicit Parts(const Model& model) : part_(connected_parts(model)) {
+  explicit HeldParts(const Model& model) : part_(connected_parts(model)) {
     int count = 0;
     for (const int p : part_) count = std::max(count, p + 1);
     root_.resize(count);
@@ -98,7 +98,7 @@ class Parts {
 
 /// Of every cluster: whether dead loads and weights leave a force on it, or loads on bodies a torque, which only a support or a wall
 /// could bear. (Forces that turn a cluster as a whole turn with it until they do no more.)
-std::vector<bool> driven(const Model& model, const Parts& parts) {
+std::vector<bool> driven(const Model& model, const HeldParts& parts) {
   struct Forces { std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()}; double size = 0; };   // scaled, constant
   std::vector<Forces> forces(entities(model)), torques(entities(model));
   const auto add_to = [&](std::vector<Forces>& to, int i, const Vec3& force, const Scaling& scaling) {
@@ -127,7 +127,7 @@ std::vector<bool> driven(const Model& model, const Parts& parts) {
 void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) {
   if (problem.study == StudyType::energy || problem.study == StudyType::modes) return;   // a free motion is a mode
   if (problem.in_time()) return;           // … or a motion
-  const Parts parts(model);
+  const HeldParts parts(model);
   const std::vector<bool> force = driven(model, parts);
   // What floats, and nothing pulls on it, has an equilibrium for a file that asks for one; else a support has been forgotten.
   const bool asked = problem.study_place.keys.count("type") > 0 && problem.stages.empty();

@@ -108,7 +108,7 @@ class Restart {
         take_tail(*stored, *data);
         if (stored->stage && !p_.stages.empty() && !Stages(p_).resume(*stored->stage))
           mistakes_.add(p_.path.place, "start", fmt::format("is a state of the stage {}, and the problem has no such stage or "
-                                                            "other tables", quoted(stored->stage->name)));
+                                                            "other tables", in_quotes(stored->stage->name)));
       }
     } catch (const InputError& e) {
       mistakes_.add(e.mistakes());
@@ -166,7 +166,7 @@ class Restart {
     if (!one)
       return mistakes_.add(p_.path.place, "start",
                            fmt::format("and {} beside it are not of one state; take the latter away, or both from one run",
-                                       quoted(tail_file(p_.path.start))));
+                                       in_quotes(tail_file(p_.path.start))));
     state.tail = stored.tail;
     for (std::size_t b = 0; b < stored.bodies.size(); ++b) {
       state.bodies[b].position.lo = stored.bodies[b].position.lo;

@@ -29,9 +29,9 @@ double memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_c
 double sheet_bond_stiffness(double E, double t) { return std::sqrt(3.0) / 4 * E * t; }
 double sheet_angle_stiffness(double E, double t) { return E * t * t * t / (8 * std::sqrt(3.0)); }
 
-class Builder {
+class StructureBuilder {
  public:
-  Builder(const std::string& plane, Mistakes& mistakes) : plane_(plane), mistakes_(mistakes) {}
+  StructureBuilder(const std::string& plane, Mistakes& mistakes) : plane_(plane), mistakes_(mistakes) {}
 
   std::optional<Beam> built(const BeamTable& table) {
     const Clamped clamped = clamped_ends(table);
@@ -166,7 +166,7 @@ class Builder {
 
 /// Everything that can be built of a list of tables; the names of the others go to left_out.
 template <class Built, class Table>
-std::vector<Built> all_built(Builder& builder, const std::vector<Table>& tables, std::vector<std::string>& left_out) {
+std::vector<Built> all_built(StructureBuilder& builder, const std::vector<Table>& tables, std::vector<std::string>& left_out) {
   std::vector<Built> all;
   for (const Table& table : tables) {
     std::optional<Built> one;
@@ -182,7 +182,7 @@ std::vector<Built> all_built(Builder& builder, const std::vector<Table>& tables,
 }  // namespace
 
 bool add_structures(const Problem& problem, Model& model, std::vector<std::string>& left_out, Mistakes& mistakes) {
-  Builder builder(problem.plane, mistakes);
+  StructureBuilder builder(problem.plane, mistakes);
   const auto sheets = all_built<Sheet>(builder, problem.sheets, left_out);
   const auto grains = all_built<Grains>(builder, problem.grains, left_out);
   double rows = 0, total = model.particles();

@@ -25,11 +25,11 @@ void Names::add(TablePlace& place, const std::string& name, Places& to) {
   if (name.empty()) return;
   if (name == "all" || name == "lammps" || is_type_group(name))
     return mistakes_.add(
-        place, "name", quoted(name) + " is reserved; \"all\", \"lammps\" and \"type1\", \"type2\", … name themselves");
+        place, "name", in_quotes(name) + " is reserved; \"all\", \"lammps\" and \"type1\", \"type2\", … name themselves");
   for (const Places* places : {&groups_, &walls_})
     if (const auto first = places->find(name); first != places->end())
       return mistakes_.add(place, "name",
-                           quoted(name) + " is taken by " + named(first->second) + "; names are unique");
+                           in_quotes(name) + " is taken by " + named(first->second) + "; names are unique");
   to.emplace(name, place);
 }
 
@@ -41,15 +41,15 @@ void Names::refer(TablePlace& place, const char* key, const std::string& name, b
   for (const auto& entry : groups_) known.push_back(entry.first);
   for (const GroupTable& g : problem_.groups)
     if (g.name == name)
-      return mistakes_.add(place, key, quoted(name) + " comes further down; a group is made of those before it");
+      return mistakes_.add(place, key, in_quotes(name) + " comes further down; a group is made of those before it");
   for (const WallTable& w : problem_.walls)
     if (w.name == name)
-      return mistakes_.add(place, key, quoted(name) + " is a wall, not a group; there are: " + listed(known));
+      return mistakes_.add(place, key, in_quotes(name) + " is a wall, not a group; there are: " + listed(known));
   if (problem_.lammps) known.push_back("type1");
   for (const auto& entry : walls_)
     if (or_wall) known.push_back(entry.first);
   mistakes_.add(place, key,
-                quoted(name) + (or_wall && !walls_.empty() ? " names no group and no wall" : " names no group") +
+                in_quotes(name) + (or_wall && !walls_.empty() ? " names no group and no wall" : " names no group") +
                     "; there are: " + listed(known) + did_you_mean(name, known));
 }
 
@@ -66,7 +66,7 @@ void check_support(const Problem& problem, SupportTable& s, Mistakes& mistakes) 
     if (!*words) continue;
     const std::string& d = **words;
     if (d.empty() || std::set<char>(d.begin(), d.end()).size() != d.size() || d.find_first_not_of("xyz") != std::string::npos)
-      return mistakes.add(s.place, key, "must be one, two or three of the letters x, y and z, is " + quoted(d));
+      return mistakes.add(s.place, key, "must be one, two or three of the letters x, y and z, is " + in_quotes(d));
   }
   const std::string d = s.directions.value_or(s.turns ? "" : "xyz");
   const std::set<char> letters(d.begin(), d.end());
@@ -95,11 +95,11 @@ void check_solving(Problem& problem, Mistakes& mistakes) {
   SolverTable& s = problem.solver;
   const bool newton = s.method == "newton";
   if (!newton && problem.study == StudyType::modes)
-    mistakes.add(s.place, "method", "must be \"newton\" in a study of modes, is " + quoted(s.method));
+    mistakes.add(s.place, "method", "must be \"newton\" in a study of modes, is " + in_quotes(s.method));
   if (!newton && problem.study == StudyType::path) {
     const auto by_newton = [&](TablePlace& place, const char* key, const char* what) {
       mistakes.add(place, key, fmt::format("{} follows stable and unstable equilibria, which {} does not; use solver.method = "
-                                           "\"newton\"", what, quoted(s.method)));
+                                           "\"newton\"", what, in_quotes(s.method)));
     };
     if (problem.path.method == PathMethod::arc_length) by_newton(problem.path.place, "method", "arc length");
     else if (problem.path.when_unstable == WhenUnstable::follow) by_newton(problem.path.place, "when_unstable", "\"follow\"");

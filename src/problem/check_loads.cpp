@@ -40,7 +40,7 @@ void check_pressure(const Problem& problem, PressureTable& p, Mistakes& mistakes
   for (const LoopTable& l : problem.loops) loops.push_back(l.name);
   if (std::find(loops.begin(), loops.end(), p.loop) == loops.end())
     mistakes.add(p.place, "loop",
-                 quoted(p.loop) + " is no [[loop]]; " + (loops.empty() ? "there is none" : "there are: " + listed(loops)) +
+                 in_quotes(p.loop) + " is no [[loop]]; " + (loops.empty() ? "there is none" : "there are: " + listed(loops)) +
                      did_you_mean(p.loop, loops));
 }
 
@@ -56,7 +56,7 @@ void check_names(const Problem& problem, Mistakes& mistakes) {
   std::set<std::string> taken;
   for (const Condition& c : conditions_of(problem))
     if (!c.name.empty() && c.kind != "wall" && !taken.insert(c.label()).second)
-      mistakes.add(c.place, "name", quoted(c.name) + " is the name of another [[" + c.kind + "]]; names are unique");
+      mistakes.add(c.place, "name", in_quotes(c.name) + " is the name of another [[" + c.kind + "]]; names are unique");
 }
 
 void check_parameter(Problem& problem, Mistakes& mistakes) {
@@ -68,10 +68,10 @@ void check_parameter(Problem& problem, Mistakes& mistakes) {
     const int found = find_condition(conditions, word);
     if (found < 0)
       mistakes.add(problem.path.place, "parameter",
-                   quoted(word) + " names no table that a load factor scales; " +
+                   in_quotes(word) + " names no table that a load factor scales; " +
                        (labels.empty() ? "there is none" : "there are: " + listed(labels)) + did_you_mean(word, labels));
     else if (!chosen.insert(found).second)
-      mistakes.add(problem.path.place, "parameter", quoted(word) + " is there twice; once is enough");
+      mistakes.add(problem.path.place, "parameter", in_quotes(word) + " is there twice; once is enough");
   }
 }
 

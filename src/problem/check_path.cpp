@@ -84,13 +84,13 @@ void check_path(Problem& problem, Mistakes& mistakes) {
     if (e.name.empty()) continue;
     const std::vector<std::string> taken{"branch", "limit", "contact", "jump", "deflated", "initial", "final"};
     if (std::find(taken.begin(), taken.end(), e.name) != taken.end())
-      mistakes.add(e.place, "name", quoted(e.name) + " is reserved; taken are: " + listed(taken));
+      mistakes.add(e.place, "name", in_quotes(e.name) + " is reserved; taken are: " + listed(taken));
     else if (std::find(names.begin(), names.end(), e.name) != names.end())
-      mistakes.add(e.place, "name", quoted(e.name) + " is the name of another [[event]]; names are unique");
+      mistakes.add(e.place, "name", in_quotes(e.name) + " is the name of another [[event]]; names are unique");
     names.push_back(e.name);
     if (e.observable.empty() || std::find(observables.begin(), observables.end(), e.observable) != observables.end()) continue;
     mistakes.add(e.place, "observable",
-                 quoted(e.observable) + " is no [[observe]]; " +
+                 in_quotes(e.observable) + " is no [[observe]]; " +
                      (observables.empty() ? "there is none" : "there are: " + listed(observables)) +
                      did_you_mean(e.observable, observables));
   }

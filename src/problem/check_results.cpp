@@ -58,9 +58,9 @@ class CheckResults {
     if (o.name.empty()) return;
     if (is_in(columns_, o.name))
       mistakes_.add(o.place, "name",
-                    quoted(o.name) + " is a column of the results already; taken are: " + listed(columns_));
+                    in_quotes(o.name) + " is a column of the results already; taken are: " + listed(columns_));
     else if (is_in(observables_, o.name))
-      mistakes_.add(o.place, "name", quoted(o.name) + " is the name of another [[observe]]; names are unique");
+      mistakes_.add(o.place, "name", in_quotes(o.name) + " is the name of another [[observe]]; names are unique");
     else
       observables_.push_back(o.name);
   }
@@ -77,10 +77,10 @@ class CheckResults {
   void wall(ObserveTable& o) {
     if (o.quantity != Quantity::reaction && o.quantity != Quantity::gap && o.quantity != Quantity::contacts)
       mistakes_.add(o.place, "quantity",
-                    quoted(o.group) + " is a wall; it has reaction.x, reaction.y, reaction.z, reaction.norm, gap and "
+                    in_quotes(o.group) + " is a wall; it has reaction.x, reaction.y, reaction.z, reaction.norm, gap and "
                                       "contacts");
     else if (o.reduce != default_reduce(o.quantity))
-      mistakes_.add(o.place, "reduce", quoted(o.group) + " is a wall, which has one value; leave reduce out");
+      mistakes_.add(o.place, "reduce", in_quotes(o.group) + " is a wall, which has one value; leave reduce out");
   }
 
   const Problem& p_;
@@ -110,7 +110,7 @@ std::optional<int> step_of(const std::string& at) {
 std::string wrong_observable(const Problem& p, const std::string& observable, const std::string& at) {
   const std::vector<std::string> no_numbers{"label", "status", "parent", "what", "stage"},
       of_events{"multiplicity", "negative_before", "negative_after"};
-  if (at == at_sweep) return observable == "threshold" ? "" : "must be \"threshold\" at = \"sweep\", is " + quoted(observable);
+  if (at == at_sweep) return observable == "threshold" ? "" : "must be \"threshold\" at = \"sweep\", is " + in_quotes(observable);
   const bool event = at.find(':') != std::string::npos;
   std::vector<std::string> columns;
   for (const std::string& c : columns_of(p))
@@ -118,7 +118,7 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
   for (const ObserveTable& o : p.observe)
     if (!o.name.empty() && !is_in(columns, o.name)) columns.push_back(o.name);
   if (is_in(columns, observable)) return "";
-  return quoted(observable) + " is no column of numbers there; there are: " + listed(columns) + did_you_mean(observable, columns);
+  return in_quotes(observable) + " is no column of numbers there; there are: " + listed(columns) + did_you_mean(observable, columns);
 }
 
 std::string wrong_at(const Problem& p, const std::string& at) {
@@ -128,12 +128,12 @@ std::string wrong_at(const Problem& p, const std::string& at) {
       return fmt::format("lies behind the last step, {}", p.dynamics.steps);
     else if (at == "initial" || step)
       return "";
-    return "must be \"initial\", \"final\" or a step such as \"step=100\" in dynamics, is " + quoted(at);
+    return "must be \"initial\", \"final\" or a step such as \"step=100\" in dynamics, is " + in_quotes(at);
   }
-  if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + quoted(at);
+  if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + in_quotes(at);
   const std::string allowed =
       "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", " +
-      std::string(p.stages.empty() ? "" : "a stage's name, ") + "or \"lambda=0.5\", is " + quoted(at);
+      std::string(p.stages.empty() ? "" : "a stage's name, ") + "or \"lambda=0.5\", is " + in_quotes(at);
   if (at.compare(0, 7, "lambda=") == 0) {
     const auto lambda = load_factor_of(at);
     if (!lambda) return allowed;
@@ -158,7 +158,7 @@ std::string wrong_at(const Problem& p, const std::string& at) {
       number.find_first_not_of("0123456789") != std::string::npos)
     return allowed;
   if (!watched && kind != "jump" && kind != "deflated" && !p.path.place.broken && !is_in(p.path.locate, kind))
-    return quoted(kind) + " is not among path.locate; only located events have a row";
+    return in_quotes(kind) + " is not among path.locate; only located events have a row";
   return "";
 }
 

@@ -137,7 +137,7 @@ std::string shown(const Node& node) {
     const std::string digits = fmt::format("{}", *real);
     return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;   // 10.0 is no integer
   }
-  if (const auto* text = std::get_if<std::string>(&node.value)) return "the string " + quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&node.value)) return "the string " + in_quotes(*text);
   if (std::holds_alternative<Date>(node.value)) return "a date or time";
   if (std::holds_alternative<Entries>(node.value)) return "a table";
   return "a list of " + std::to_string(std::get<List>(node.value).size());

@@ -15,7 +15,6 @@
 namespace elamin {
 namespace {
 
-constexpr std::size_t most_mistakes = 20;
 constexpr const char* const columns[]{"x", "y", "z", "diameter"};
 
 struct Cell {
@@ -104,7 +103,7 @@ class GrainReader {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const std::string shown = quoted(std::string(cell.text));
+    const std::string shown = in_quotes(std::string(cell.text));
     if (error == std::errc::result_out_of_range)
       mistake(cell.column, key, shown + " is too large or too small for a floating-point number");
     else if (error != std::errc{} || end != word.data() + word.size())

@@ -6,16 +6,15 @@
 
 namespace elamin {
 namespace {
-constexpr int largest = std::numeric_limits<int>::max();
 }
 
 bool LammpsBodiesSection::begin(const DataLine& line) {
   ++begun_;
   line_ = line.number;
   if (!lines_.has_size(line, {3}, "Bodies", "id, how many integers (3) and how many numbers follow")) return false;
-  const auto id = lines_.integer(line, 0, "Bodies: id", 1, largest);
+  const auto id = lines_.integer(line, 0, "Bodies: id", 1, largest_integer);
   const auto integers = lines_.integer(line, 1, "Bodies: integers of a body rounded/polyhedron", 3, 3);
-  const auto expected = lines_.integer(line, 2, "Bodies: numbers of a body", 10, largest);
+  const auto expected = lines_.integer(line, 2, "Bodies: numbers of a body", 10, largest_integer);
   if (!integers || !expected) return false;
   open_ = true, good_ = id.has_value(), id_ = id.value_or(0), expected_ = *expected;
   counts_.clear(), numbers_.clear();
@@ -30,7 +29,7 @@ bool LammpsBodiesSection::take(const DataLine& line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (counts_.size() < 3) {
       const char* const names[]{"Bodies: vertices", "Bodies: edges", "Bodies: faces"};
-      const auto count = lines_.integer(line, i, names[counts_.size()], counts_.empty() ? 1 : 0, largest);
+      const auto count = lines_.integer(line, i, names[counts_.size()], counts_.empty() ? 1 : 0, largest_integer);
       good_ = good_ && count;
       counts_.push_back(count.value_or(0));
     } else if (numbers_.size() == static_cast<std::size_t>(expected_)) {

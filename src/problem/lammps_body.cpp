@@ -39,7 +39,7 @@ class Numbers {
 };
 
 /// How many numbers there are to be; of spheres and rods lists may be left out. −1: none of these.
-int listed(const std::array<int, 3>& counts, std::size_t numbers) {
+int announced_in(const std::array<int, 3>& counts, std::size_t numbers) {
   const auto [n, e, f] = std::array<std::int64_t, 3>{counts[0], counts[1], counts[2]};
   const std::int64_t least = 7 + 3 * n, given = static_cast<std::int64_t>(numbers);
   if (given == least + 2 * e + 4 * f) return 2;                  // edges and faces
@@ -79,7 +79,7 @@ std::optional<BodyForm> body_form(const std::array<int, 3>& counts, const std::v
                                   std::vector<std::string>& wrong) {
   const std::size_t before = wrong.size();
   const auto [n, e, f] = std::array<std::int64_t, 3>{counts[0], counts[1], counts[2]};
-  const int lists = listed(counts, numbers.size());
+  const int lists = announced_in(counts, numbers.size());
   if (lists < 0) {
     wrong.push_back(fmt::format("{} numbers are announced, but {} vertices, {} edges and {} faces take {}{}", numbers.size(), n, e, f,
                                 7 + 3 * n + 2 * e + 4 * f,

@@ -32,7 +32,7 @@ const char* available(const std::string& kind) {
 
 std::string refused_style(const std::string& kind, const std::string& comment) {
   if (comment == "hybrid" || style_of(kind, comment)) return "";
-  return fmt::format("{} style {} is not available; {}", kind, quoted(comment), available(kind));
+  return fmt::format("{} style {} is not available; {}", kind, in_quotes(comment), available(kind));
 }
 
 std::optional<CoefficientRow> coefficient_row(LammpsLines& lines, const DataLine& line, const std::string& kind,
@@ -42,7 +42,7 @@ std::optional<CoefficientRow> coefficient_row(LammpsLines& lines, const DataLine
   const std::string name = first == 2 ? std::string(line[1]) : comment == "hybrid" ? "" : comment;
   const Style* style = style_of(kind, name);
   if (!style) {
-    lines.mistake(line, 1, section, fmt::format("style {} is not available; {}", quoted(name), available(kind)));
+    lines.mistake(line, 1, section, fmt::format("style {} is not available; {}", in_quotes(name), available(kind)));
     return std::nullopt;
   }
   const bool two = style->second[0] != 0;

@@ -13,8 +13,6 @@
 namespace elamin {
 namespace {
 
-constexpr std::size_t most_mistakes = 20;
-
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
 }  // namespace
@@ -84,11 +82,11 @@ std::optional<double> LammpsLines::number(const DataLine& line, std::size_t i, c
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc::result_out_of_range)
-    mistake(line, i, key, quoted(std::string(line[i])) + " is too large or too small for a floating-point number");
+    mistake(line, i, key, in_quotes(std::string(line[i])) + " is too large or too small for a floating-point number");
   else if (error != std::errc{} || end != word.data() + word.size())
-    mistake(line, i, key, quoted(std::string(line[i])) + " is not a number");
+    mistake(line, i, key, in_quotes(std::string(line[i])) + " is not a number");
   else if (!std::isfinite(value))
-    mistake(line, i, key, quoted(std::string(line[i])) + " is not finite");
+    mistake(line, i, key, in_quotes(std::string(line[i])) + " is not finite");
   else
     return value;
   return std::nullopt;
@@ -100,11 +98,11 @@ std::optional<int> LammpsLines::integer(const DataLine& line, std::size_t i, con
   long long value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || error == std::errc::invalid_argument)
-    mistake(line, i, key, quoted(std::string(line[i])) + " is not an integer");
+    mistake(line, i, key, in_quotes(std::string(line[i])) + " is not an integer");
   else if (error != std::errc{} || value < lo || value > hi)
     mistake(line, i, key,
-            hi < lo ? quoted(std::string(line[i])) + " is out of range; the header of the file announces none"
-                    : fmt::format("{} is out of range; {} to {} is allowed", quoted(std::string(line[i])), lo, hi));
+            hi < lo ? in_quotes(std::string(line[i])) + " is out of range; the header of the file announces none"
+                    : fmt::format("{} is out of range; {} to {} is allowed", in_quotes(std::string(line[i])), lo, hi));
   else
     return static_cast<int>(value);
   return std::nullopt;

@@ -3,12 +3,15 @@
 #include "core/error.hpp"
 
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace elamin {
+
+constexpr int largest_integer = std::numeric_limits<int>::max();
 
 /// A line that holds something: words up to '#', and what stands behind it.
 struct DataLine {

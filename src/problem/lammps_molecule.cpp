@@ -12,14 +12,12 @@
 namespace elamin {
 namespace {
 
-constexpr int largest = std::numeric_limits<int>::max();
-
 /// Sections of one row for the one atom: id and so many numbers.
 const std::map<std::string, int> of_atom{{"Coords", 3}, {"Types", 1}, {"Molecules", 1}, {"Diameters", 1}, {"Masses", 1}, {"Charges", 1}};
 
-class Reader {
+class MoleculeReader {
  public:
-  explicit Reader(const std::string& file) : lines_(file, "LAMMPS molecule file", "") {}
+  explicit MoleculeReader(const std::string& file) : lines_(file, "LAMMPS molecule file", "") {}
 
   LammpsMolecule read() {
     DataLine line;
@@ -41,14 +39,14 @@ class Reader {
     const auto known = size.find(name);
     if (known == size.end() || line.size() != known->second)
       return lines_.mistake(line, 0, "header",
-                            quoted(joined(line)) + " is not available; a molecule file of one body has \"1 atoms\", \"3 M body\" and "
+                            in_quotes(joined(line)) + " is not available; a molecule file of one body has \"1 atoms\", \"3 M body\" and "
                                                    "perhaps \"m mass\", \"x y z com\" and \"ixx iyy izz ixy ixz iyz inertia\"");
     if (!headers_.emplace(name, line.number).second) return lines_.mistake(line, 0, name, "stands twice in the header");
     if (name == "atoms") {
       lines_.integer(line, 0, name, 1, 1);
     } else if (name == "body") {
       lines_.integer(line, 0, "body: integers of a body rounded/polyhedron", 3, 3);
-      announced_ = lines_.integer(line, 1, "body: numbers", 10, largest);
+      announced_ = lines_.integer(line, 1, "body: numbers", 10, largest_integer);
     } else if (name == "mass") {
       mass(line, 0);
     } else if (name == "inertia") {
@@ -61,7 +59,7 @@ class Reader {
   void begin(const DataLine& line) {
     section_ = joined(line);
     if (section_ != "Body Integers" && section_ != "Body Doubles" && !of_atom.count(section_))
-      lines_.mistake(line, 0, quoted(section_),
+      lines_.mistake(line, 0, in_quotes(section_),
                      "this section is not available; a molecule file of one body has Body Integers and Body Doubles, and perhaps Coords, "
                      "Types, Molecules, Diameters, Charges and Masses");
     else if (!sections_.emplace(section_, line.number).second)
@@ -76,7 +74,7 @@ class Reader {
     if (section_ == "Body Integers" || section_ == "Body Doubles") {
       for (std::size_t i = 0; i < line.size(); ++i) {
         if (section_ == "Body Integers") {
-          const auto value = lines_.integer(line, i, section_, integers_.empty() ? 1 : 0, largest);
+          const auto value = lines_.integer(line, i, section_, integers_.empty() ? 1 : 0, largest_integer);
           good_ = good_ && value;
           integers_.push_back(value.value_or(0));
         } else {
@@ -144,6 +142,6 @@ class Reader {
 
 }  // namespace
 
-LammpsMolecule read_molecule(const std::string& file) { return Reader(file).read(); }
+LammpsMolecule read_molecule(const std::string& file) { return MoleculeReader(file).read(); }
 
 }  // namespace elamin

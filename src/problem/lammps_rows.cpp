@@ -6,14 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 
 namespace elamin {
 namespace {
-
-constexpr int largest = std::numeric_limits<int>::max();
 
 /// The section whose number of lines is a count of the header.
 const std::map<std::string, std::string> counted{
@@ -30,9 +27,9 @@ bool is_keyword(const DataLine& line) {
                      [](const auto& w) { return is_word(w.text) && w.text != "nan" && w.text != "inf"; });
 }
 
-class Reader {
+class RowReader {
  public:
-  Reader(LammpsLines& lines, std::string atom_style) : lines_(lines), style_(std::move(atom_style)), bodies_(lines) {}
+  RowReader(LammpsLines& lines, std::string atom_style) : lines_(lines), style_(std::move(atom_style)), bodies_(lines) {}
 
   LammpsRows read() {
     DataLine line;
@@ -51,17 +48,17 @@ class Reader {
     const std::string one = joined(line, 1), two = joined(line, 2), three = joined(line, 3);
     const auto is_count = [&](const auto& entry) { return entry.second == one; };
     if (std::any_of(counted.begin(), counted.end(), is_count)) {
-      if (const auto n = lines_.integer(line, 0, one, 0, largest)) {
+      if (const auto n = lines_.integer(line, 0, one, 0, largest_integer)) {
         if (!rows_.counts.emplace(one, *n).second) lines_.mistake(line, 0, one, "stands twice in the header");
       } else {
         rows_.counts.emplace(one, -1);
       }
     } else if (absent.count(one)) {
-      const auto n = lines_.integer(line, 0, one, 0, largest);
+      const auto n = lines_.integer(line, 0, one, 0, largest_integer);
       if (n.value_or(0) > 0)
         lines_.mistake(line, 0, one, fmt::format("{} are not available in this version; 0 is allowed", one));
     } else if (unused.count(one)) {
-      lines_.integer(line, 0, one, 0, largest);
+      lines_.integer(line, 0, one, 0, largest_integer);
     } else if (two == "xlo xhi" || two == "ylo yhi" || two == "zlo zhi") {
       const auto lo = lines_.number(line, 0, two), hi = lines_.number(line, 1, two);
       if (lo && hi && !(*lo < *hi)) lines_.mistake(line, 0, two, "the lower bound is not below the upper one");
@@ -71,7 +68,7 @@ class Reader {
     } else {
       lines_.mistake(
           line, 0, "header",
-          quoted(joined(line)) +
+          in_quotes(joined(line)) +
               " is not known; known are counts such as \"12 atoms\" (of "
               "atoms, bodies, bonds, angles and their types), \"xlo xhi\", \"ylo yhi\", \"zlo zhi\" and \"xy xz yz\"");
     }
@@ -93,7 +90,7 @@ class Reader {
     if (!known_) {
       const bool pair = section_.rfind("Pair", 0) == 0;
       lines_.mistake(
-          line, 0, quoted(section_),
+          line, 0, in_quotes(section_),
           std::string(pair ? "coefficients of pairs are not taken from a data file; contacts are given in the "
                              "problem file"
                            : "this section is not available in this version") +
@@ -159,7 +156,7 @@ class Reader {
 
   int most_types(const std::string& count) const {
     const bool known = rows_.counts.count(count) > 0 && rows_.count(count) >= 0;   // else that is the mistake to tell
-    return known ? rows_.count(count) : largest;
+    return known ? rows_.count(count) : largest_integer;
   }
 
   std::optional<int> type(const DataLine& line, std::size_t i, const std::string& count) {
@@ -189,9 +186,9 @@ class Reader {
     bool good = true;
     const auto take = [&](auto value, auto& target) { value ? void(target = *value) : void(good = false); };
     for (std::size_t i = 0; i < n; ++i) switch ((*columns_)[i]) {
-      case AtomColumn::id: take(lines_.integer(line, i, "Atoms: id", 1, largest), a.id); break;
+      case AtomColumn::id: take(lines_.integer(line, i, "Atoms: id", 1, largest_integer), a.id); break;
       case AtomColumn::type: take(type(line, i, "atom types"), a.type); break;
-      case AtomColumn::molecule: take(lines_.integer(line, i, "Atoms: molecule", 0, largest), a.molecule); break;
+      case AtomColumn::molecule: take(lines_.integer(line, i, "Atoms: molecule", 0, largest_integer), a.molecule); break;
       case AtomColumn::diameter: take(amount(line, i, "diameter"), a.diameter); break;
       case AtomColumn::density: take(amount(line, i, "density"), a.density); break;
       case AtomColumn::bodyflag: take(body_flag(lines_, line, i), a.is_body); break;
@@ -206,7 +203,7 @@ class Reader {
     }
     std::array<int, 3> image{0, 0, 0};
     for (std::size_t c = 0; line.size() > n && c < 3; ++c)
-      take(lines_.integer(line, n + c, "Atoms: image flag", -largest, largest), image[c]);
+      take(lines_.integer(line, n + c, "Atoms: image flag", -largest_integer, largest_integer), image[c]);
     if (good) rows_.atoms.push_back(a), rows_.images.push_back(image);
     return good;
   }
@@ -214,7 +211,7 @@ class Reader {
   bool velocity(const DataLine& line) {
     if (!has_size(line, {4, 7}, "id, velocity, and of spheres the angular velocity, of bodies the angular momentum")) return false;
     VelocityRow v{line.number, 0, Vec3::Zero(), Vec3::Zero(), line.size() == 7};
-    const auto id = lines_.integer(line, 0, "Velocities: id", 1, largest);
+    const auto id = lines_.integer(line, 0, "Velocities: id", 1, largest_integer);
     bool good = id.has_value();
     for (std::size_t c = 1; c < line.size(); ++c) {
       const auto value = lines_.number(line, c, c < 4 ? "Velocities: velocity" : "Velocities: angular velocity");
@@ -237,9 +234,9 @@ class Reader {
     if (!has_size(line, {n + 2}, fmt::format("number, type and the ids of {} atoms", n))) return false;
     TopologyRow r{line.number, 0, {}, {}};
     const auto t = type(line, 1, count);
-    bool good = lines_.integer(line, 0, section_ + ": number", 0, largest) && t;
+    bool good = lines_.integer(line, 0, section_ + ": number", 0, largest_integer) && t;
     for (std::size_t i = 0; i < n; ++i) {
-      const auto id = lines_.integer(line, i + 2, section_ + ": id", 1, largest);
+      const auto id = lines_.integer(line, i + 2, section_ + ": id", 1, largest_integer);
       if (id) r.id[i] = *id, r.column[i] = line.words[i + 2].column;
       good = good && id;
     }
@@ -286,7 +283,7 @@ class Reader {
 }  // namespace
 
 LammpsRows read_lammps_rows(LammpsLines& lines, const std::string& atom_style) {
-  return Reader(lines, atom_style).read();
+  return RowReader(lines, atom_style).read();
 }
 
 }  // namespace elamin

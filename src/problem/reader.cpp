@@ -34,7 +34,7 @@ TablePlace Reader::finish() {
     const bool is_table = std::holds_alternative<Entries>(e.node.value) ||
                           (is_tables(e.node) && !std::get<List>(e.node.value).empty());
     const Place at = is_table ? e.node.place : e.place;
-    const std::string key = inside(is_name(e.key) ? e.key : elamin::quoted(e.key));
+    const std::string key = inside(is_name(e.key) ? e.key : in_quotes(e.key));
     mistake(at, key, (is_table ? "unknown table; allowed: " : "unknown key; allowed: ") + listed(known_) +
                          did_you_mean(e.key, known_));
   }
@@ -228,7 +228,7 @@ void Reader::file(const char* key, std::string& value) {
   const auto path = std::filesystem::absolute(std::filesystem::path(folder_) / value, error).lexically_normal();
   if (!std::filesystem::exists(path, error))
     mistake(node->place, inside(key),
-            "there is no file " + elamin::quoted(value) + "; it is sought from the folder of this file");
+            "there is no file " + in_quotes(value) + "; it is sought from the folder of this file");
   value = path.string();
 }
 
@@ -258,7 +258,7 @@ void Reader::some_of(const char* key, const Node& node, const std::vector<std::s
     const int i = one_of(key, n, known);
     if (i < 0) continue;
     if (std::find(list.begin(), list.end(), known[i]) != list.end())
-      mistake(n.place, inside(key), elamin::quoted(known[i]) + " is there twice; once is enough");
+      mistake(n.place, inside(key), in_quotes(known[i]) + " is there twice; once is enough");
     else
       list.push_back(known[i]);
   }

@@ -77,7 +77,7 @@ class Walk {
     return nullptr;
   }
   Node* unknown(const std::string& part) {
-    return refuse(fmt::format("{} is no key; allowed: {}{}", quoted(part), listed(tree_->names()),
+    return refuse(fmt::format("{} is no key; allowed: {}{}", in_quotes(part), listed(tree_->names()),
                               did_you_mean(part, tree_->names())));
   }
   Node* value(const std::string& part) {
@@ -89,7 +89,7 @@ class Walk {
     const std::size_t number = index_of(parts_[at_]);
     if (!list || at_ + 1 < parts_.size() || number < 1 || number > list->size())
       return refuse(list ? fmt::format("has components 1 to {}", list->size())
-                         : fmt::format("{} is a value, not a table", quoted(part)));
+                         : fmt::format("{} is a value, not a table", in_quotes(part)));
     canonical_ += fmt::format(".{}", number);
     return &(*list)[number - 1];
   }
@@ -100,7 +100,7 @@ class Walk {
       node->value = Entries{};
     }
     entries_ = std::get_if<Entries>(&node->value);
-    return entries_ || refuse(quoted(part) + " is not a table in this file");
+    return entries_ || refuse(in_quotes(part) + " is not a table in this file");
   }
   bool element(const std::string& part) {
     Node* node = find(*entries_, part);
@@ -117,7 +117,7 @@ class Walk {
         return true;
       }
     }
-    refuse(fmt::format("no [[{}]] is {}; there are: {}{}", part, quoted(which), listed(names), did_you_mean(which, names)));
+    refuse(fmt::format("no [[{}]] is {}; there are: {}{}", part, in_quotes(which), listed(names), did_you_mean(which, names)));
     return false;
   }
 
@@ -133,7 +133,7 @@ class Walk {
 Setting parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw InputError({Mistake{"--set", 0, 0, quoted(text), "must be KEY=VALUE, such as path.steps=50"}});
+    throw InputError({Mistake{"--set", 0, 0, in_quotes(text), "must be KEY=VALUE, such as path.steps=50"}});
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -144,7 +144,7 @@ void apply(const Setting& setting, Document& document, Mistakes& mistakes) {
   if (Node* node = walk.end())
     *node = parse_value(setting.value, setting.place);
   else
-    mistakes.add(setting.place, quoted(setting.key), walk.why());
+    mistakes.add(setting.place, in_quotes(setting.key), walk.why());
 }
 
 bool has_table(const std::string& key) {

@@ -198,15 +198,15 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
   std::vector<std::string> names;
   const std::set<std::string> taken{"initial", "final", at_sweep};
   for (StageTable& s : problem.stages) {
-    if (taken.count(s.name)) mistakes.add(s.place, "name", quoted(s.name) + " is reserved for the ends of a path");
+    if (taken.count(s.name)) mistakes.add(s.place, "name", in_quotes(s.name) + " is reserved for the ends of a path");
     else if (!s.name.empty() && std::find(names.begin(), names.end(), s.name) != names.end())
-      mistakes.add(s.place, "name", quoted(s.name) + " is the name of another [[stage]]; names are unique");
+      mistakes.add(s.place, "name", in_quotes(s.name) + " is the name of another [[stage]]; names are unique");
     names.push_back(s.name);
   }
   const std::string there = names.empty() ? "there is none" : "there are: " + listed(names);
   for_tables(problem, [&](TablePlace& place, const std::string& from) {
     if (!from.empty() && std::find(names.begin(), names.end(), from) == names.end())
-      mistakes.add(place, "from_stage", quoted(from) + " is no [[stage]]; " + there + did_you_mean(from, names));
+      mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + there + did_you_mean(from, names));
   });
   if (problem.stages.empty()) return;
 
@@ -216,7 +216,7 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
     for (const Condition& c : to) labels.push_back(c.label());
     for (const std::string& word : words)
       if (find_condition(to, word) < 0)
-        mistakes.add(s.place, key, quoted(word) + " names no table; " + (labels.empty() ? "there is none" : "there are: " + listed(labels)) +
+        mistakes.add(s.place, key, in_quotes(word) + " names no table; " + (labels.empty() ? "there is none" : "there are: " + listed(labels)) +
                                        did_you_mean(word, labels));
   };
   for (StageTable& s : problem.stages) {
@@ -225,7 +225,7 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
     if (!s.vary) continue;
     for (const std::string& word : *s.vary)
       if (const int i = find_condition(conditions, word); i >= 0 && named(conditions[i], s.off))
-        mistakes.add(s.place, "vary", quoted(word) + " is off in this stage");
+        mistakes.add(s.place, "vary", in_quotes(word) + " is off in this stage");
   }
   for (const char* key : {"branches", "deflate"})
     if (problem.path.place.keys.count(key) && (problem.path.branches > 0 || problem.path.deflate > 0))

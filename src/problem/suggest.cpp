@@ -61,7 +61,7 @@ std::string quoted_choice(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string quoted(const std::string& word) {
+std::string in_quotes(const std::string& word) {
   constexpr std::size_t longest = 60;
   std::string text = "\"";
   for (const char c : word) {

@@ -15,6 +15,6 @@ std::string listed(const std::vector<std::string>& words);
 std::string quoted_choice(const std::vector<std::string>& words);
 
 /// `"word"`, with control characters and what is too long left out.
-std::string quoted(const std::string& word);
+std::string in_quotes(const std::string& word);
 
 }  // namespace elamin

@@ -14,7 +14,7 @@
 namespace elamin {
 namespace {
 
-constexpr std::size_t largest = std::size_t{64} << 20;
+constexpr std::size_t largest_text = std::size_t{64} << 20;
 
 /// Number of bytes up to the first one that is no text in UTF-8 (RFC 3629), or all of them.
 std::size_t length_of_text(const std::string& bytes) {
@@ -58,7 +58,7 @@ std::string read_text(const std::string& file) {
   while (in.read(block, sizeof block) || in.gcount() > 0) {
     bytes.append(block, static_cast<std::size_t>(in.gcount()));
     if (std::memchr(block, 0, static_cast<std::size_t>(in.gcount()))) break;   // no text; said below
-    if (bytes.size() > largest) refuse(file, "is larger than 64 MB; a problem file is a short text");
+    if (bytes.size() > largest_text) refuse(file, "is larger than 64 MB; a problem file is a short text");
   }
   if (in.bad()) refuse(file, std::string("cannot be read: ") + std::strerror(errno));
 

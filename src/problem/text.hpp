@@ -6,6 +6,9 @@
 
 namespace elamin {
 
+/// Mistakes of one data file; then reading it ends.
+constexpr std::size_t most_mistakes = 20;
+
 /// The contents of a file that is to be a text in UTF-8. Throws InputError if it is not there, is a folder, cannot be
 /// read, is larger than 64 MB, or holds bytes that are no text (with the line and column of the first).
 std::string read_text(const std::string& file);

@@ -22,12 +22,12 @@ void append_rest(Row& row, const PathPoint& p, const std::vector<double>& observ
 
 const std::vector<std::string> rest{"energy",   "bond",     "angle",      "contact",  "wall",  "cohesion", "body",
                                     "external", "residual", "iterations", "negative", "stable"};
-const std::vector<std::string> last{"parent", "negative_rigid"}, last_of_event{"negative_before", "negative_after", "what"};
+const std::vector<std::string> last_columns{"parent", "negative_rigid"}, last_of_event{"negative_before", "negative_after", "what"};
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<std::string> with_rest(std::vector<std::string> columns, const std::vector<std::string>& observables) {
-  for (const auto* more : {&rest, &observables, &last}) append(columns, *more);
+  for (const auto* more : {&rest, &observables, &last_columns}) append(columns, *more);
   return columns;
 }
 

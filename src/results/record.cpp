@@ -27,7 +27,8 @@ Record::Record(const Problem& problem, const Model& model)
       names_(observable_columns(problem)),
       path_{run_columns(problem), {}},
       events_{event_columns(names_, !problem.stages.empty()), {}} {
-  enter({}, model);
+  const Stage whole;
+  enter(whole, model);
 }
 
 void Record::enter(const Stage& stage, const Model& model) {

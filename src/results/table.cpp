@@ -12,7 +12,7 @@
 namespace elamin {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string all = "\"";
   for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -37,7 +37,7 @@ std::string csv_text(const Cell& cell) {
   if (const bool* b = std::get_if<bool>(&cell)) return *b ? "true" : "false";
   if (const int* i = std::get_if<int>(&cell)) return std::to_string(*i);
   if (const double* d = std::get_if<double>(&cell)) return std::isfinite(*d) ? fmt::format("{:.17g}", *d) : "";
-  if (const std::string* s = std::get_if<std::string>(&cell)) return quoted(*s);
+  if (const std::string* s = std::get_if<std::string>(&cell)) return csv_quoted(*s);
   return "";
 }
 

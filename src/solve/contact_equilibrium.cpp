@@ -1,5 +1,6 @@
 #include "solve/contact_equilibrium.hpp"
 
+#include "core/dense.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
@@ -23,8 +24,6 @@ constexpr double rounding_of_rates = 1e-9;     // of the largest
 
 const char* const too_far = "there is no equilibrium near enough";
 const char* const singular = "nothing holds what can move here: the equations are singular, with any shift";
-
-double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 bool same_contacts(const std::vector<HardForce>& a, const std::vector<HardForce>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HardForce& x, const HardForce& y) { return key(x) == key(y); });

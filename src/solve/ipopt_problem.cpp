@@ -1,7 +1,9 @@
 #include "solve/ipopt_problem.hpp"
 
+#include "core/dense.hpp"
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 #include "solve/steady_bodies.hpp"
 
 #include <IpDenseVector.hpp>
@@ -16,12 +18,9 @@ namespace {
 
 constexpr std::size_t most_watched = 10;       // steps that Ipopt may take back
 constexpr double unbounded = 2e19;             // for Ipopt
-constexpr double lost = 100;                   // extents of the structure: what is that far away comes back no more
 constexpr int patience = 10;                   // iterations
 constexpr double near_by = 0.1;                // ℓ that Newton's method may move in the end
 constexpr double wide = 8;                     // ℓ that may be moved in one run where there are hard walls
-
-double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 const Ipopt::Number* values(const Ipopt::Vector& v) { return dynamic_cast<const Ipopt::DenseVector&>(v).ExpandedValues(); }
 
@@ -185,7 +184,7 @@ void IpoptProblem::look(double moved) {
   double error = report_.residual = energy_.relative(energy_.gradient());
   report_.history.push_back({report_.energy, report_.residual, moved, 0});
   if (!(report_.residual <= memory_.close)) {
-    escaped_ = elamin::escaped(energy_.model(), state_, lost * extent_);
+    escaped_ = elamin::escaped(energy_.model(), state_, limits::lost * extent_);
     return;
   }
   const double largest = force_scale();

@@ -1,5 +1,6 @@
 #include "solve/newton.hpp"
 
+#include "core/dense.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
@@ -14,8 +15,6 @@
 namespace elamin {
 
 namespace {
-
-double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 }  // namespace
 

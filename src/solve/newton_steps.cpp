@@ -1,3 +1,4 @@
+#include "core/dense.hpp"
 #include "solve/newton.hpp"
 
 #include "core/interrupt.hpp"
@@ -9,8 +10,6 @@
 namespace elamin {
 
 namespace {
-
-double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 // Whether a force acts along a negative mode that is no stiffer by far than the lowest: Newton's step leaves the saddle along it.
 bool pushed(const EigenPairs& lowest, const Vector& g) {

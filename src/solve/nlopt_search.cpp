@@ -1,7 +1,9 @@
 #include "solve/nlopt_search.hpp"
 
+#include "core/dense.hpp"
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 
 #include <fmt/format.h>
 
@@ -16,9 +18,6 @@ namespace {
 constexpr std::size_t most_entries = 4000;    // of the history
 constexpr double seen = 1e5;                  // times its rounding a change of energy is worth looking at
 constexpr int most_idle = 3;                  // rounds in a row without gain
-constexpr double lost = 100;                  // extents of the structure: what is that far away comes back no more
-
-double infinity_norm(const Vector& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 struct Destroy {
   void operator()(nlopt_opt o) const { nlopt_destroy(o); }
@@ -169,7 +168,7 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
   whole_space_ = false, most_evaluations_ = options_.max_evaluations;
   most_looks_ = derivatives ? (options_.precondition ? 100 : 2000) : 200 + 100 * n;
   patience_ = !derivatives ? 20 + 20 * n : options_.precondition ? 30 : 500;
-  const double far = lost * reach_;
+  const double far = limits::lost * reach_;
   for (int idle = 0, rounds = 0;; ++rounds) {
     energy_.evaluate(best_);
     ++report_.evaluations;

@@ -49,19 +49,19 @@ Model swarm(RoundedDamping damping = {}) {
   return m;
 }
 
-double balance(Energy& energy, const Verlet& verlet) {
+double balance_of_bodies(Energy& energy, const Verlet& verlet) {
   const Motion& m = verlet.motion();
   return verlet.kinetic() + energy.value(m.state) + m.dissipation - m.work;
 }
 
-double imbalance(const Model& m, double dt, double time) {
+double imbalance_of_bodies(const Model& m, double dt, double time) {
   Energy energy(m);
   Verlet verlet(m, begin_motion(m), dt);
-  const double before = balance(energy, verlet);
+  const double before = balance_of_bodies(energy, verlet);
   double worst = 0;
   for (int k = 0; k < 20; ++k) {
     verlet.advance(std::lround(time / dt / 20));
-    worst = std::max(worst, std::abs(balance(energy, verlet) - before));
+    worst = std::max(worst, std::abs(balance_of_bodies(energy, verlet) - before));
   }
   CHECK(verlet.finite());
   return worst;
@@ -143,12 +143,12 @@ TEST_CASE("bodies move as LAMMPS moves them", "[dynamics][bodies][lammps]") {
 TEST_CASE("bodies, glued particles and contacts keep energy to second order, momentum and angular momentum", "[dynamics][bodies]") {
   Model apart = swarm();
   apart.rounded.clear();
-  const double smooth = imbalance(apart, 2e-3, 1.6) / imbalance(apart, 1e-3, 1.6);
+  const double smooth = imbalance_of_bodies(apart, 2e-3, 1.6) / imbalance_of_bodies(apart, 1e-3, 1.6);
   CHECK(smooth > 3.7);
   CHECK(smooth < 4.3);
   // Where contacts begin and end U″ jumps: three halvings together.
   const Model m = swarm();
-  const double coarse = imbalance(m, 1e-3, 1.6), fine = imbalance(m, 1.25e-4, 1.6);
+  const double coarse = imbalance_of_bodies(m, 1e-3, 1.6), fine = imbalance_of_bodies(m, 1.25e-4, 1.6);
   CHECK(coarse < 2e-3);
   CHECK(fine > 1e-9);
   CHECK(coarse / fine > 0.7 * 64);
@@ -182,7 +182,7 @@ TEST_CASE("what damping and friction of bodies take is counted", "[dynamics][bod
   Load l;
   l.bodies = {1}, l.force = Vec3(0.2, 0.1, 0), l.point = Vec3(0.1, 0.2, 0.1), l.torque = Vec3(0.1, 0.05, -0.1), l.scaling = Scaling::constant();
   m.loads.push_back(l);
-  const double coarse = imbalance(m, 1e-3, 1.6), fine = imbalance(m, 5e-4, 1.6);
+  const double coarse = imbalance_of_bodies(m, 1e-3, 1.6), fine = imbalance_of_bodies(m, 5e-4, 1.6);
   Verlet verlet(m, begin_motion(m), 1e-3);
   verlet.advance(1600);
   CHECK(verlet.motion().dissipation > 0.05);
@@ -222,11 +222,11 @@ TEST_CASE("a support that drives a body does work", "[dynamics][bodies]") {
   Support drive;
   drive.bodies = {1}, drive.velocity = Vec3(-0.3, 0.05, 0.1), drive.turns_held = {true, true, true};
   m.supports.push_back(drive);
-  CHECK(imbalance(m, 1e-3, 1.6) > 0.7 * 64 * imbalance(m, 1.25e-4, 1.6));
+  CHECK(imbalance_of_bodies(m, 1e-3, 1.6) > 0.7 * 64 * imbalance_of_bodies(m, 1.25e-4, 1.6));
   Verlet verlet(m, begin_motion(m), 1e-3);
   verlet.advance(1600);
   const Motion& now = verlet.motion();
-  CHECK(std::abs(now.work) > 100 * imbalance(m, 1.25e-4, 1.6));
+  CHECK(std::abs(now.work) > 100 * imbalance_of_bodies(m, 1.25e-4, 1.6));
   CHECK((now.state.bodies[1].position.hi - m.start.bodies[1].position.hi - 1.6 * drive.velocity).norm() <= 1e-12);
   CHECK(now.state.bodies[1].rotation.coeffs() == m.start.bodies[1].rotation.coeffs());
   CHECK(now.angular_momentum.col(1).isZero(0));

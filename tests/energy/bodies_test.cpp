@@ -67,7 +67,7 @@ State jolted(const Energy& energy, double load_factor, double size) {
   return state;
 }
 
-const double h = std::pow(epsilon, 0.2), accuracy = 200 * std::pow(epsilon, 0.8);
+const double accuracy_of_bodies = 200 * std::pow(epsilon, 0.8);
 
 Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 
@@ -93,12 +93,12 @@ TEST_CASE("with bodies the assembled energy agrees with its differences", "[ener
   };
   Eigen::MatrixXd D(energy.dofs(), energy.dofs());
   for (int k = 0; k < energy.dofs(); ++k) {
-    const double slope = difference([&](double s) { return energy.value(along(k, s)); }, h);
-    CHECK(std::abs(slope - g[k]) <= accuracy * H.norm());
-    D.col(k) = difference([&](double s) -> Vector { energy.evaluate(along(k, s), false); return energy.gradient(); }, h);
+    const double slope = difference([&](double s) { return energy.value(along(k, s)); }, difference_step);
+    CHECK(std::abs(slope - g[k]) <= accuracy_of_bodies * H.norm());
+    D.col(k) = difference([&](double s) -> Vector { energy.evaluate(along(k, s), false); return energy.gradient(); }, difference_step);
   }
   // Turns about a turned body: ∂g differs from the Hessian by the antisymmetric [g]×/2.
-  CHECK(((D + D.transpose()) / 2 - H).cwiseAbs().maxCoeff() <= accuracy * H.norm());
+  CHECK(((D + D.transpose()) / 2 - H).cwiseAbs().maxCoeff() <= accuracy_of_bodies * H.norm());
   energy.evaluate(state);
   Vector v(energy.dofs());
   for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = std::cos(2.3 * static_cast<double>(k));
@@ -123,7 +123,7 @@ TEST_CASE("with bodies ∂g/∂λ agrees with differences in the load factor", "
   energy.evaluate(state);
   const Vector exact = energy.load_derivative();
   const double scale = whole(energy.hessian()).norm();
-  CHECK((exact - load_difference(energy, state, h)).cwiseAbs().maxCoeff() <= accuracy * scale);
+  CHECK((exact - load_difference(energy, state, difference_step)).cwiseAbs().maxCoeff() <= accuracy_of_bodies * scale);
   CHECK(exact.norm() > 0.1);
 }
 
@@ -153,9 +153,9 @@ TEST_CASE("coordinates about another state have derivatives of their own", "[ene
   CHECK((energy.kinematics().difference(origin, at(y)) - y).norm() <= 1e-14 * y.norm());
   for (int k = 0; k < energy.dofs(); ++k) {
     const Vector e = Vector::Unit(energy.dofs(), k);
-    CHECK(std::abs(difference([&](double s) { return energy.value(at(y + s * e)); }, h) - g[k]) <= accuracy * H.norm());
-    const Vector column = difference([&](double s) -> Vector { return gradient(y + s * e); }, h);
-    CHECK((column - H.col(k)).cwiseAbs().maxCoeff() <= accuracy * H.norm());
+    CHECK(std::abs(difference([&](double s) { return energy.value(at(y + s * e)); }, difference_step) - g[k]) <= accuracy_of_bodies * H.norm());
+    const Vector column = difference([&](double s) -> Vector { return gradient(y + s * e); }, difference_step);
+    CHECK((column - H.col(k)).cwiseAbs().maxCoeff() <= accuracy_of_bodies * H.norm());
   }
 }
 
@@ -167,10 +167,10 @@ TEST_CASE("the torque of a load follows a turn by more than half a circle", "[en
     const auto at = [&](int k, double s) { return turn(s * Vec3::Unit(k)) * q; };
     Mat3 D;
     for (int k = 0; k < 3; ++k) {
-      CHECK(std::abs(difference([&](double s) { return torque.value(at(k, s)); }, h) - u.gradient[k]) <= accuracy);
-      D.col(k) = difference([&](double s) -> Vec3 { return torque.derivatives(at(k, s)).gradient; }, h);
+      CHECK(std::abs(difference([&](double s) { return torque.value(at(k, s)); }, difference_step) - u.gradient[k]) <= accuracy_of_bodies);
+      D.col(k) = difference([&](double s) -> Vec3 { return torque.derivatives(at(k, s)).gradient; }, difference_step);
     }
-    CHECK(((D + D.transpose()) / 2 - u.hessian).norm() <= (angle > 4 ? 100 : 1) * accuracy);
+    CHECK(((D + D.transpose()) / 2 - u.hessian).norm() <= (angle > 4 ? 100 : 1) * accuracy_of_bodies);
   }
 }
 

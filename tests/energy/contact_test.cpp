@@ -20,12 +20,6 @@ Field scattered(int n, double size, unsigned seed) {
   return x;
 }
 
-std::vector<int> numbers(int n) {
-  std::vector<int> v(n);
-  std::iota(v.begin(), v.end(), 0);
-  return v;
-}
-
 PairContact hertz(std::vector<int> a, std::vector<int> b, double modulus, std::optional<int> exclude = {}) {
   PairContact c;
   c.particles = {std::move(a), std::move(b)}, c.effective_modulus = modulus, c.exclude_bonds = exclude;

@@ -15,4 +15,17 @@ inline Vector load_difference(Energy& energy, const State& state, double h) {
   }, h);
 }
 
+/// A step of fourth-order differences and what they leave.
+const double difference_step = std::pow(epsilon, 0.2), difference_error = 100 * std::pow(epsilon, 0.8);
+
+/// The start at this load factor with every free dof moved, by up to `size` [length].
+inline State bent(const Energy& energy, double load_factor, double size = 0.1) {
+  State state = energy.model().start;
+  energy.kinematics().prescribe(state, load_factor);
+  Vector step(energy.dofs());
+  for (Eigen::Index k = 0; k < step.size(); ++k) step[k] = size * std::sin(1.7 * static_cast<double>(k));
+  energy.kinematics().retract(state, step);
+  return state;
+}
+
 }  // namespace elamin

@@ -1,7 +1,7 @@
 // ∂g/∂λ of everything that the load factor scales, each kind alone and beside parts that stay.
 #include "catch.hpp"
 #include "chain.hpp"
-#include "energy/energy.hpp"
+#include "energy/load_difference.hpp"
 #include "laws/check_law.hpp"
 #include "model/loop.hpp"
 
@@ -9,23 +9,12 @@ using namespace elamin;
 
 namespace {
 
-const double h = std::pow(epsilon, 0.2), accuracy = 100 * std::pow(epsilon, 0.8);
-
 // A closed ring of twelve particles, one of them held.
 Model ring() {
   Model m;
   add_loops(m, {{"ring", 12, Vec3(0.3, -0.2, 0.1), Vec3(0, 0, 1), 2.0, 1.1, 1, 1, {40, chord(2.0, 12)}, {0.7, pi}}});
   hold(m, 0, 0);
   return m;
-}
-
-State bent(const Energy& energy, double load_factor, double size = 0.1) {
-  State state = energy.model().start;
-  energy.kinematics().prescribe(state, load_factor);
-  Vector step(energy.dofs());
-  for (Eigen::Index k = 0; k < step.size(); ++k) step[k] = size * std::sin(1.7 * static_cast<double>(k));
-  energy.kinematics().retract(state, step);
-  return state;
 }
 
 State at_load(const Energy& energy, const State& state, double load_factor) {
@@ -52,16 +41,16 @@ void check_derivatives(const Model& model, double size = 0.1) {
     energy.kinematics().retract(moved, v, s);
     return moved;
   };
-  const double slope = difference([&](double s) { return energy.value(along(s)); }, h);
-  CHECK(std::abs(slope - g.dot(v)) <= accuracy * scale * v.norm());
-  const Vector turn = difference([&](double s) -> Vector { energy.evaluate(along(s), false); return energy.gradient(); }, h);
-  CHECK((turn - H * v).norm() <= accuracy * scale * v.norm());
+  const double slope = difference([&](double s) { return energy.value(along(s)); }, difference_step);
+  CHECK(std::abs(slope - g.dot(v)) <= difference_error * scale * v.norm());
+  const Vector turn = difference([&](double s) -> Vector { energy.evaluate(along(s), false); return energy.gradient(); }, difference_step);
+  CHECK((turn - H * v).norm() <= difference_error * scale * v.norm());
   const Vector differences = difference([&](double s) -> Vector {
     energy.evaluate(at_load(energy, state, load_factor + s), false);
     return energy.gradient();
-  }, h);
+  }, difference_step);
   CHECK(exact.norm() > 1e-4 * scale);
-  CHECK((exact - differences).norm() <= accuracy * (scale + exact.norm()));
+  CHECK((exact - differences).norm() <= difference_error * (scale + exact.norm()));
 }
 
 const Scaling partly{0.4, -0.6};                              // s(λ) = 0.4 − 0.6 λ

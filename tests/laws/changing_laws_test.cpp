@@ -19,12 +19,6 @@ bool rate_agrees(const At& at, const L& rate, const Points<L::sites>& x, double 
   return exact.norm() > 0 && (exact - differences).norm() <= 100 * std::pow(epsilon, 0.8) * scale;
 }
 
-double shortest_edge(const auto& x) {
-  double shortest = 1e300;
-  for (int i = 0; i + 1 < x.position.cols(); ++i) shortest = std::min(shortest, x.edge(i, i + 1).hi.norm());
-  return shortest;
-}
-
 }  // namespace
 
 TEST_CASE("gradients change with the laws' parameters as differences say", "[laws]") {

@@ -20,6 +20,13 @@ Points<n> moved(const Points<n>& x, int k, double h) {
   return y;
 }
 
+/// The shortest distance of neighbouring points.
+double shortest_edge(const auto& x) {
+  double shortest = 1e300;
+  for (int i = 0; i + 1 < x.position.cols(); ++i) shortest = std::min(shortest, x.edge(i, i + 1).hi.norm());
+  return shortest;
+}
+
 /// Fourth-order central difference (8(f(h) − f(−h)) − (f(2h) − f(−2h)))/12h.
 template <class F>
 auto difference(const F& f, double h) {

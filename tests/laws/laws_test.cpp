@@ -8,12 +8,6 @@ using namespace elamin;
 
 namespace {
 
-double shortest_edge(const auto& x) {
-  double shortest = 1e300;
-  for (int i = 0; i + 1 < x.position.cols(); ++i) shortest = std::min(shortest, x.edge(i, i + 1).hi.norm());
-  return shortest;
-}
-
 // Harmonic bond whose Hessian forgets the transverse part: check_law must see it.
 struct WrongHessian {
   static constexpr int sites = 2;

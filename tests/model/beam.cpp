@@ -1,14 +1,14 @@
 #include "catch.hpp"
 
 #include "model/beam.hpp"
+#include "model/geometry.hpp"
 
 using namespace elamin;
 
 namespace {
 
-ExactVector exact(const Vec3& v) { return {v, Vec3::Zero()}; }
 
-double size(const ExactVector& v) { return (v.hi + v.lo).norm(); }
+double length_of(const ExactVector& v) { return (v.hi + v.lo).norm(); }
 
 /// a × b in Exact.
 ExactVector cross(const ExactVector& a, const ExactVector& b) {
@@ -41,8 +41,8 @@ TEST_CASE("An oblique beam is uniform and straight to 1e-30") {
   const ExactVector whole = exact(to) - exact(from);
   double bent = 0, uneven = 0, rounding = 0;
   for (int i = 1; i + 1 < n; ++i) {
-    bent = std::max(bent, size(cross(m.start.at(i) - m.start.at(0), whole)) / (scale * scale));
-    uneven = std::max(uneven, size((m.start.at(i + 1) - m.start.at(i)) - (m.start.at(i) - m.start.at(i - 1))) / scale);
+    bent = std::max(bent, length_of(cross(m.start.at(i) - m.start.at(0), whole)) / (scale * scale));
+    uneven = std::max(uneven, length_of((m.start.at(i + 1) - m.start.at(i)) - (m.start.at(i) - m.start.at(i - 1))) / scale);
     rounding = std::max(rounding, m.start.tail.col(i).norm() / scale);
   }
   CHECK(bent < 1e-30);

@@ -7,7 +7,7 @@ using namespace elamin;
 namespace {
 
 double off(Exact a, Exact b) { return std::abs((a - b).value()); }
-Exact length_of(const CosineSine& c) { return c.cosine * c.cosine + c.sine * c.sine; }
+Exact norm_of(const CosineSine& c) { return c.cosine * c.cosine + c.sine * c.sine; }
 
 }  // namespace
 
@@ -20,7 +20,7 @@ TEST_CASE("Cosines and sines are good to 1e-31", "[model]") {
   for (int k = 0; k <= n; ++k) {
     const CosineSine direct = cosine_sine(exact(k) / exact(n));
     worst = std::max(
-        {worst, off(power.cosine, direct.cosine), off(power.sine, direct.sine), off(length_of(direct), exact(1))});
+        {worst, off(power.cosine, direct.cosine), off(power.sine, direct.sine), off(norm_of(direct), exact(1))});
     power = {power.cosine * step.cosine - power.sine * step.sine, power.cosine * step.sine + power.sine * step.cosine};
   }
   CHECK(worst < 1e-31 * (n + 10));

@@ -1,8 +1,6 @@
 #include "catch.hpp"
 
-#include "problem/build.hpp"
-#include "problem/read.hpp"
-#include "scratch_directory.hpp"
+#include "problem/model_of.hpp"
 
 #include <numeric>
 
@@ -10,18 +8,12 @@ using namespace elamin;
 
 namespace {
 
-const std::string good = ELAMIN_ROOT "/tests/problem/good/";
 
 std::string column(int particles) {
   return "[[beam]]\nname = \"column\"\nparticles = " + std::to_string(particles) + "\nfrom = [0, 0, 0]\nto = [0, 0, " +
          std::to_string(particles - 1) +
          "]\ndiameter = 1\nyoungs_modulus = 3\ndensity = 7\n"
          "[[support]]\ngroup = \"column\"\n";
-}
-
-Model model_of(const std::string& text) {
-  const ScratchDirectory scratch;
-  return build_model(read_problem(scratch.file("p.toml", text)));
 }
 
 /// Ids of the particles of a group, from 1.
@@ -33,7 +25,7 @@ std::vector<int> group(const Model& m, const std::string& name) {
   return ids;
 }
 
-std::vector<int> range(int first, int last) {
+std::vector<int> ids_of(int first, int last) {
   std::vector<int> ids(last - first + 1);
   std::iota(ids.begin(), ids.end(), first);
   return ids;
@@ -126,11 +118,11 @@ inside = {shape = "block", lo = [-1, -1, 1], hi = [1, 1, 1e9]}
   CHECK(m.groups[1].name == "column");
   CHECK(m.groups[2].name == "everything");
   CHECK(m.groups.size() == 11);
-  CHECK(group(m, "all") == range(1, 10));
-  CHECK(group(m, "everything") == range(1, 10));
+  CHECK(group(m, "all") == ids_of(1, 10));
+  CHECK(group(m, "everything") == ids_of(1, 10));
   CHECK(group(m, "first") == Ids{1, 2, 3});
   CHECK(group(m, "last") == Ids{9, 10});
-  CHECK(group(m, "all_of_it") == range(1, 10));
+  CHECK(group(m, "all_of_it") == ids_of(1, 10));
   CHECK(group(m, "inner") == Ids{2, 4, 5, 9});
   CHECK(group(m, "inner_last") == Ids{5, 9});
   CHECK(group(m, "one_id") == Ids{4});
@@ -147,7 +139,7 @@ TEST_CASE("The middle of a chain") {
   CHECK(middle(6, 2) == Ids{3, 4});
   CHECK(middle(6, 1) == Ids{3});
   CHECK(middle(5, 2) == Ids{2, 3});
-  CHECK(middle(5, 5) == range(1, 5));
+  CHECK(middle(5, 5) == ids_of(1, 5));
 }
 
 TEST_CASE("Supports, loads, weight and drag") {
@@ -160,7 +152,7 @@ TEST_CASE("Supports, loads, weight and drag") {
   CHECK(m.supports[0].scaling == Scaling::constant());
   CHECK(m.supports[1].held == std::array{true, true, true});
   CHECK(m.supports[2].held == std::array{true, false, true});
-  CHECK(m.supports[2].particles == range(15, 18));
+  CHECK(m.supports[2].particles == ids_of(15, 18));
   REQUIRE(m.loads.size() == 2);
   CHECK(m.loads[0].force == Vec3(1e-9, 0, 3));
   CHECK(m.loads[0].scaling == Scaling::constant());
@@ -169,7 +161,7 @@ TEST_CASE("Supports, loads, weight and drag") {
   REQUIRE(m.gravity.size() == 1);
   CHECK(m.gravity[0].acceleration == Vec3(0.3, 0, -9.81));
   CHECK(m.gravity[0].scaling == Scaling());
-  CHECK(m.gravity[0].particles == range(0, 10));
+  CHECK(m.gravity[0].particles == ids_of(0, 10));
   REQUIRE(m.viscosity.size() == 1);
   CHECK(m.viscosity[0].coefficient == 0.1);
 }

@@ -13,11 +13,12 @@ using namespace elamin;
 
 namespace {
 
-const std::string reference = std::string(ELAMIN_ROOT) + "/data/lammps/";
+const std::string reference_files = std::string(ELAMIN_ROOT) + "/data/lammps/";
+
 /// Every case that is there.
 std::vector<std::string> cases() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(reference))
+  for (const auto& entry : std::filesystem::directory_iterator(reference_files))
     if (std::filesystem::exists(entry.path() / "case.data")) names.push_back(entry.path().filename().string());
   return names;
 }
@@ -35,8 +36,8 @@ TEST_CASE("the reference files are read as their parameters say", "[lammps_data]
   CHECK(all.size() >= 11);
   for (const std::string& name : all) {
     INFO(name);
-    const LammpsData data = read_lammps_data(reference + name + "/case.data");
-    const auto parameters = nlohmann::json::parse(text_of(reference + name + "/case.json"));
+    const LammpsData data = read_lammps_data(reference_files + name + "/case.data");
+    const auto parameters = nlohmann::json::parse(text_of(reference_files + name + "/case.json"));
     REQUIRE(data.id.size() == parameters["natoms"].get<std::size_t>());
     for (std::size_t i = 0; i < data.id.size(); ++i) REQUIRE(data.id[i] == static_cast<int>(i) + 1);
     const std::size_t bond_types = parameters.contains("bond") ? parameters["bond"]["types"].size() : 0;
@@ -55,10 +56,10 @@ TEST_CASE("the reference files are read as their parameters say", "[lammps_data]
 
 TEST_CASE("bonds and angles of the reference files give their energies", "[lammps_data]") {
   for (const std::string& name : cases()) {
-    const auto expected = nlohmann::json::parse(text_of(reference + name + "/expected.json"));
+    const auto expected = nlohmann::json::parse(text_of(reference_files + name + "/expected.json"));
     if (!expected.contains("energy_lammps")) continue;      // equilibria are of another state
     INFO(name);
-    const LammpsData data = read_lammps_data(reference + name + "/case.data");
+    const LammpsData data = read_lammps_data(reference_files + name + "/case.data");
     double bond = 0, angle = 0;
     for (const Bond& b : data.bonds) {
       const BondType t = data.bond_types[b.type];

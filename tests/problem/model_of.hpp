@@ -7,9 +7,18 @@
 
 namespace elamin {
 
+/// The folder of problem files that are right.
+inline const std::string good = ELAMIN_ROOT "/tests/problem/good/";
+
 inline Model model_of(const std::string& text) {
   const ScratchDirectory scratch;
   return build_model(read_problem(scratch.file("p.toml", text)));
+}
+
+inline const Structure& structure(const Model& m, const std::string& name) {
+  for (const Structure& s : m.structures)
+    if (s.name == name) return s;
+  throw std::runtime_error("no structure " + name);
 }
 
 /// What `attempt` throws as InputError, a sentence a line without the names of files; "" if it does not.

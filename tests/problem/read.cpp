@@ -2,7 +2,7 @@
 
 #include "problem/document.hpp"
 #include "problem/keys.hpp"
-#include "problem/read.hpp"
+#include "problem/model_of.hpp"
 #include "problem/resolved.hpp"
 #include "problem/text.hpp"
 #include "scratch_directory.hpp"
@@ -14,7 +14,6 @@ using namespace elamin;
 
 namespace {
 
-const std::string good = ELAMIN_ROOT "/tests/problem/good/";
 
 const char* minimal = R"(
 [[beam]]

@@ -7,13 +7,6 @@ using namespace elamin;
 
 namespace {
 
-const std::string good = ELAMIN_ROOT "/tests/problem/good/";
-
-const Structure& structure(const Model& m, const std::string& name) {
-  for (const Structure& s : m.structures)
-    if (s.name == name) return s;
-  throw std::runtime_error("no structure " + name);
-}
 
 }  // namespace
 

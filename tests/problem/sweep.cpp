@@ -8,7 +8,7 @@ using namespace elamin;
 
 namespace {
 
-const char* column = R"(
+const char* swept = R"(
 [[beam]]
 name = "column"
 particles = 5
@@ -24,7 +24,7 @@ group = "column"
 std::vector<std::string> runs_of(const std::string& sweeps, const std::vector<Setting>& settings = {}) {
   const ScratchDirectory scratch;
   std::vector<std::string> texts;
-  for (const auto& run : read_sweep(scratch.file("p.toml", column + sweeps), settings)) {
+  for (const auto& run : read_sweep(scratch.file("p.toml", swept + sweeps), settings)) {
     texts.emplace_back();
     for (const Setting& s : run) texts.back() += (texts.back().empty() ? "" : ", ") + s.key + " = " + s.value;
   }
@@ -80,7 +80,7 @@ TEST_CASE("Settings change the sweep, but not a key that is swept") {
 TEST_CASE("Every run is prepared with its own settings") {
   const ScratchDirectory scratch;
   const auto runs = prepare_runs(
-      scratch.file("p.toml", std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [4, 6, 1]"),
+      scratch.file("p.toml", std::string(swept) + "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [4, 6, 1]"),
       {{"title", "swept"}}).runs;
   REQUIRE(runs.size() == 3);
   for (int i = 0; i < 3; ++i) {
@@ -103,18 +103,18 @@ TEST_CASE("A mistake of all runs is told once, and one of some names the first")
   };
   const std::string file = scratch / "p.toml",
                     sweep = "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [2, 36, 1]\n";
-  CHECK(said(column + sweep + "[[gravity]]\nacceleration = [0, 0, 1]") ==
+  CHECK(said(swept + sweep + "[[gravity]]\nacceleration = [0, 0, 1]") ==
         file + ":2:1: beam.column.density: is missing; it must be a positive number, gravity.1 of line 14 needs it");
-  CHECK(said(column + sweep + "[[group]]\nname = \"g\"\nmiddle = 5") ==
+  CHECK(said(swept + sweep + "[[group]]\nname = \"g\"\nmiddle = 5") ==
         file +
             ":16:10: group.g.middle: must be at most 2, the particles of \"all\", is 5 (in the run with "
             "beam.column.particles = 2; in 3 runs)");
-  CHECK(said(column + sweep + "[[group]]\nname = \"g\"\nmiddle = 3") ==
+  CHECK(said(swept + sweep + "[[group]]\nname = \"g\"\nmiddle = 3") ==
         file +
             ":16:10: group.g.middle: must be at most 2, the particles of \"all\", is 3 (in the run with "
             "beam.column.particles = 2)");
   CHECK(
-      said(std::string(column) + "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [3, \"x\"]") ==
+      said(std::string(swept) + "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [3, \"x\"]") ==
       file +
           ":13:10: beam.column.particles: must be an integer from 2 to 100000000, is the string \"x\" (in the run with "
           "beam.column.particles = \"x\")");
@@ -126,7 +126,7 @@ TEST_CASE("A sweep may halve, or set several keys") {
   CHECK(runs_of(path + "values = [1, 2]") == Texts{"path.to = 1, path.steps = 1", "path.to = 2, path.steps = 2"});
   const std::string halves = path + "bisect = \"energy\"\nlevel = 0.5\nbetween = ";
   const auto bisection = [&](const std::string& more) {
-    return *prepare_runs(scratch.file("p.toml", std::string(column) + halves + more)).bisection;
+    return *prepare_runs(scratch.file("p.toml", std::string(swept) + halves + more)).bisection;
   };
   const Bisection whole = bisection("[3, 20]");
   CHECK(whole.keys == Texts{"path.to", "path.steps"});
@@ -142,13 +142,13 @@ TEST_CASE("A sweep may halve, or set several keys") {
     if (b.narrow()) { CHECK(b.hi - b.lo == 1); break; }
   CHECK_THROWS_AS(bisection("[3, 20.5]"), InputError);           // path.steps is a whole number
 
-  const std::string reals = std::string(column) + "[path]\n[[sweep]]\nkey = \"path.to\"\nbisect = \"energy\"\nbetween = [2.0, 1]\n";
+  const std::string reals = std::string(swept) + "[path]\n[[sweep]]\nkey = \"path.to\"\nbisect = \"energy\"\nbetween = [2.0, 1]\n";
   const PreparedRuns down = prepare_runs(scratch.file("q.toml", reals));
   CHECK(down.runs.size() == 2);
   CHECK(down.runs[0].problem.path.to == 2);
   CHECK(down.bisection->middle() == 1.5);
   CHECK_FALSE(down.bisection->integers);
-  CHECK_FALSE(prepare_runs(scratch.file("r.toml", column)).bisection);
+  CHECK_FALSE(prepare_runs(scratch.file("r.toml", swept)).bisection);
   // A tolerance below the spacing of doubles still comes to an end.
   Bisection fine = *down.bisection;
   fine.tolerance = 1e-300;

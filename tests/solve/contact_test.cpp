@@ -10,12 +10,6 @@ using namespace elamin;
 
 namespace {
 
-std::vector<int> numbers(int n) {
-  std::vector<int> v(n);
-  std::iota(v.begin(), v.end(), 0);
-  return v;
-}
-
 void meet(Model& m, double modulus) {
   PairContact c;
   c.particles = {numbers(m.particles()), numbers(m.particles())}, c.effective_modulus = modulus;
@@ -27,8 +21,6 @@ void floor(Model& m, double modulus, const Vec3& normal = Vec3::UnitZ()) {
   w.particles = numbers(m.particles()), w.region.normal = normal.normalized(), w.effective_modulus = modulus;
   m.walls.push_back(w);
 }
-
-void weigh(Model& m, double g) { m.gravity.push_back({"", numbers(m.particles()), Vec3(0, 0, -g), Scaling::constant()}); }
 
 // The last iterations of a run square the residual, until rounding.
 void check_quadratic(const Report& report) {

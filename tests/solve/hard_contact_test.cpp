@@ -10,11 +10,9 @@ using namespace elamin;
 
 namespace {
 
-constexpr double K = pi / 8, B = pi / 64;              // a round section of unit modulus and diameter 1, on spacing 1
-
 // A cantilever of n particles whose end is pressed towards a plane one diameter below.
 Model pressed(int n, double load) {
-  Model m = chain(n, K, B, 1, Vec3::UnitX());
+  Model m = chain(n, round_bond, round_angle, 1, Vec3::UnitX());
   m.plane_normal = 1;
   hold(m, 0, 1);
   m.loads.push_back({"", {n - 1}, Vec3(0, 0, -load), Scaling::constant()});
@@ -161,14 +159,14 @@ TEST_CASE("hard grains settle in a hard box", "[solve][hard]") {
 
 TEST_CASE("a beam pressed on a hard plane is a beam whose end is held", "[solve][hard]") {
   for (const int n : {20, 78}) {
-    const double load = 40 * B / (n * n);
+    const double load = 40 * round_angle / (n * n);
     const Model m = pressed(n, load);
     Energy energy(m);
     State state = m.start;
     rest(energy, state);
     REQUIRE(state.hard.size() == 1);
     CHECK(state.hard[0].particle == n - 1);
-    Model held = chain(n, K, B, 1, Vec3::UnitX());
+    Model held = chain(n, round_bond, round_angle, 1, Vec3::UnitX());
     held.plane_normal = 1;
     hold(held, 0, 1), hold(held, n - 1, n - 1, {false, false, true}, Vec3(0, 0, -1));
     Energy without(held);
@@ -183,13 +181,13 @@ TEST_CASE("a beam pressed on a hard plane is a beam whose end is held", "[solve]
 
 TEST_CASE("a heavy beam lies flat on a hard plane", "[solve][hard]") {
   const int n = 40;
-  Model m = chain(n, K, B, 1, Vec3::UnitX());
+  Model m = chain(n, round_bond, round_angle, 1, Vec3::UnitX());
   m.plane_normal = 1;
-  hold(m, 0, 1), hard_plane(m, Vec3(0, 0, -1.5)), weigh(m, 400 * B / (n * n * n));
+  hold(m, 0, 1), hard_plane(m, Vec3(0, 0, -1.5)), weigh(m, 400 * round_angle / (n * n * n));
   Energy energy(m);
   State state = m.start;
   rest(energy, state);
-  const double weight = m.mass(0) * 400 * B / (n * n * n);
+  const double weight = m.mass(0) * 400 * round_angle / (n * n * n);
   REQUIRE(state.hard.size() > 20);
   // Where it lies every particle carries itself; the first two contacts carry besides what hangs free and bends.
   for (std::size_t k = 3; k < state.hard.size(); ++k) CHECK(state.hard[k].force == Approx(weight).epsilon(1e-9));
@@ -201,7 +199,7 @@ TEST_CASE("a heavy beam lies flat on a hard plane", "[solve][hard]") {
 
 TEST_CASE("Hertz's contact hardens as E^(-2/3)", "[solve][hard]") {
   const int n = 20;
-  const Model hard = pressed(n, 40 * B / (n * n));
+  const Model hard = pressed(n, 40 * round_angle / (n * n));
   Energy limit(hard);
   State there = hard.start;
   rest(limit, there);

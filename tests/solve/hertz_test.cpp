@@ -34,7 +34,7 @@ Model spheres(const Field& places, const std::vector<double>& radii, double dens
   return m;
 }
 
-void meet(Model& m, double modulus) {
+void let_touch(Model& m, double modulus) {
   PairContact c;
   for (int i = 0; i < m.particles(); ++i) c.particles[0].push_back(i);
   c.particles[1] = c.particles[0], c.effective_modulus = modulus;
@@ -66,7 +66,7 @@ TEST_CASE("Two spheres pressed together", "[solve][contact][reference]") {
     Field x = Field::Zero(3, 2);
     x(0, 1) = 1.5 * (r1 + r2);
     Model m = spheres(x, {r1, r2}, 1);
-    meet(m, c["E_eff"]);
+    let_touch(m, c["E_eff"]);
     m.supports.push_back({"", {0}, {true, true, true}, Vec3::Zero(), Scaling()});
     m.supports.push_back({"", {1}, {false, true, true}, Vec3::Zero(), Scaling()});
     m.loads.push_back({"", {1}, Vec3(-F, 0, 0), Scaling()});
@@ -98,7 +98,7 @@ TEST_CASE("A stack of spheres on a wall", "[solve][contact][reference]") {
       Field x = Field::Zero(3, n);
       for (int i = 0; i < n; ++i) x(2, i) = (2 * i + 1) * 1.1 * r;  // above one another, nothing touches
       Model m = spheres(x, std::vector<double>(n, r), c["density"]);
-      meet(m, c["E_eff_pair"]), wall(m, Vec3::UnitZ(), modulus);
+      let_touch(m, c["E_eff_pair"]), wall(m, Vec3::UnitZ(), modulus);
       Support upright;
       for (int i = 0; i < n; ++i) upright.particles.push_back(i);
       upright.held = {true, true, false};
@@ -151,7 +151,7 @@ TEST_CASE("A sphere in the groove of two others", "[solve][contact][reference]")
     x(0, 0) = -apart / 2, x(0, 1) = apart / 2, x(0, 2) = 0.2 * r, x(1, 2) = 3 * r;
     Model m = spheres(x, {r, r, r}, c["density"]);
     m.plane_normal = 2;
-    meet(m, E / (2 * (1 - nu * nu)));
+    let_touch(m, E / (2 * (1 - nu * nu)));
     m.supports.push_back({"", {0, 1}, {true, true, true}, Vec3::Zero(), Scaling()});
     m.gravity.push_back({"", {2}, Vec3(0, -number(c, "g"), 0), Scaling::constant()});
     const Rested s = rest(m);

@@ -12,14 +12,6 @@ using namespace elamin;
 
 namespace {
 
-constexpr double K = pi / 8, B = pi / 64;              // a round section of unit modulus and diameter 1, on spacing 1
-
-std::vector<int> numbers(int n) {
-  std::vector<int> v(n);
-  std::iota(v.begin(), v.end(), 0);
-  return v;
-}
-
 void bow(Energy& energy, State& state, double by) {
   const double length = state.position.row(2).maxCoeff();
   Vector v = Vector::Zero(energy.dofs());
@@ -51,7 +43,7 @@ Report compare(const Model& model, Energy& energy, const State& start) {
 TEST_CASE("Ipopt finds a column straight and bowed", "[solve][ipopt]") {
   for (const double shortening : {0.02, 0.1, 0.4}) {            // it buckles at 0.08
     INFO("shortened by " << shortening);
-    Model model = chain(78, K, B, 1);
+    Model model = chain(78, round_bond, round_angle, 1);
     model.plane_normal = 1;
     hold(model, 0, 1), hold(model, 76, 77, {true, true, true}, Vec3(0, 0, -shortening));
     Energy energy(model);
@@ -66,7 +58,7 @@ TEST_CASE("Ipopt finds a column straight and bowed", "[solve][ipopt]") {
 }
 
 TEST_CASE("a saddle that Ipopt ends at is left", "[solve][ipopt]") {
-  Model model = chain(78, K, B, 1);
+  Model model = chain(78, round_bond, round_angle, 1);
   model.plane_normal = 1;
   hold(model, 0, 1), hold(model, 76, 77, {true, true, true}, Vec3(0, 0, -0.4));
   Energy energy(model);
@@ -86,11 +78,11 @@ TEST_CASE("a saddle that Ipopt ends at is left", "[solve][ipopt]") {
 
 TEST_CASE("slenderness costs Ipopt no iterations and no digits", "[solve][ipopt]") {
   for (const int n : {20, 200, 2000}) {
-    Model model = chain(n + 2, K, B, 1, Vec3::UnitX());
+    Model model = chain(n + 2, round_bond, round_angle, 1, Vec3::UnitX());
     model.plane_normal = 2;
     hold(model, 0, 1);
     const double L = n + 0.5;
-    model.loads.push_back({"", {n + 1}, Vec3(0, 2 * B / (L * L), 0), Scaling()});
+    model.loads.push_back({"", {n + 1}, Vec3(0, 2 * round_angle / (L * L), 0), Scaling()});
     Energy energy(model);
     State state = model.start;
     energy.kinematics().prescribe(state, 1);
@@ -106,9 +98,9 @@ TEST_CASE("slenderness costs Ipopt no iterations and no digits", "[solve][ipopt]
 TEST_CASE("Ipopt finds what Newton's method finds at any scale", "[solve][ipopt]") {
   for (const double length : {1e-3, 1.0, 1e3})
     for (const double modulus : {1.0, 1e11}) {
-      Model model = chain(20, K * modulus * length, B * modulus * length * length * length, length, Vec3::UnitX());
+      Model model = chain(20, round_bond * modulus * length, round_angle * modulus * length * length * length, length, Vec3::UnitX());
       hold(model, 0, 1);
-      model.loads.push_back({"", {19}, Vec3(0, 0.02, -0.01) * modulus * length * length * B, Scaling()});
+      model.loads.push_back({"", {19}, Vec3(0, 0.02, -0.01) * modulus * length * length * round_angle, Scaling()});
       Energy energy(model);
       State state = model.start;
       energy.kinematics().prescribe(state, 1);
@@ -133,7 +125,7 @@ TEST_CASE("Ipopt presses a ball into a sheet", "[solve][ipopt][contact]") {
 }
 
 TEST_CASE("Ipopt presses two beams on each other", "[solve][ipopt][contact]") {
-  Model m = chain(30, K, B, 1, Vec3::UnitX());
+  Model m = chain(30, round_bond, round_angle, 1, Vec3::UnitX());
   const Model other = m;
   m.start.position.conservativeResize(3, 60), m.start.tail.conservativeResize(3, 60);
   for (int i = 0; i < 30; ++i) m.start.set(30 + i, {other.start.position.col(i) + Vec3(0.3, 1.2, 0), Vec3::Zero()});
@@ -173,7 +165,7 @@ TEST_CASE("Ipopt and Newton's method rest grains in a box alike", "[solve][ipopt
 }
 
 TEST_CASE("Ipopt's ends are told", "[solve][ipopt]") {
-  Model model = chain(20, K, B, 1, Vec3::UnitX());
+  Model model = chain(20, round_bond, round_angle, 1, Vec3::UnitX());
   hold(model, 0, 1);
   model.loads.push_back({"", {19}, Vec3(0, 1e-3, 0), Scaling()});
   Energy energy(model);

@@ -11,12 +11,6 @@
 
 namespace elamin {
 
-inline std::vector<int> numbers(int n, int first = 0) {
-  std::vector<int> v(n);
-  std::iota(v.begin(), v.end(), first);
-  return v;
-}
-
 /// A clamped column of 78 particles of diameter 1 in the plane, as stiff as a rod of round section, shortened by so many times what buckles it,
 /// 4π² EI/(EA L) = π²/(4 L) for the free length L.
 inline Model clamped_column(double overload, int particles = 78) {

@@ -6,10 +6,6 @@ using namespace elamin;
 
 namespace {
 
-// The stiffnesses of a round section of unit modulus and diameter 1, on spacing 1.
-constexpr double pi_ = 3.14159265358979323846;
-constexpr double K = pi_ / 8, B = pi_ / 64;
-
 }  // namespace
 
 TEST_CASE("the pivoted inertia counts negative eigenvalues", "[solve]") {
@@ -45,7 +41,7 @@ TEST_CASE("Cholesky says whether a matrix is positive definite", "[solve]") {
 }
 
 TEST_CASE("the lowest eigenpairs, multiple ones too", "[solve]") {
-  Model model = chain(30, K, B, 1);
+  Model model = chain(30, round_bond, round_angle, 1);
   hold(model, 0, 1), hold(model, 28, 29);
   Energy energy(model);
   energy.evaluate(model.start);
@@ -64,9 +60,9 @@ TEST_CASE("the lowest eigenpairs, multiple ones too", "[solve]") {
 TEST_CASE("a minimum is found from far away, at any scale", "[solve]") {
   for (const double length : {1e-3, 1.0, 1e3})
     for (const double modulus : {1.0, 1e11}) {
-      Model model = chain(20, K * modulus * length, B * modulus * length * length * length, length, Vec3::UnitX());
+      Model model = chain(20, round_bond * modulus * length, round_angle * modulus * length * length * length, length, Vec3::UnitX());
       hold(model, 0, 1);
-      model.loads.push_back({"", {19}, Vec3(0, 0.02, -0.01) * modulus * length * length * B, Scaling()});
+      model.loads.push_back({"", {19}, Vec3(0, 0.02, -0.01) * modulus * length * length * round_angle, Scaling()});
       Energy energy(model);
       Newton newton(energy);
       State state = model.start;
@@ -83,11 +79,11 @@ TEST_CASE("slenderness costs no iterations and no digits", "[solve]") {
   // Cantilevers under PL²/EI = 2 at the tip: stretching N² times stiffer than bending.
   std::vector<int> iterations;
   for (const int n : {20, 200, 2000}) {
-    Model model = chain(n + 2, K, B, 1, Vec3::UnitX());
+    Model model = chain(n + 2, round_bond, round_angle, 1, Vec3::UnitX());
     model.plane_normal = 2;
     hold(model, 0, 1);
     const double L = n + 0.5;
-    model.loads.push_back({"", {n + 1}, Vec3(0, 2 * B / (L * L), 0), Scaling()});
+    model.loads.push_back({"", {n + 1}, Vec3(0, 2 * round_angle / (L * L), 0), Scaling()});
     Energy energy(model);
     Newton newton(energy);
     State state = model.start;
@@ -103,7 +99,7 @@ TEST_CASE("slenderness costs no iterations and no digits", "[solve]") {
 }
 
 TEST_CASE("a saddle is left, a stationary point is kept", "[solve]") {
-  Model model = chain(24, K, B, 1);
+  Model model = chain(24, round_bond, round_angle, 1);
   model.plane_normal = 1;
   hold(model, 0, 1), hold(model, 22, 23, {true, true, true}, Vec3(0, 0, -0.4));
   Energy energy(model);
@@ -124,7 +120,7 @@ TEST_CASE("a saddle is left, a stationary point is kept", "[solve]") {
 }
 
 TEST_CASE("what cannot converge says so", "[solve]") {
-  Model model = chain(20, K, B, 1, Vec3::UnitX());
+  Model model = chain(20, round_bond, round_angle, 1, Vec3::UnitX());
   hold(model, 0, 1);
   model.loads.push_back({"", {21 - 2}, Vec3(0, 1, 0), Scaling()});
   Energy energy(model);

@@ -13,7 +13,7 @@
 namespace {
 
 // A clamped column of 14 particles in plane, pushed through its critical shortening 0.187 d.
-const std::string column = column_and_ends + R"(
+const std::string pushed_column = column_and_ends + R"(
 [[group]]
 name = "mid"
 of = "column"
@@ -48,7 +48,7 @@ TEST_CASE("help, version and wrong commands", "[study]") {
 
 TEST_CASE("a run leaves what the contract says", "[study]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("column.toml", column);
+  const std::string file = scratch.file("column.toml", pushed_column);
   const Answer answer = elamin_says("'" + file + "'");
   INFO(answer.text);
   REQUIRE(answer.status == 0);
@@ -66,7 +66,7 @@ TEST_CASE("a run leaves what the contract says", "[study]") {
 
 TEST_CASE("same bits for one and two threads", "[study]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("column.toml", column);
+  const std::string file = scratch.file("column.toml", pushed_column);
   REQUIRE(elamin_says("'" + file + "' --threads 1 --quiet -o '" + (scratch / "one") + "'").status == 0);
   REQUIRE(elamin_says("'" + file + "' --threads 2 --quiet -o '" + (scratch / "two") + "'").status == 0);
   CHECK(text_of(scratch / "one/path.csv") == text_of(scratch / "two/path.csv"));
@@ -75,7 +75,7 @@ TEST_CASE("same bits for one and two threads", "[study]") {
 
 TEST_CASE("stop at the first loss of stability, and restart from it", "[study]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("column.toml", column);
+  const std::string file = scratch.file("column.toml", pushed_column);
   REQUIRE(elamin_says("'" + file + "' --set path.when_unstable=stop --quiet -o '" + (scratch / "stop") + "'").status == 0);
   const auto summary = nlohmann::json::parse(text_of(scratch / "stop/summary.json"));
   CHECK(summary["final"]["label"] == "branch:1");
@@ -96,8 +96,8 @@ TEST_CASE("stop at the first loss of stability, and restart from it", "[study]")
 TEST_CASE("verify meets, misses and says so", "[study]") {
   const ScratchDirectory scratch;
   const std::string expect = "[[expect]]\nobservable = \"lambda\"\nat = \"branch:1\"\nrtol = 1e-9\nsource = \"closed form\"\nvalue = ";
-  const std::string good = scratch.file("good.toml", column + expect + "0.46851988852531106\n");
-  const std::string bad = scratch.file("bad.toml", column + expect + "0.5\n");
+  const std::string good = scratch.file("good.toml", pushed_column + expect + "0.46851988852531106\n");
+  const std::string bad = scratch.file("bad.toml", pushed_column + expect + "0.5\n");
   CHECK(elamin_says("verify --quiet '" + good + "'").status == 0);
   const Answer missed = elamin_says("verify --quiet '" + bad + "'");
   CHECK(missed.status == 3);
@@ -107,7 +107,7 @@ TEST_CASE("verify meets, misses and says so", "[study]") {
 
 TEST_CASE("a sweep leaves one directory a run and one row a run", "[study]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("sweep.toml", column + "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [14, 16, 18, 20]\n");
+  const std::string file = scratch.file("sweep.toml", pushed_column + "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [14, 16, 18, 20]\n");
   const Answer answer = elamin_says("'" + file + "' -o '" + (scratch / "out") + "'");
   INFO(answer.text);
   REQUIRE(answer.status == 0);
@@ -122,7 +122,7 @@ TEST_CASE("a sweep leaves one directory a run and one row a run", "[study]") {
 
 TEST_CASE("check says what was understood", "[study]") {
   const ScratchDirectory scratch;
-  const Answer answer = elamin_says("check '" + scratch.file("column.toml", column) + "'");
+  const Answer answer = elamin_says("check '" + scratch.file("column.toml", pushed_column) + "'");
   CHECK(answer.status == 0);
   for (const char* words : {"14 particles, 13 bonds, 12 angles, 20 free dofs", "ends: clamped, clamped; 11 bonds can stretch; effective length 0.012", "no rigid motion is free"})
     CHECK(answer.text.find(words) != std::string::npos);
@@ -131,7 +131,7 @@ TEST_CASE("check says what was understood", "[study]") {
 
 TEST_CASE("what does not converge keeps what it has and exits with 2", "[study]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("column.toml", column);
+  const std::string file = scratch.file("column.toml", pushed_column);
   const Answer answer = elamin_says("'" + file + "' --set solver.max_iterations=1 --set path.steps=1 -o '" + (scratch / "out") + "' --quiet");
   INFO(answer.text);
   CHECK(answer.status == 2);
@@ -141,7 +141,7 @@ TEST_CASE("what does not converge keeps what it has and exits with 2", "[study]"
 
 TEST_CASE("an interrupted run keeps what it has and exits with 130", "[study]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("column.toml", column);
+  const std::string file = scratch.file("column.toml", pushed_column);
   const pid_t child = fork();
   if (child == 0) {
     std::freopen("/dev/null", "w", stdout);

@@ -7,6 +7,7 @@
 #include "reference.hpp"
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
+#include "study/spectrum.hpp"
 #include "study/eigenvalues.hpp"
 #include "study/results_of.hpp"
 
@@ -15,13 +16,6 @@
 using namespace elamin;
 
 namespace {
-
-// All eigenvalues at a state, by a dense solver.
-Vector spectrum(Energy& energy, const State& state) {
-  energy.evaluate(state);
-  const Eigen::MatrixXd lower = energy.hessian();
-  return symmetric_eigen(lower.selfadjointView<Eigen::Lower>()).values;
-}
 
 // At every point of a path those of the dense solver, to its rounding; gives how often the Morse index has changed.
 int compare(const Model& model, const Trace& t, int count) {

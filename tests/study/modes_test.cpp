@@ -4,6 +4,7 @@
 #include "problem/lammps_data.hpp"
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
+#include "study/spectrum.hpp"
 #include "study/modes.hpp"
 #include "study/program.hpp"
 
@@ -15,13 +16,6 @@
 using namespace elamin;
 
 namespace {
-
-/// All eigenvalues of the Hessian at a state, by a dense solver.
-Vector spectrum(Energy& energy, const State& state) {
-  energy.evaluate(state);
-  const Eigen::MatrixXd lower = energy.hessian();
-  return symmetric_eigen(lower.selfadjointView<Eigen::Lower>()).values;
-}
 
 /// Modes are what they claim: ascending, orthonormal, H v = λ v. `open` is left of an eigenvalue, beside the largest one, and
 /// so its root of a vector.

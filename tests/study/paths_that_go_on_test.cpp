@@ -1,6 +1,7 @@
 // Paths of tests/path/cases, each in several numbers of steps and by both methods where that makes sense: they go on to their end, and
 // what happens on them is what theory, symmetry or the other runs say.
 #include "catch.hpp"
+#include "laws/section.hpp"
 #include "scratch_directory.hpp"
 #include "study/results_of.hpp"
 #include "study/truss.hpp"
@@ -14,8 +15,9 @@
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double located = 1e-9;                 // events, relative
+using elamin::pi;
+
+constexpr double to_events = 1e-9;                 // events, relative
 
 std::string case_file(const std::string& name) { return std::string(ELAMIN_ROOT) + "/tests/path/cases/" + name + ".toml"; }
 
@@ -68,9 +70,9 @@ struct Run {
 };
 
 std::string kind_of(const TableRow& row) { return row.text("label").substr(0, row.text("label").find(':')); }
-std::string steps(int n) { return "path.steps=" + std::to_string(n); }
-const std::string arcs = "path.method=\"arc_length\"", load_steps = "path.method=\"load_steps\"", follow = "path.when_unstable=\"follow\"",
-                  jump = "path.when_unstable=\"jump\"";
+std::string in_steps(int n) { return "path.steps=" + std::to_string(n); }
+const std::string by_arcs = "path.method=\"arc_length\"", by_load_steps = "path.method=\"load_steps\"", follows = "path.when_unstable=\"follow\"",
+                  snaps = "path.when_unstable=\"jump\"";
 
 /// Done, at this load factor exactly.
 #define CHECK_ENDS_AT(run, load)                                         \
@@ -88,7 +90,7 @@ void same_events(const Run& a, const Run& b) {
     REQUIRE(k < b.events.size());
     if (kind_of(a.events[k]) == "jump" && kind_of(b.events[k]) == "jump") return;
     CHECK(kind_of(a.events[k]) == kind_of(b.events[k]));
-    CHECK(a.events[k]["lambda"] == Approx(b.events[k]["lambda"]).epsilon(located));
+    CHECK(a.events[k]["lambda"] == Approx(b.events[k]["lambda"]).epsilon(to_events));
   }
 }
 
@@ -131,10 +133,10 @@ double hinged_shortening(int n, double length, double EA, double EI) {
 }  // namespace
 
 TEST_CASE("beams bend to the side that they are pushed to, whatever the steps", "[paths][wrong_side_two_beams]") {
-  const Run fine("two_beams_pushed", {steps(200)});
+  const Run fine("two_beams_pushed", {in_steps(200)});
   CHECK_ENDS_AT(fine, 1);
   REQUIRE(fine.of("contact").size() >= 1);
-  for (const auto& settings : std::vector<std::vector<std::string>>{{steps(5)}, {steps(17)}, {steps(20)}, {steps(60)}, {steps(17), arcs, jump}, {steps(50), arcs, jump}}) {
+  for (const auto& settings : std::vector<std::vector<std::string>>{{in_steps(5)}, {in_steps(17)}, {in_steps(20)}, {in_steps(60)}, {in_steps(17), by_arcs, snaps}, {in_steps(50), by_arcs, snaps}}) {
     const Run run("two_beams_pushed", settings);
     CHECK_ENDS_AT(run, 1);
     same_events(run, fine);
@@ -151,11 +153,11 @@ TEST_CASE("beams bend to the side that they are pushed to, whatever the steps", 
 }
 
 TEST_CASE("a small side force unfolds the pitchfork: no event, whatever the steps", "[paths][imperfect_arc]") {
-  const Run fine("column_pushed", {steps(200), load_steps, jump});
+  const Run fine("column_pushed", {in_steps(200), by_load_steps, snaps});
   CHECK_ENDS_AT(fine, 3);
   for (const int n : {7, 17, 50, 100, 200})
-    for (const auto& way : std::vector<std::vector<std::string>>{{arcs, follow}, {load_steps, jump}}) {
-      const Run run("column_pushed", {steps(n), way[0], way[1]});
+    for (const auto& way : std::vector<std::vector<std::string>>{{by_arcs, follows}, {by_load_steps, snaps}}) {
+      const Run run("column_pushed", {in_steps(n), way[0], way[1]});
       CHECK_ENDS_AT(run, 3);
       INFO(run.what << run.told());
       CHECK(run.events.empty());
@@ -168,14 +170,14 @@ TEST_CASE("a small side force unfolds the pitchfork: no event, whatever the step
 
 TEST_CASE("a ring with the least supports has a double branch point, on the circle", "[paths][ring101_13]") {
   for (const int n : {5, 13, 50, 200})
-    for (const std::string& method : {arcs, load_steps}) {
-      const Run run("ring_least_supports", {steps(n), method, follow});
+    for (const std::string& method : {by_arcs, by_load_steps}) {
+      const Run run("ring_least_supports", {in_steps(n), method, follows});
       CHECK_ENDS_AT(run, 1.3);
       INFO(run.what << run.told());
       CHECK(run.events.size() == 1);
       if (run.of("branch").empty()) continue;
       const TableRow event = run.located_rows.at("branch:1");
-      CHECK(event["lambda"] == Approx(1).epsilon(located));
+      CHECK(event["lambda"] == Approx(1).epsilon(to_events));
       CHECK(event["multiplicity"] == 2);
       CHECK(run.path.back()["negative"] == 2);
       // Positions: id molecule x y z … in the data file's section Atoms.
@@ -218,7 +220,7 @@ TEST_CASE("an oval that may lie in any direction is one branch", "[paths][ring_a
 TEST_CASE("a slender column is followed along its side branches", "[paths][column_switched_stiff]") {
   for (const int n : {20, 50}) {
     const ScratchDirectory scratch;
-    const Answer answer = elamin_says("verify --quiet '" + case_file("column_switched") + "' -o '" + (scratch / "out") + "' --set " + steps(n), 60);
+    const Answer answer = elamin_says("verify --quiet '" + case_file("column_switched") + "' -o '" + (scratch / "out") + "' --set " + in_steps(n), 60);
     INFO(n << ": " << answer.text);
     CHECK(answer.status == 0);
     for (const auto& entry : std::filesystem::directory_iterator(scratch / "out")) {
@@ -238,7 +240,7 @@ TEST_CASE("a slender column is followed along its side branches", "[paths][colum
 TEST_CASE("the ends of a column meet and pass each other", "[paths][elastica_ends_pass]") {
   for (const int n : {20, 50})
     for (const char* EA : {"1e6", "1e7", "1e8"}) {                 // the elastica is inextensible: 1e6 is off by 2e-5
-      const std::string run = " --quiet '" + case_file("elastica_ends_pass") + "' --set beam.column.axial_stiffness=" + EA + " --set " + steps(n);
+      const std::string run = " --quiet '" + case_file("elastica_ends_pass") + "' --set beam.column.axial_stiffness=" + EA + " --set " + in_steps(n);
       const ScratchDirectory scratch;
       const Answer answer = elamin_says((EA == std::string("1e6") ? "" : "verify") + run + " -o '" + (scratch / "out") + "'", 60);
       INFO("EA = " << EA << ", " << n << " steps: " << answer.text);
@@ -250,20 +252,20 @@ TEST_CASE("the ends of a column meet and pass each other", "[paths][elastica_end
         for (const TableRow& row : events)
           if (row.text("label").starts_with("bent:")) bent.push_back(row["lambda"]);
         REQUIRE(bent.size() == 2);
-        CHECK(bent[0] == Approx(bent[1]).epsilon(located));
+        CHECK(bent[0] == Approx(bent[1]).epsilon(to_events));
       }
     }
 }
 
 TEST_CASE("two events at one point are both told, at one load factor", "[paths][two_events_lost]") {
   for (const int n : {3, 5, 17, 20, 50, 200}) {
-    const Run run("events_at_once", {steps(n), arcs, follow});
+    const Run run("events_at_once", {in_steps(n), by_arcs, follows});
     CHECK_ENDS_AT(run, 1);
     INFO(run.what << run.told());
     REQUIRE(run.of("a").size() == 1);
     REQUIRE(run.of("b").size() == 1);
-    CHECK(run.of("a")[0]["lambda"] == Approx(truss_load(0.25)).epsilon(located));
-    CHECK(run.of("b")[0]["lambda"] == Approx(truss_load(0.25)).epsilon(located));
+    CHECK(run.of("a")[0]["lambda"] == Approx(truss_load(0.25)).epsilon(to_events));
+    CHECK(run.of("b")[0]["lambda"] == Approx(truss_load(0.25)).epsilon(to_events));
     CHECK(run.of("limit").size() == 2);
   }
 }
@@ -273,7 +275,7 @@ TEST_CASE("two events about one value come once each at every crossing", "[paths
   CHECK_ENDS_AT(bowed, 1);
   const std::string start = "path.start=\"" + (bowed.scratch / "out/states/final.data") + "\"";
   for (const int n : {17, 50, 100}) {
-    const Run run("events_twins", {steps(n), start});
+    const Run run("events_twins", {in_steps(n), start});
     INFO(run.what << run.answer.text << run.told());
     CHECK(run.answer.status == 0);
     REQUIRE(!run.path.empty());
@@ -296,7 +298,7 @@ TEST_CASE("two events about one value come once each at every crossing", "[paths
       CHECK(crossings >= 1);
       CHECK(a.size() == static_cast<std::size_t>(crossings));
       REQUIRE(a.size() == b.size());
-      for (std::size_t i = 0; i < a.size(); ++i) CHECK(std::abs(a[i] - b[i]) <= located);
+      for (std::size_t i = 0; i < a.size(); ++i) CHECK(std::abs(a[i] - b[i]) <= to_events);
     }
   }
 }
@@ -313,7 +315,7 @@ TEST_CASE("events on the first segment of a side branch are located", "[paths][e
     return -2 * K * low * (part(x + 1, low) + part(x - 1, low));
   };
   for (const int n : {5, 20, 50, 200}) {
-    const Run run("events_on_side_branch", {steps(n)});
+    const Run run("events_on_side_branch", {in_steps(n)});
     INFO(run.what << run.answer.text << run.told());
     CHECK(run.answer.status == 0);
     for (const auto& [name, x] : std::vector<std::pair<std::string, double>>{{"s0_001", 0.001}, {"s0_003", 0.003}, {"s0_01", 0.01}, {"s0_03", 0.03}, {"s0_1", 0.1}, {"s0_3", 0.3}}) {
@@ -322,30 +324,30 @@ TEST_CASE("events on the first segment of a side branch are located", "[paths][e
       REQUIRE(!found.empty());
       double off = INFINITY;
       for (const TableRow& row : found) {
-        CHECK(row["x"] == Approx(x).epsilon(located));
+        CHECK(row["x"] == Approx(x).epsilon(to_events));
         off = std::min(off, std::abs(row["lambda"] / load(x) - 1));
       }
-      CHECK(off <= located);
+      CHECK(off <= to_events);
     }
   }
 }
 
 TEST_CASE("a hard contact at the end of a step is an event", "[paths][hard_contact_event_lost]") {
   for (const int n : {3, 4, 6, 7, 8, 9, 10, 11, 13, 50, 200}) {
-    const Run run("hard_lid", {steps(n)});
+    const Run run("hard_lid", {in_steps(n)});
     CHECK_ENDS_AT(run, 1);
     INFO(run.what << run.told());
     REQUIRE(run.events.size() == 1);
     CHECK(run.of("contact").size() == 1);
-    CHECK(run.events[0]["lambda"] == Approx(0.5).epsilon(located));
+    CHECK(run.events[0]["lambda"] == Approx(0.5).epsilon(to_events));
     CHECK(run.path.back()["energy"] == Approx(0.25).epsilon(1e-9));     // K e², e half the way of the lid
   }
 }
 
 TEST_CASE("a strip meets a stop: every contact is one", "[paths][strip_spurious_contact]") {
-  const Run fine("strip_meets_stop", {steps(100)});
+  const Run fine("strip_meets_stop", {in_steps(100)});
   CHECK_ENDS_AT(fine, 1);
-  for (const auto& settings : std::vector<std::vector<std::string>>{{steps(17)}, {steps(40)}, {steps(60)}, {steps(100)}, {steps(50), arcs, jump}}) {
+  for (const auto& settings : std::vector<std::vector<std::string>>{{in_steps(17)}, {in_steps(40)}, {in_steps(60)}, {in_steps(100)}, {in_steps(50), by_arcs, snaps}}) {
     const Run run("strip_meets_stop", settings);
     CHECK_ENDS_AT(run, 1);
     contacts_are_told(run, 1e-3);
@@ -355,11 +357,11 @@ TEST_CASE("a strip meets a stop: every contact is one", "[paths][strip_spurious_
 }
 
 TEST_CASE("a beam is followed along stiff walls", "[paths][contact_stiff_arc_length]") {
-  const Run soft("beam_stiff_walls", {steps(50), "wall.left.effective_modulus=1e10", "wall.right.effective_modulus=1e10"});
+  const Run soft("beam_stiff_walls", {in_steps(50), "wall.left.effective_modulus=1e10", "wall.right.effective_modulus=1e10"});
   CHECK_ENDS_AT(soft, 2);
   std::vector<Run> runs;
   for (const int n : {20, 50, 100}) {
-    const Run run("beam_stiff_walls", {steps(n)});
+    const Run run("beam_stiff_walls", {in_steps(n)});
     CHECK_ENDS_AT(run, 2);
     contacts_are_told(run, 1e-3);
     INFO(run.what << run.told());
@@ -371,7 +373,7 @@ TEST_CASE("a beam is followed along stiff walls", "[paths][contact_stiff_arc_len
 
 TEST_CASE("a ring that floats between hard plates is pressed", "[paths][ring_free_between_plates]") {
   for (const int n : {20, 50}) {
-    const Run run("ring_between_hard_plates", {steps(n)});
+    const Run run("ring_between_hard_plates", {in_steps(n)});
     CHECK_ENDS_AT(run, 0.8);
     INFO(run.what << run.told());
     // Before the lid is there nothing says how high the ring lies.
@@ -387,15 +389,15 @@ TEST_CASE("a ring that floats between hard plates is pressed", "[paths][ring_fre
 TEST_CASE("boxes are pushed over an edge by both methods", "[paths][boxes_overhang_arc_length]") {
   std::vector<double> first, tips;
   for (const int n : {17, 40, 100})
-    for (const std::string& method : {arcs, load_steps}) {
-      const Run run("boxes_overhang", {steps(n), method, "path.to=0.32"});
+    for (const std::string& method : {by_arcs, by_load_steps}) {
+      const Run run("boxes_overhang", {in_steps(n), method, "path.to=0.32"});
       CHECK_ENDS_AT(run, 0.32);
       INFO(run.what << run.told());
       REQUIRE(run.of("contact").size() == 2);
       CHECK(run.of("contact")[1]["lambda"] == Approx(0.31875).epsilon(3e-6));
       first.push_back(run.of("contact")[0]["lambda"]), tips.push_back(run.of("contact")[1]["lambda"]);
-      CHECK(first.back() == Approx(first.front()).epsilon(located));
-      CHECK(tips.back() == Approx(tips.front()).epsilon(located));
+      CHECK(first.back() == Approx(first.front()).epsilon(to_events));
+      CHECK(tips.back() == Approx(tips.front()).epsilon(to_events));
     }
 }
 
@@ -418,12 +420,12 @@ TEST_CASE("an arch in space is told to want a plane", "[paths][arch_without_plan
 TEST_CASE("a side branch begins at its branch point and ends at `to`", "[paths][branch_leaps_past_end]") {
   const double critical = hinged_shortening(20, 1, 1e6, 1) / 1.4804e-5;
   for (const int n : {3, 5, 17, 20, 50, 200}) {
-    const Run run("column_slender_branches", {steps(n)});
+    const Run run("column_slender_branches", {in_steps(n)});
     CHECK_ENDS_AT(run, 1);
     INFO(run.what << run.told());
     REQUIRE(run.events.size() == 1);
     CHECK(run.of("branch").size() == 1);
-    CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(located));
+    CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(to_events));
     REQUIRE(run.branches() == 2);
     for (int k = 1; k <= 2; ++k) {
       for (const TableRow& row : run.on_branch(k)) {
@@ -445,13 +447,13 @@ TEST_CASE("a lid meets a grain that rests, by both methods", "[paths][grain_lid_
   double low = 0, high = 1e3;
   for (int k = 0; k < 200; ++k) ((overlap((low + high) / 2) + overlap((low + high) / 2 + 1e-3) < 0.01) ? low : high) = (low + high) / 2;
   for (const int n : {3, 5, 10, 17, 50, 200})
-    for (const std::string& method : {arcs, load_steps}) {
-      const Run run("grain_under_lid", {steps(n), method});
+    for (const std::string& method : {by_arcs, by_load_steps}) {
+      const Run run("grain_under_lid", {in_steps(n), method});
       CHECK_ENDS_AT(run, 1);
       INFO(run.what << run.told());
       REQUIRE(run.events.size() == 1);
       CHECK(run.of("contact").size() == 1);
-      CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(located));
+      CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(to_events));
       CHECK(std::abs(run.path.back()["force"]) == Approx(low).epsilon(1e-8));
       contacts_are_told(run, 1);
     }
@@ -459,13 +461,13 @@ TEST_CASE("a lid meets a grain that rests, by both methods", "[paths][grain_lid_
 
 TEST_CASE("a lid that meets four corners at once is one event", "[paths][box_lid_contact_twice]") {
   for (const int n : {3, 5, 11, 17, 50, 200})
-    for (const std::string& method : {arcs, load_steps}) {
-      const Run run("box_under_lid", {steps(n), method});
+    for (const std::string& method : {by_arcs, by_load_steps}) {
+      const Run run("box_under_lid", {in_steps(n), method});
       CHECK_ENDS_AT(run, 1);
       INFO(run.what << run.told());
       REQUIRE(run.events.size() == 1);
       CHECK(run.of("contact").size() == 1);
-      CHECK(run.events[0]["lambda"] == Approx(0.5).epsilon(located));     // 0.1 down, of 0.2
+      CHECK(run.events[0]["lambda"] == Approx(0.5).epsilon(to_events));     // 0.1 down, of 0.2
       contacts_are_told(run, 1);
       int corners = 0;
       for (const TableRow& c : run.contacts) corners += c.text("label") == "contact:1" && c.text("second") == "lid";
@@ -479,14 +481,14 @@ TEST_CASE("a column in space falls from a double branch point, whatever the step
   for (const int particles : {8, 12, 13})
     for (const int n : {5, 40, 49, 50, 51, 60, 100, 200}) {
       if (particles != 12 && n != 40) continue;
-      const Run run("column_short_falls", {steps(n), "beam.column.particles=" + std::to_string(particles)});
+      const Run run("column_short_falls", {in_steps(n), "beam.column.particles=" + std::to_string(particles)});
       CHECK_ENDS_AT(run, 1);
       falls_are_right(run);
       INFO(run.what << run.told());
       REQUIRE(run.events.size() == 2);
       REQUIRE(run.of("branch").size() == 1);
       CHECK(run.of("jump").size() == 1);
-      if (particles == 12) CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(located));
+      if (particles == 12) CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(to_events));
       CHECK(run.located_rows.at("branch:1")["multiplicity"] == 2);
       CHECK(run.path.back()["negative"] == 0);
     }
@@ -494,7 +496,7 @@ TEST_CASE("a column in space falls from a double branch point, whatever the step
 
 TEST_CASE("every fall of two beams has its event and loses energy", "[paths][jump_gains_energy]") {
   for (const int n : {50, 100, 200}) {
-    const Run run("two_beams_fall", {steps(n)});
+    const Run run("two_beams_fall", {in_steps(n)});
     CHECK_ENDS_AT(run, 1);
     falls_are_right(run);
     contacts_are_told(run, 6.7e-6);
@@ -504,7 +506,7 @@ TEST_CASE("every fall of two beams has its event and loses energy", "[paths][jum
 // Not met yet: what one side alone touches should be carried along by it, at no force.
 TEST_CASE("a ball floats until it is touched", "[paths][free_ball][!shouldfail]") {
   for (const int n : {3, 10, 17, 50}) {
-    const Run run("ball_between_two", {steps(n)});
+    const Run run("ball_between_two", {in_steps(n)});
     CHECK_ENDS_AT(run, 1);
     INFO(run.what << run.told());
     CHECK(run.of("jump").empty());

@@ -48,11 +48,11 @@ void same_rows(const std::vector<TableRow>& rows, const std::vector<TableRow>& e
     }
 }
 
-enum class Rest { all, branch };
+enum class Continued { all, branch };
 
 /// Runs the file, then again from each of its labelled states, and compares every row behind that state, or those on its
 /// branch. `more`: further arguments of both. Gives the kinds of states that it began at.
-std::set<std::string> compare_restarts(const std::string& text, const std::string& more = "", Rest compared = Rest::all) {
+std::set<std::string> compare_restarts(const std::string& text, const std::string& more = "", Continued compared = Continued::all) {
   constexpr double tolerance = 1e-12;
   const ScratchDirectory scratch;
   const std::string file = scratch.file("p.toml", text);
@@ -76,7 +76,7 @@ std::set<std::string> compare_restarts(const std::string& text, const std::strin
     REQUIRE(rest.front()["lambda"] == whole[k]["lambda"]);
     REQUIRE(rest.front()["energy"] == Approx(whole[k]["energy"]).epsilon(1e-14));
     rest.erase(rest.begin());
-    if (compared == Rest::branch) {
+    if (compared == Continued::branch) {
       std::erase_if(expected, [&](const TableRow& r) { return r.text("branch") != branch; });
       std::erase_if(rest, [](const TableRow& r) { return r.text("branch") != "0"; });
     }
@@ -87,7 +87,7 @@ std::set<std::string> compare_restarts(const std::string& text, const std::strin
 
 std::string problem(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
 
-const std::string column = column_and_ends + R"(
+const std::string resumed_column = column_and_ends + R"(
 [[support]]
 group = "bottom"
 [[support]]
@@ -109,7 +109,7 @@ value = 0.73
 }  // namespace
 
 TEST_CASE("load steps go on from a stored state with the same numbers", "[restart]") {
-  CHECK(compare_restarts(column) == std::set<std::string>{"initial", "branch", "jump"});
+  CHECK(compare_restarts(resumed_column) == std::set<std::string>{"initial", "branch", "jump"});
   CHECK(compare_restarts(truss + "[path]\nsteps = 30\nto = 0.1\n[[event]]\nname = \"low\"\nobservable = \"z\"\nvalue = 0.4\n") ==
         std::set<std::string>{"initial", "low", "limit", "jump"});
 }
@@ -133,8 +133,8 @@ TEST_CASE("an arc-length path goes on at contacts", "[restart]") {
 }
 
 TEST_CASE("a path that is taken up on a side branch goes on along it", "[restart]") {
-  const std::string branches = column + "[[event]]\nname = \"bent\"\nobservable = \"z\"\nvalue = 5e-4\n";
-  CHECK(compare_restarts(branches, " --set path.method='\"arc_length\"' --set path.branches=1", Rest::branch).count("bent"));
+  const std::string branches = resumed_column + "[[event]]\nname = \"bent\"\nobservable = \"z\"\nvalue = 5e-4\n";
+  CHECK(compare_restarts(branches, " --set path.method='\"arc_length\"' --set path.branches=1", Continued::branch).count("bent"));
 }
 
 const std::string snapping = truss + R"(
@@ -219,7 +219,7 @@ to = 0.5
 
 TEST_CASE("what stands beside a state", "[restart]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("p.toml", column);
+  const std::string file = scratch.file("p.toml", resumed_column);
   REQUIRE(elamin_says("'" + file + "' --quiet").status == 0);
   const auto json = nlohmann::json::parse(text_of(scratch / "p/states/branch-1.json"));
   CHECK(json["lambda"].get<double>() == row_of(table_of(scratch / "p/events.csv"), "branch:1")["lambda"]);

@@ -36,7 +36,7 @@ struct Walked {
   }
 };
 
-std::string kind_of(const PathPoint& p) { return p.label.substr(0, p.label.find(':')); }
+std::string kind(const PathPoint& p) { return p.label.substr(0, p.label.find(':')); }
 
 Walked walk(const std::string& file, const std::vector<std::string>& settings) {
   std::vector<Setting> parsed;
@@ -69,9 +69,9 @@ void same_events(const std::vector<PathPoint>& a, const std::vector<PathPoint>& 
   REQUIRE(a.size() == b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
     CAPTURE(a[k].label, b[k].label, a[k].state.load_factor, b[k].state.load_factor);
-    CHECK(kind_of(a[k]) == kind_of(b[k]));
+    CHECK(kind(a[k]) == kind(b[k]));
     CHECK(a[k].branch == b[k].branch);
-    if (kind_of(a[k]) == "jump") continue;
+    if (kind(a[k]) == "jump") continue;
     CHECK(std::abs(a[k].state.load_factor - b[k].state.load_factor) <= tolerance * range);
     CHECK(a[k].multiplicity == b[k].multiplicity);
   }

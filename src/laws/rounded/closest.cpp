@@ -93,11 +93,6 @@ ClosestFeatures nearest(const PairView& view, double range) {
   return best;
 }
 
-PairView& scratch() {
-  thread_local PairView view;
-  return view;
-}
-
 std::optional<ClosestFeatures> find(PairView& view, const RoundedBody& a, const RoundedBody& b, double reach) {
   if (!view.set(a, b, reach)) return {};
   return closest_features(view, view.radii() + reach);
@@ -128,13 +123,13 @@ std::optional<ClosestFeatures> closest_features(const PairView& view, double ran
 }
 
 double RoundedClosest::value(const RoundedBody& a, const RoundedBody& b) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff);
   return f ? kernel.value(f->distance - view.radii()) : 0.0;
 }
 
 PairLocal RoundedClosest::derivatives(const RoundedBody& a, const RoundedBody& b) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   PairLocal u;
   const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff);
   if (!f) return u;
@@ -153,7 +148,7 @@ PairLocal RoundedClosest::derivatives(const RoundedBody& a, const RoundedBody& b
 }
 
 std::array<Wrench, 2> RoundedClosest::forces(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>* contacts) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   std::array<Wrench, 2> on;
   const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff);
   if (!f) return on;
@@ -165,18 +160,18 @@ std::array<Wrench, 2> RoundedClosest::forces(const RoundedBody& a, const Rounded
 }
 
 void RoundedClosest::contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   if (const std::optional<ClosestFeatures> f = find(view, a, b, kernel.cutoff)) out.push_back(contact_at(view, *f));
 }
 
 double core_separation(const RoundedBody& a, const RoundedBody& b) {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   const std::optional<ClosestFeatures> f = find(view, a, b, infinity);
   return f ? f->distance : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool cores_overlap(const RoundedBody& a, const RoundedBody& b) {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   const std::optional<ClosestFeatures> f = find(view, a, b, 0);
   return f && f->distance <= 0;
 }

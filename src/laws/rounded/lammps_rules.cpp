@@ -135,8 +135,8 @@ LammpsPair LammpsRules::pair(const RoundedBody& i, const RoundedBody& j, const B
 std::vector<std::string> LammpsRules::no_potential() const {
   std::vector<std::string> why;
   if (friction != 0) why.push_back(fmt::format("friction {} has no energy; allowed in a minimisation: 0", friction));
-  if (unit_area == 0) why.push_back("unit_area 0 makes the area factor infinite; allowed: > 0, or negative for 1");
-  if (kernel.form != RoundedKernel::Form::coded) why.push_back("the rules of LAMMPS know only the coded kernel");
+  if (unit_area == 0) why.emplace_back("unit_area 0 makes the area factor infinite; allowed: > 0, or negative for 1");
+  if (kernel.form != RoundedKernel::Form::coded) why.emplace_back("the rules of LAMMPS know only the coded kernel");
   return why;
 }
 

@@ -155,15 +155,10 @@ void visit(const RoundedMulti& law, const PairView& view, const OnVertex& vertex
   }
 }
 
-PairView& scratch() {
-  thread_local PairView view;
-  return view;
-}
-
 }  // namespace
 
 double RoundedMulti::value(const RoundedBody& a, const RoundedBody& b) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   double U = 0;
   if (!view.set(a, b, kernel.cutoff)) return U;
   const auto add = [&U](const auto& term) { U += term.value(); };
@@ -172,7 +167,7 @@ double RoundedMulti::value(const RoundedBody& a, const RoundedBody& b) const {
 }
 
 PairLocal RoundedMulti::derivatives(const RoundedBody& a, const RoundedBody& b) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   PairLocal u;
   if (!view.set(a, b, kernel.cutoff)) return u;
   const auto add = [&](const auto& term) { u.value += term.value(), term.add(u, view); };
@@ -182,7 +177,7 @@ PairLocal RoundedMulti::derivatives(const RoundedBody& a, const RoundedBody& b) 
 }
 
 std::array<Wrench, 2> RoundedMulti::forces(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>* contacts) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   std::array<Wrench, 2> on;
   if (!view.set(a, b, kernel.cutoff)) return on;
   const auto add = [&](const auto& term) {
@@ -194,7 +189,7 @@ std::array<Wrench, 2> RoundedMulti::forces(const RoundedBody& a, const RoundedBo
 }
 
 void RoundedMulti::contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const {
-  PairView& view = scratch();
+  PairView& view = PairView::scratch();
   if (!view.set(a, b, kernel.cutoff)) return;
   const auto add = [&](const auto& term) {
     if (term.weight() > 0) out.push_back(term.contact(view));

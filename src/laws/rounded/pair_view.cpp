@@ -21,6 +21,11 @@ double CoreView::edge_bound(const RoundedShape::Edge& edge) const {
   return largest;
 }
 
+PairView& PairView::scratch() {
+  thread_local PairView view;
+  return view;
+}
+
 bool PairView::set(const RoundedBody& a, const RoundedBody& b, double reach) {
   a_from_b_ = (a.pose.position - b.pose.position).hi;
   const double far = a.shape->reach() + b.shape->reach() + reach;

@@ -36,6 +36,9 @@ struct CoreView {
 /// first.
 class PairView {
  public:
+  /// One of each thread, to be set anew by whoever uses it.
+  static PairView& scratch();
+
   /// Whether the cores may be nearer than `reach` plus the radii; if not, nothing else may be asked. Keeps its memory.
   bool set(const RoundedBody& a, const RoundedBody& b, double reach);
 

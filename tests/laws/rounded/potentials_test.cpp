@@ -9,7 +9,7 @@ namespace {
 
 using Form = RoundedKernel::Form;
 
-const RoundedKernel kernel{100, 4, 0.3, Form::coded};
+const RoundedKernel quartic{100, 4, 0.3, Form::coded};
 
 /// The nearest features of two bodies, by kind: "vf", "ee", …; empty: too far.
 std::string kinds(const Couple& c) {
@@ -102,7 +102,7 @@ TEST_CASE("the potentials of rounded bodies agree with differences of themselves
     for_couples(gap, 6, [&](const Couple& c) {
       ++met[kinds(c)];
       for (const Form form : {Form::coded, Form::printed}) {
-        RoundedKernel k = kernel;
+        RoundedKernel k = quartic;
         k.form = form;
         CHECK(check_pair(RoundedClosest{k}, c, 1e-2) == std::vector<std::string>{});
         CHECK(check_pair(RoundedMulti{k}, c, 1e-3) == std::vector<std::string>{});
@@ -116,8 +116,8 @@ TEST_CASE("a wrong law of rounded bodies fails the check", "[laws][rounded]") {
   for_couples(-0.08, 1, [&](const Couple& c) {
     // of a sphere nothing is forgotten
     const bool turns = c.a.shape->vertices.size() > 1 && c.b.shape->vertices.size() > 1;
-    all += turns, failed += !check_pair(WithoutLever{{kernel}}, c, 1e-3).empty();
-    if (!turns) CHECK(check_pair(WithoutLever{{kernel}}, c, 1e-3) == std::vector<std::string>{});
+    all += turns, failed += !check_pair(WithoutLever{{quartic}}, c, 1e-3).empty();
+    if (!turns) CHECK(check_pair(WithoutLever{{quartic}}, c, 1e-3) == std::vector<std::string>{});
   });
   CHECK(failed == all);
 }
@@ -130,12 +130,12 @@ TEST_CASE("overlapping cores have the smallest translation that separates them",
     c = couple(*c.a.shape, *c.b.shape, -c.a.shape->radius - c.b.shape->radius - 0.1, random);
     CHECK(cores_overlap(c.a, c.b));
     std::vector<RoundedContact> contact;
-    RoundedClosest{kernel}.contacts(c.a, c.b, contact);
+    RoundedClosest{quartic}.contacts(c.a, c.b, contact);
     REQUIRE(contact.size() == 1);
     const double depth = -core_separation(c.a, c.b);
     CHECK(depth == Approx(0.1).epsilon(1e-12));
     ++met[kinds(c)];
-    CHECK(check_pair(RoundedClosest{kernel}, c, 1e-2) == std::vector<std::string>{});
+    CHECK(check_pair(RoundedClosest{quartic}, c, 1e-2) == std::vector<std::string>{});
     Couple apart = c;
     apart.a.pose.position.hi += depth * contact[0].normal;
     CHECK(std::abs(core_separation(apart.a, apart.b)) <= 1e-14);
@@ -155,8 +155,8 @@ TEST_CASE("a particle is a body of one vertex: both potentials are one, and no t
     for (const double gap : {-0.1, 0.1}) {
       INFO(s.name << ", gap " << gap);
       const Couple c = couple(particle, s.shape, gap, random);
-      const PairLocal m = RoundedMulti{kernel}.derivatives(c.a, c.b), u = RoundedClosest{kernel}.derivatives(c.a, c.b);
-      CHECK(m.value == Approx(kernel.value(gap)).epsilon(1e-10));
+      const PairLocal m = RoundedMulti{quartic}.derivatives(c.a, c.b), u = RoundedClosest{quartic}.derivatives(c.a, c.b);
+      CHECK(m.value == Approx(quartic.value(gap)).epsilon(1e-10));
       CHECK(std::abs(m.value - u.value) <= 1e-14);
       CHECK((m.hessian - u.hessian).norm() <= 1e-12 * u.hessian.norm());
       for (PairLocal local : {m, u}) {
