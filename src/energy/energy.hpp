@@ -73,6 +73,10 @@ class Energy {
   const ContactRules& contact_rules() const { return neighbours_.rules(); }
   /// The scale of internal forces: the largest force of one element on a particle, or of one load if that is larger.
   double force_scale() const { return force_scale_; }
+  /// What that is taken to be at least, for where there is no force: rounding of what is stiffest.
+  double force_floor() const { return force_floor_; }
+  /// Whether nothing at the evaluated state bears a force: each is less than a residual may leave.
+  bool slack() const { return force_scale_ <= 1e-7 * force_floor_; }
   /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
   double relative(const Vector& force) const;
 

@@ -85,12 +85,13 @@ std::optional<Waypoint> ArcSteps::next() {
   std::string why = "the corrector does not converge";
   const bool meets = may_touch(newton_.energy().model());
   int refused = 0, shifts = 0;
-  double natural = arc_steps::first_natural;
+  double natural = current_.slack ? 1 : arc_steps::first_natural;       // where nothing bears a force there is no arc to measure
   step_ = std::min(step_, longest());
   for (double s = step_; s >= shortest_ && !interrupted();) {
     double better = 0;
-    std::optional<Candidate> c = attempt(s, shifts, better, why);
-    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (at_contact_ || refused >= arc_steps::refused_first)) {
+    std::optional<Candidate> c;
+    if (!current_.slack) c = attempt(s, shifts, better, why);
+    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (current_.slack || at_contact_ || refused >= arc_steps::refused_first)) {
       const double target = next_load(natural);
       c = reach_load(current_, target, why);
       if (c && c->events.empty() && std::binary_search(options_.stops.begin(), options_.stops.end(), target)) c->stop = target;

@@ -39,7 +39,7 @@ void Branch::look_past_contact(double way) {
   for (double part = 1; part >= branch::least_past; part /= 16) {
     const Equilibrium e = continue_to(newton_, current_, current_.point.state.load_factor + sign_ * part * way);
     if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
-    if (closed_contacts(newton_.energy(), e.point.state) != closed_) continue;
+    if (closed_contacts(newton_.energy(), e) != closed_) continue;
     current_.tangent = e.tangent;
     return;
   }
@@ -69,13 +69,28 @@ Branch::Candidate Branch::with_contact(Candidate c, ContactChange change) const 
 }
 
 bool Branch::find_contact(const Segment& segment, Candidate& c, std::string& why) {
-  if (!contacts_) return true;
+  // Not looked for unless asked, or where something floats and may be caught, or where one may explain why the Morse index changes.
+  const bool tells = current_.slack || (c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()));
+  if (!contacts_ && !tells) return true;
   std::optional<ContactChange> change = locate_contact(newton_, segment, closed_, current_, c.e);
   if (!change) return true;
   if (!change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
+  const double way = c.e.point.state.load_factor - current_.point.state.load_factor;
   c = with_contact(std::move(c), std::move(*change));
+  if (current_.slack) look_behind(c.events.front(), way);
   return true;
+}
+
+// What has floated may be caught there: an equilibrium a little farther tells.
+void Branch::look_behind(Event& contact, double way) {
+  const State& here = contact.at.point.state;
+  for (double part = branch::first_past; part >= branch::least_past && !contact.beyond; part /= 16) {
+    Equilibrium e = continue_to(newton_, contact.at, here.load_factor + part * way);
+    if (!e.point.report.converged()) continue;
+    e.point.state = here, e.point.energy = contact.at.point.energy, e.point.report = contact.at.point.report;
+    contact.beyond = std::move(e), contact.onward = sign_;
+  }
 }
 
 // Branch points and limit points: where the Morse index changes, and where the load factor turns though it does not.
@@ -139,7 +154,9 @@ void Branch::take(const Candidate& c) {
   at_contact_ = event && event->kind == EventKind::contact;
   negative_ = event ? event->after : c.e.point.stability.negative;
   const bool told = event && (event->beyond || event->kind == EventKind::contact);
-  closed_ = told ? event->closed : closed_contacts(newton_.energy(), c.e.point.state);
+  ContactSet closed = told ? event->closed : closed_contacts(newton_.energy(), c.e);
+  if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
+  closed_ = std::move(closed);
   pass_watches(watches_, c.events, c.e.point.state, side_);
   current_ = event && event->beyond ? *event->beyond : c.e;
   current_.point.label.clear();

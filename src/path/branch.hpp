@@ -67,6 +67,7 @@ class Branch {
   /// Equilibria between here and the candidate lie beside the chord.
   Segment beside(Segment segment, const Candidate& c) const;
   Candidate with_contact(Candidate c, ContactChange change) const;
+  void look_behind(Event& contact, double way);
   bool find_contact(const Segment& segment, Candidate& c, std::string& why);
   bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;

@@ -4,6 +4,7 @@
 #include "energy/wall_group.hpp"
 #include "model/entities.hpp"
 #include "path/limits.hpp"
+#include "path/push.hpp"
 #include "path/root.hpp"
 
 #include <fmt/format.h>
@@ -104,7 +105,7 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vect
   // What particles do to each other begins from nothing. Where they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses
   // zero nearer to the event than rounding lets it be seen.
   if (change.at.point.stability.negative == negative) std::erase_if(here, [](const ContactKey& key) { return key.feature < 0; });
-  if (!here.empty()) look_both_ways(newton, change, here, way, load_change);
+  if (!here.empty() && !change.at.slack) look_both_ways(newton, change, here, way, load_change);
 }
 
 // The direction in which a gap grows: of a contact of bodies with its point, of particles at their centres.
@@ -177,8 +178,8 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   const double size = size_of(energy.model(), key.particle);
   // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
   for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
-    state = guess;
     aim = beside * size, plane.close = close * size;
+    state = aim > 0 ? moved_by(energy.kinematics(), guess, way, load_change, 2 * aim / rate) : guess;
     report = newton.correct(state, from.zero_modes, nullptr, contact_event::most_closing, &plane);
     if (report.converged() || report.status == Status::interrupted) break;
   }
@@ -197,12 +198,55 @@ std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey
   return at(part);
 }
 
+// Where what floats is pushed until a gap is next to nothing, by the secant from the side where it is open: beyond, the gap stays none, and no Newton's
+// method finds where that begins. beyond: a load factor at which it has closed; guess: where it may close.
+std::optional<Equilibrium> pushed_until(Newton& newton, const ContactKey& key, const Equilibrium& from, double beyond, double guess) {
+  const Energy& energy = newton.energy();
+  const double wanted = contact_event::next_to_none * size_of(energy.model(), key.particle);
+  double open = from.point.state.load_factor, left = gap(energy, key, from.point.state), rate = left / (guess - open);
+  for (int k = 0; k < contact_event::most_closing; ++k) {
+    double load = open + (left - wanted) / rate;
+    if (!((beyond - load) * (beyond - open) > 0)) load = (open + beyond) / 2;
+    const Equilibrium e = continue_to(newton, from, load);
+    const double here = e.point.report.converged() && e.slack ? gap(energy, key, e.point.state) : 0.0;
+    if (here > 0 && here <= 4 * wanted) return e;
+    if (here <= wanted) beyond = load;
+    else rate = (left - here) / (load - open), open = load, left = here;
+  }
+  return {};
+}
+
+// The first of these contacts that are made on the way from a slack equilibrium, and those made together with it.
+ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet now, const std::vector<ContactKey>& made, const Equilibrium& a,
+                           const Equilibrium& b) {
+  const double from = a.point.state.load_factor, to = b.point.state.load_factor;
+  std::vector<Equilibrium> at;
+  std::size_t first = 0;
+  for (const ContactKey& key : made) {
+    const std::optional<State> ahead = where_tangent_closes(newton.energy(), key, a, b);
+    std::optional<Equilibrium> e = pushed_until(newton, key, a, to, ahead ? ahead->load_factor : to);
+    if (!e) return {};
+    at.push_back(std::move(*e));
+    if (std::abs(at.back().point.state.load_factor - from) < std::abs(at[first].point.state.load_factor - from)) first = at.size() - 1;
+  }
+  ContactChange change{true, segment.parameter(at[first].point.state), at[first], {}, {}};
+  std::vector<ContactKey> together;
+  for (const ContactKey& key : made)
+    if (gap(newton.energy(), key, change.at.point.state) <= contact_event::together * size_of(newton.energy().model(), key.particle)) together.push_back(key);
+  tell(newton, change, std::move(now), together, Vector::Zero(a.tangent.size()), 0, a.point.stability.negative);
+  return change;
+}
+
 }  // namespace
 
-ContactSet closed_contacts(Energy& energy, const State& state) {
+ContactSet closed_contacts(Energy& energy, const Equilibrium& e) {
+  return closed_contacts(energy, e.point.state, e.slack ? contact_event::together * energy.kinematics().smallest_size() : 0.0);
+}
+
+ContactSet closed_contacts(Energy& energy, const State& state, double within) {
   ContactSet set;
-  for (const Touch& t : energy.touches(state)) {
-    if (t.gap < 0 || t.bears || t.feature < 0) set.insert({t.particle, t.other, t.wall, t.feature});
+  for (const Touch& t : energy.touches(state, within)) {
+    if (t.gap < within || t.bears || t.feature < 0) set.insert({t.particle, t.other, t.wall, t.feature});
     if (t.feature < 0) continue;
     const double range = attraction_range(energy.model(), energy.body_rules(), t.key());
     if (range > 0 && t.gap < range) set.insert({t.particle, t.other, t.wall, t.feature, true});
@@ -217,12 +261,19 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   ContactSet now = before;
   std::vector<ContactKey> changed;
   const auto gap = [&](const ContactKey& key, const State& state) { return elamin::gap(energy, key, state); };
-  for (const ContactKey& key : difference(before, closed_contacts(energy, b.point.state))) {
+  // From a slack equilibrium what has been apart is made; what just touches is pushed, and leaves and touches by rounding: it is told once, and again
+  // where something is caught.
+  const double touching = contact_event::together * kinematics.smallest_size();
+  const auto other_side = [&](double here, double there) { return a.slack ? here >= touching && there < touching : (here < 0) != (there < 0); };
+  if (a.slack && !b.slack) std::erase_if(now, [&](const ContactKey& key) { return gap(key, a.point.state) >= touching; });
+  for (const ContactKey& key : difference(ContactSet(now), closed_contacts(energy, b))) {
+    if (a.slack && b.slack && now.count(key)) continue;
     const double ga = gap(key, a.point.state), gb = gap(key, b.point.state);
-    if ((ga < 0) != (gb < 0) && std::isfinite(ga) && std::isfinite(gb)) changed.push_back(key);
+    if (other_side(ga, gb) && std::isfinite(ga) && std::isfinite(gb)) changed.push_back(key);
     else toggle(now, key);                    // it changes at `a`, which is an event already, or fades out at the end of an edge
   }
   if (changed.empty()) return {};
+  if (a.slack) return first_pushed(newton, segment, std::move(now), changed, a, b);
   ContactChange change{true, segment.b, {}, {}, {}};
   std::optional<Equilibrium> at = b;          // what is known of it
   State found = b.point.state;
@@ -287,11 +338,9 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
   const State& from = a.point.state;
-  double reach = 0, walls = 0;
+  double reach = 4 * driven_way(energy, load_change);
   const Field moves = kinematics.extend(way);
   for (int s = 0; s < kinematics.sites(); ++s) reach = std::max(reach, 4 * (moves.col(s) + load_change * kinematics.drive(s)).norm());
-  for (const Wall& w : model.walls) walls = std::max(walls, std::abs(load_change * w.scaling.rate) * w.displacement.norm());
-  reach += 2 * walls;
   // The one that the tangent meets first.
   ContactKey first{};
   ContactSet candidates = before;
@@ -304,7 +353,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
       const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
       const bool closed = before.count(key) > 0;
       const bool at = std::abs(here) <= contact_event::together * size_of(model, key.particle);
-      if (at ? (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle) : (here < 0) != closed) continue;
+      if (a.slack ? closed || at || here < 0 : at ? (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle) : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);
       if (part >= 0 && part <= 1.5 && part < least) least = part, first = key;
     }
@@ -326,7 +375,9 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
     const bool closed = before.count(key) > 0;
     if (key == first || !std::isfinite(here)) continue;
     if (std::abs(here) > contact_event::together * size_of(model, key.particle)) {
-      if ((here < 0) != closed) return {};
+      if ((here < 0) != closed && !(a.slack && closed)) return {};
+    } else if (a.slack) {
+      if (!closed) changed.push_back(key);
     } else if ((gap(energy, key, ahead) < 0) != closed) {
       changed.push_back(key);
     }

@@ -17,8 +17,10 @@ struct ContactKey {
 };
 using ContactSet = std::set<ContactKey>;
 
-/// The contacts whose surfaces overlap at the state, and which bodies are within the reach of an attraction.
-ContactSet closed_contacts(Energy& energy, const State& state);
+/// The contacts whose surfaces overlap at the state, or are nearer than `within` [length], and which bodies are within the reach of an attraction.
+ContactSet closed_contacts(Energy& energy, const State& state, double within = 0);
+/// The same of an equilibrium; of a slack one those that just touch as well.
+ContactSet closed_contacts(Energy& energy, const Equilibrium& e);
 
 struct ContactChange {
   bool found = false;                  // else: something changes, but an equilibrium between could not be computed

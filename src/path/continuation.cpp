@@ -54,7 +54,7 @@ void Continuation::begin() {
     branch_ = ++numbering().branches;
     Equilibrium at = side_->at;
     at.point.label.clear();
-    return set_out({.at = at, .closed = closed_contacts(newton_.energy(), at.point.state)}, side_->direction, side_->step);
+    return set_out({.at = at, .closed = closed_contacts(newton_.energy(), at)}, side_->direction, side_->step);
   }
   std::string sentence;
   const double at = options_.start.value_or(options_.from);
@@ -70,7 +70,7 @@ void Continuation::begin() {
   e.point.label.clear();
   if (options_.resume && (!arcs() || options_.resume->direction.size() == e.tangent.size())) return take_up(std::move(e), *options_.resume);
   if (e.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop) return end(Status::converged, "the starting state is unstable");
-  ContactSet closed = closed_contacts(newton_.energy(), e.point.state);
+  ContactSet closed = closed_contacts(newton_.energy(), e);
   const int negative = e.point.stability.negative;
   const Direction direction = towards_end(e);
   set_out({.at = std::move(e), .negative = negative, .closed = std::move(closed)}, direction);
@@ -119,7 +119,8 @@ void Continuation::show(Waypoint waypoint) {
   }
   for (Event& event : waypoint.events) {
     event.at.point.resume = waypoint.at.point.resume;
-    const bool located = event.kind == EventKind::limit ? options_.limits : event.kind == EventKind::branch ? options_.branch_points : true;
+    const bool located = event.kind == EventKind::limit ? options_.limits : event.kind == EventKind::branch ? options_.branch_points
+                       : event.kind == EventKind::contact ? options_.contacts : true;
     if (event.kind == EventKind::branch && meets_known(waypoint, event)) return;
     if (located) emit(event);
     else emit(waypoint.at.point);
@@ -186,7 +187,7 @@ void Continuation::jump(const Event& event) {
 
 // The path goes on from where it has fallen to.
 void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
-  ContactSet closed = closed_contacts(newton_.energy(), at.point.state);
+  ContactSet closed = closed_contacts(newton_.energy(), at);
   set_out({.at = at, .negative = at.point.stability.negative, .closed = std::move(closed)}, towards_end(at));
   at.point.resume = resume_here({at});
   emit_landing(std::move(at.point), what, before, parent);

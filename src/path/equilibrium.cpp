@@ -5,6 +5,7 @@
 #include "path/arc.hpp"
 #include "path/contact_event.hpp"
 #include "path/limits.hpp"
+#include "path/push.hpp"
 #include "solve/contact_equilibrium.hpp"
 
 #include <algorithm>
@@ -140,6 +141,13 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
   if (left_out > 0) names.push_back("and " + std::to_string(left_out) + " more " + (model.bodies.empty() ? "particles" : "particles and bodies"));
 }
 
+// Whether some attract each other: where what pushes and pulls cancels there is no force, and yet it is bound.
+bool attracts(const Model& model) {
+  return std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.law == PairContact::Law::lj; }) ||
+         std::any_of(model.rounded.begin(), model.rounded.end(), [](const RoundedPair& r) { return r.kernel.attraction != 0; }) ||
+         std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& w) { return w.kernel.attraction != 0; });
+}
+
 // Whether contacts are made from one state to the other, and none is lost; what just touches at the first one is closed there.
 bool only_touches_more(Energy& energy, const State& from, const State& to) {
   ContactSet before = closed_contacts(energy, from);
@@ -176,7 +184,9 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     e.tangent = held.tangent(state, e.zero_modes).q;
     return e;
   }
-  const Inertia inertia = newton.factors().inertia();
+  Inertia inertia = newton.factors().inertia();
+  const bool slack = energy.slack() && may_touch(energy.model()) && !attracts(energy.model());
+  if (slack) inertia.zero += inertia.negative, inertia.negative = 0;            // what forces that are none make of it
   s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
   name_idle(energy, s.zero_modes);
   bool named = true;
@@ -187,6 +197,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   }
   s.critical = named ? 0 : inertia.zero;
   s.stable = s.negative == 0 && named;
+  e.slack = slack;
   if (inertia.zero > 0) newton.factors().factorize_holding(e.zero_modes);   // else there is a factor that has just told so
   e.tangent = newton.factors().solve_holding(-energy.load_derivative());
   // Where f·H⁻¹f < 0, f = −∂g/∂λ of the loads, one of the negative directions is one on which they do work.
@@ -199,6 +210,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
 }
 
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
+  if (a.slack && b.slack) return true;
   const Vector moved = energy.kinematics().difference(a.point.state, b.point.state);
   const double change = b.point.state.load_factor - a.point.state.load_factor;
   const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
@@ -235,6 +247,11 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     if (energy.passage(start, predicted) < 1) predicted = driven;
   }
   State state = predicted;
+  if (from.slack && !correct) {
+    Report pushed = push_aside(newton, driven, driven_way(energy, load_factor - start.load_factor), state);
+    if (pushed.converged() && energy.passage(start, state) == 1) return assess(newton, state, pushed);
+    state = predicted;
+  }
   Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   const bool meets = may_touch(energy.model());
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {

@@ -12,6 +12,8 @@ struct Equilibrium {
   Eigen::MatrixXd zero_modes;          // orthonormal, dofs × count: rigid motions and symmetries that cost nothing
   std::vector<RigidMotion> motions = {};   // the rigid ones that they have been told to be
   EigenPairs lowest;                   // eigenpairs as far as they were asked for: where the search at a neighbour begins
+  /// Nothing bears a force, and something may touch: what floats is pushed as far as it must, and what touches it may as well not.
+  bool slack = false;
 };
 
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
@@ -26,7 +28,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 
 /// Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
 /// tell, but for a part (a branch that bends like a parabola into a limit point, from there to its vertex, has one half); and
-/// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect.
+/// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect. Two slack ones do.
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 
 /// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.

@@ -42,7 +42,7 @@ constexpr double least_cosine = 0.1;  // between the directions at two samples o
 /// A step and what happens on it.
 namespace branch {
 constexpr double coincide = 1e-10;  // of a segment: events that are at one place
-constexpr double least_past = 1e-7;  // of the way over which the other side of a contact is looked for
+constexpr double first_past = 1e-5, least_past = 1e-7;  // of the way over which the other side of a contact is looked for
 }
 
 /// Steps of arc length.
@@ -69,6 +69,7 @@ constexpr double standing = 1e-6;  // of the step: a corner may be where the bra
 namespace load_grid {
 constexpr int finest = 20;  // halvings
 constexpr std::int64_t whole = std::int64_t(1) << finest;
+constexpr double all_but_hit = 1e-12;  // of the range: a target so near to an event, but for the last one
 }
 
 /// Steps of the load factor.
@@ -109,15 +110,26 @@ constexpr double least_beside = 1e-12;  // … where that is more than rounding,
 constexpr double along_chord = 0.1;  // of the step: beyond its ends, where a gap that vanishes at one of them may be found
 constexpr std::size_t most_told = 4;  // names in one event
 constexpr int most_closing = 12;  // iterations that close a gap
+constexpr double next_to_none = 1e-14;  // of the size: a gap at which what floats just touches, above rounding
 constexpr double little = 1e-4;  // of the way: over which a gap's rate is taken
 }
 
 /// What comes after events.
 namespace continuation {
 constexpr double fall_beyond = 1e-3;  // of the range of load factors: where a fall begins
-constexpr double same_load = 1e-13;  // of the range: load factors that are one
+constexpr double same_load = 1e-9;  // of the range: load factors that are one, as exactly as events are located
 constexpr double same_point = 1e-6;  // of the structure's displacement scale: one branch point met twice
 constexpr double collapsed_bond = 1e-6;  // of the rest length: there its energy has a kink, and a branch its end
+}
+
+/// What floats.
+namespace push {
+constexpr double borne = 0.1;  // of what a residual may leave, by the ground
+constexpr double left = 1e-6;  // of what the ground bears: the place is as exact, in parts of the way …
+constexpr double stands = 1e-12;  // … or where a step is no longer
+constexpr double shortest = 1e-3;  // part of a step that is tried
+constexpr double freely = 0.9;  // of the way to where something would go through something
+constexpr int most_iterations = 100, patience = 3;  // an overlap shrinks to a third a step; so many without half the force: something is caught
 }
 
 /// Falls.

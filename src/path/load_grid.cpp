@@ -28,7 +28,8 @@ void LoadGrid::arrive() {
 
 void LoadGrid::restart(double load_factor, int halvings) {
   const double sign = targets_.empty() || targets_.back() > start_ ? 1 : -1;
-  while (!done() && sign * (target() - load_factor) <= 0) ++next_target_;
+  const double all_but = targets_.empty() ? 0.0 : load_grid::all_but_hit * std::abs(targets_.back() - targets_.front());
+  while (!done() && sign * (target() - load_factor) <= (next_target_ + 1 < targets_.size() ? all_but : 0.0)) ++next_target_;
   start_ = load_factor, done_ = 0, halvings_ = std::clamp(halvings, 0, load_grid::finest);
 }
 

@@ -58,7 +58,7 @@ std::optional<Waypoint> LoadSteps::next() {
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
   if (at_contact_) look_past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor));
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
-  if (c && grid_.halvings() < fine && may_touch(newton_.energy().model()) && !singular_ && bends(newton_.energy().kinematics(), current_, c->e, most_bend))
+  if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !(current_.slack && c->e.slack) && bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;

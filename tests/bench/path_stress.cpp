@@ -963,6 +963,43 @@ void grain_lid(Case& test) {
   test.expect(std::abs(found - top) <= of_states * r, [&] { return fmt::format("the topmost grain ends {:.2g} radii beside its place", (found - top) / r); });
 }
 
+// Grains in a row that nothing holds along it: a wall pushes them together, one after the other and without a force, until the last one meets
+// the other wall. Then they are Hertz's springs in series.
+void grain_floats(Case& test) {
+  Random& random = test.random;
+  const int grains = random.chance(0.3) ? 1 : random.whole(2, 6);
+  const double r = random.decades(1e-6, 1e3), E = random.decades(1e-3, 1e11);
+  const Place3 p = anywhere(random, random.chance(0.3), r, true);
+  std::vector<double> gaps;
+  for (int k = 0; k <= grains; ++k) gaps.push_back(random.between(0.02, 0.5) * r);
+  std::vector<Vec3> centers;
+  double place = 0;
+  for (int k = 0; k < grains; ++k) place += gaps[k] + r, centers.push_back(p.at(place, 0)), place += r;
+  place += gaps[grains];
+  double apart = 0;
+  for (const double gap : gaps) apart += gap;
+  const double squeeze = random.between(0.001, 0.02) * r, way_down = apart + squeeze;
+  std::vector<std::pair<std::string, double>> wanted;
+  double closed = 0;
+  for (const double gap : gaps) wanted.push_back({"contact", (closed += gap) / way_down});
+  File f = p.begin("Grains are pushed together");
+  f.list("grains").key("name", "grains").key("positions", centers).key("diameter", 2 * r).key("density", 1.0);
+  f.list("support").key("group", "grains").key("directions", p.letter(1) + p.letter(2));
+  if (grains > 1) f.list("contact").raw("between = [\"grains\", \"grains\"]").key("effective_modulus", E);
+  f.list("wall").key("name", "piston").key("shape", "plane").key("point", p.at(0, 0)).key("normal", p.along(1, 0)).key("effective_modulus", E)
+      .key("displacement", p.along(way_down, 0));
+  f.list("wall").key("name", "end").key("shape", "plane").key("point", p.at(place, 0)).key("normal", p.along(-1, 0)).key("effective_modulus", E);
+  const Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200), .to = 1,
+                .when_unstable = "jump"};
+  const Traced t = test.trace(f, way, "path");
+  if (!test.reaches(t, 1) || !test.has_events(t, wanted)) return;
+  test.index_is(t, 0);
+  const double springs = 2 / std::pow(r, 1.0 / 3) + (grains - 1) / std::pow(r / 2, 1.0 / 3);       // overlap = (3F/4E)^(2/3) R^(−1/3), in series
+  const double at_wall = squeeze / springs / std::pow(r, 1.0 / 3), last = place - r + at_wall;
+  const double found = (t.last().point.state.position.col(grains - 1) - p.origin).dot(p.along(1, 0));
+  test.expect(std::abs(found - last) <= of_states * r, [&] { return fmt::format("the last grain ends {:.2g} radii beside its place", (found - last) / r); });
+}
+
 /// A stack of boxes on a floor, a lid comes down flat: four corners at once.
 void box_lid(Case& test) {
   Random& random = test.random;
@@ -1328,7 +1365,7 @@ const std::vector<Family> families{
     {"column_straight", column_straight}, {"column_falls", column_falls}, {"column_branches", column_branches}, {"column_pushed", column_pushed},
     {"arch_sine", arch_sine}, {"arch_round", arch_round}, {"truss_arcs", truss_arcs}, {"truss_snaps", truss_snaps},
     {"events_truss", events_truss}, {"events_side", events_side}, {"ring_pressure", ring_pressure}, {"ring_side", ring_side},
-    {"grain_lid", grain_lid}, {"box_lid", box_lid}, {"column_stop", column_stop}, {"column_back", column_back},
+    {"grain_lid", grain_lid}, {"grain_floats", grain_floats}, {"box_lid", box_lid}, {"column_stop", column_stop}, {"column_back", column_back},
     {"events_column", events_column}, {"column_passes", column_passes}, {"two_beams", two_beams}, {"sheet_strip", sheet_strip},
     {"hard_lid", hard_lid}, {"ring_plates", ring_plates}, {"grain_heap", grain_heap}, {"box_tips", box_tips},
 };

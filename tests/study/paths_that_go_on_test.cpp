@@ -503,17 +503,48 @@ TEST_CASE("every fall of two beams has its event and loses energy", "[paths][jum
   }
 }
 
-// Not met yet: what one side alone touches should be carried along by it, at no force.
-TEST_CASE("a ball floats until it is touched", "[paths][free_ball][!shouldfail]") {
-  for (const int n : {3, 10, 17, 50}) {
-    const Run run("ball_between_two", {in_steps(n)});
-    CHECK_ENDS_AT(run, 1);
-    INFO(run.what << run.told());
-    CHECK(run.of("jump").empty());
-    REQUIRE(!run.path.empty());
-    CHECK(text_of(run.scratch / "out/log.txt").find("touches nothing") != std::string::npos);
-    CHECK(run.path.back()["negative"] == 0);
-    // In the end both press it alike, 1.7 apart: two overlaps of 0.15, U = 8/15 E √R δ^{5/2}, R = 1/4.
-    CHECK(run.path.back()["energy"] == Approx(2 * 8.0 / 15 * 0.5 * std::pow(0.15, 2.5)).epsilon(1e-9));
-  }
+// A wall or a grain pushes it at no force until the other side is met; then the row is pressed, and the ball is a pendulum upside down: it slips out.
+TEST_CASE("a ball floats until it is caught", "[paths][free_ball]") {
+  // 1.7 apart in the end: two overlaps of 0.15, U = 8/15 E √R δ^{5/2} each, R = 1/4.
+  const double pressed = 2 * 8.0 / 15 * 0.5 * std::pow(0.15, 2.5);
+  for (const int n : {3, 10, 17, 50})
+    for (const std::string& method : {by_arcs, by_load_steps}) {
+      const std::string contacts = "path.locate=[\"limit\",\"branch\",\"contact\"]";
+      const Run followed("ball_between_two", {in_steps(n), method, follows, contacts});
+      CHECK_ENDS_AT(followed, 1);
+      INFO(followed.what << followed.told());
+      REQUIRE(followed.events.size() == 2);
+      CHECK(followed.of("contact")[0]["lambda"] == Approx(1.0 / 3).epsilon(to_events));
+      CHECK(followed.of("contact")[1]["lambda"] == Approx(0.5).epsilon(to_events));
+      CHECK(followed.path.back()["negative"] == 1);
+      CHECK(followed.path.back()["energy"] == Approx(pressed).epsilon(1e-12));
+      const Run slips("ball_between_two", {in_steps(n), method, snaps, contacts});
+      if (method == by_load_steps) {                             // a fall ends where rounding leads it
+        CHECK_ENDS_AT(slips, 1);
+        falls_are_right(slips);
+        CHECK(slips.path.back()["energy"] <= 1e-30 * pressed);
+      }
+      const Run quiet("ball_between_two", {in_steps(n), method, snaps});
+      CHECK_ENDS_AT(quiet, 1);
+    }
+}
+
+// A wall pushes cubes that touch, but for the last one, towards another wall: they go as far as they must, and bear a force only from where all touch.
+TEST_CASE("loose cubes are pushed together at no force", "[paths][endless_loose_cubes]") {
+  const double squeezed = 0.01, force = squeezed / (2 / (4 * 70.0) + 4 / (4 * 40.0));       // four corners each: springs in series
+  for (const int n : {3, 10, 37})
+    for (const std::string& method : {by_arcs, by_load_steps}) {
+      const Run run("cubes_loose", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      INFO(run.what << run.told());
+      REQUIRE(run.events.size() == 2);
+      CHECK(run.of("contact")[0]["lambda"] == Approx(0.25).epsilon(to_events));
+      CHECK(run.of("contact")[1]["lambda"] == Approx(0.5).epsilon(to_events));
+      CHECK(run.path.back()["energy"] == Approx(force * squeezed / 2).epsilon(1e-9));
+      CHECK(run.path.back()["negative"] == 0);
+      const Run never("cubes_loose", {in_steps(n), method, "body.cube2.rounding_diameter=0.2"});
+      CHECK_ENDS_AT(never, 1);
+      CHECK(never.events.empty());
+      CHECK(never.path.back()["energy"] <= 1e-20 * force * squeezed);
+    }
 }
