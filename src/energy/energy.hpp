@@ -50,6 +50,8 @@ class Energy {
   /// slide on a plane. On the diagonal of hessian() they have |gᵢ|/2d, so that a step of Newton's method lets a grain
   /// fall by two diameters, or where no force acts on them the largest stiffness there is, so that they stay.
   const std::vector<int>& idle() const { return idle_; }
+  /// Free dofs of bodies, and of particles that no bond and no angle holds.
+  const std::vector<int>& loose() const { return loose_; }
   /// Grows by one whenever the pattern of the Hessian changes, with the candidates of contact.
   int pattern_version() const { return pattern_version_; }
   /// ∂g/∂λ (dofs): −F₁, what the driven points pull, and of walls, pressures and changes; exact.

@@ -216,23 +216,30 @@ std::optional<Equilibrium> pushed_until(Newton& newton, const ContactKey& key, c
   return {};
 }
 
-// The first of these contacts that are made on the way from a slack equilibrium, and those made together with it.
-ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet now, const std::vector<ContactKey>& made, const Equilibrium& a,
-                           const Equilibrium& b) {
+// The first of these contacts that are made on the way from a slack equilibrium, and those made together with it. What has been told before, and has come
+// apart since, is told again only where it is the last one, which catches what floats.
+ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet now, const ContactSet& before, const std::vector<ContactKey>& made,
+                           const Equilibrium& a, const Equilibrium& b) {
   const double from = a.point.state.load_factor, to = b.point.state.load_factor;
   std::vector<Equilibrium> at;
-  std::size_t first = 0;
+  double last = 0;
   for (const ContactKey& key : made) {
     const std::optional<State> ahead = where_tangent_closes(newton.energy(), key, a, b);
     std::optional<Equilibrium> e = pushed_until(newton, key, a, to, ahead ? ahead->load_factor : to);
     if (!e) return {};
     at.push_back(std::move(*e));
-    if (std::abs(at.back().point.state.load_factor - from) < std::abs(at[first].point.state.load_factor - from)) first = at.size() - 1;
+    last = std::max(last, std::abs(at.back().point.state.load_factor - from));
+  }
+  std::size_t first = made.size();
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    const double way = std::abs(at[k].point.state.load_factor - from);
+    if (before.count(made[k]) && way < (1 - contact_event::together_in_step) * last) now.insert(made[k]);
+    else if (first == made.size() || way < std::abs(at[first].point.state.load_factor - from)) first = k;
   }
   ContactChange change{true, segment.parameter(at[first].point.state), at[first], {}, {}};
   std::vector<ContactKey> together;
   for (const ContactKey& key : made)
-    if (gap(newton.energy(), key, change.at.point.state) <= contact_event::together * size_of(newton.energy().model(), key.particle)) together.push_back(key);
+    if (!now.count(key) && gap(newton.energy(), key, change.at.point.state) <= contact_event::together * size_of(newton.energy().model(), key.particle)) together.push_back(key);
   tell(newton, change, std::move(now), together, Vector::Zero(a.tangent.size()), 0, a.point.stability.negative);
   return change;
 }
@@ -273,7 +280,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     else toggle(now, key);                    // it changes at `a`, which is an event already, or fades out at the end of an edge
   }
   if (changed.empty()) return {};
-  if (a.slack) return first_pushed(newton, segment, std::move(now), changed, a, b);
+  if (a.slack) return first_pushed(newton, segment, std::move(now), before, changed, a, b);
   ContactChange change{true, segment.b, {}, {}, {}};
   std::optional<Equilibrium> at = b;          // what is known of it
   State found = b.point.state;

@@ -129,7 +129,8 @@ constexpr double left = 1e-6;  // of what the ground bears: the place is as exac
 constexpr double stands = 1e-12;  // … or where a step is no longer
 constexpr double shortest = 1e-3;  // part of a step that is tried
 constexpr double freely = 0.9;  // of the way to where something would go through something
-constexpr int most_iterations = 100, patience = 3;  // an overlap shrinks to a third a step; so many without half the force: something is caught
+constexpr int most_iterations = 100, patience = 3;  // an overlap shrinks to a third a step; so many without half the force: something is caught, …
+constexpr int most_in_row = 50;  // … or parts in a row move one after the other
 }
 
 /// Falls.

@@ -27,7 +27,7 @@ Report push_aside(Newton& newton, const State& from, double way, State& state) {
   Cholesky factor;
   int version = -1;
   double least = std::numeric_limits<double>::infinity();
-  const int patience = push::patience + static_cast<int>(energy.model().bodies.size());        // of a row of bodies one moves after the other
+  const int patience = push::patience + std::min(push::most_in_row, static_cast<int>(energy.loose().size()));
   for (int since = 0; report.iterations < push::most_iterations + patience && since < patience; ++report.iterations) {
     energy.evaluate(state);
     const Vector moved = kinematics.difference(from, state), force = energy.gradient() + ground * moved;
