@@ -77,8 +77,8 @@ class Energy {
   double force_scale() const { return force_scale_; }
   /// What that is taken to be at least, for where there is no force: rounding of what is stiffest.
   double force_floor() const { return force_floor_; }
-  /// Whether nothing at the evaluated state bears a force: each is less than a residual may leave.
-  bool slack() const { return force_scale_ <= 1e-7 * force_floor_; }
+  /// Whether nothing at the evaluated state bears a force: particles overlap by less than 1e-15 of their size then, bodies by 1e-12.
+  bool slack() const { return force_scale_ <= nothing * force_floor_; }
   /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
   double relative(const Vector& force) const;
 
@@ -125,6 +125,7 @@ class Energy {
   bool predicted_ = false;                                    // … which takes forces predicted from another state
   int pattern_version_ = 0;
   EnergyTerms terms_;
+  static constexpr double nothing = 1e-7;                     // of the floor: well above what residuals leave, 1e-10 of it
   double force_scale_ = 0, force_floor_ = 0;
   std::vector<int> loose_, idle_;                             // free dofs of single particles and bodies; those without stiffness
 };

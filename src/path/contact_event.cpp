@@ -360,7 +360,8 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
       const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
       const bool closed = before.count(key) > 0;
       const bool at = std::abs(here) <= contact_event::together * size_of(model, key.particle);
-      if (a.slack ? closed || at || here < 0 : at ? (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle) : (here < 0) != closed) continue;
+      const bool stays = (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle);
+      if (a.slack ? closed || at || here < 0 : at ? stays : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);
       if (part >= 0 && part <= 1.5 && part < least) least = part, first = key;
     }
