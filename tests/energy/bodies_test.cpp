@@ -58,15 +58,6 @@ Model crowd(RoundedFormulation formulation) {
   return m;
 }
 
-State jolted(const Energy& energy, double load_factor, double size) {
-  State state = energy.model().start;
-  energy.kinematics().prescribe(state, load_factor);
-  Vector step(energy.dofs());
-  for (Eigen::Index k = 0; k < step.size(); ++k) step[k] = size * std::sin(1.7 * static_cast<double>(k));
-  energy.kinematics().retract(state, step);
-  return state;
-}
-
 const double accuracy_of_bodies = 200 * std::pow(epsilon, 0.8);
 
 Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
@@ -77,7 +68,7 @@ TEST_CASE("with bodies the assembled energy agrees with its differences", "[ener
   const RoundedFormulation formulation = GENERATE(RoundedFormulation::multi, RoundedFormulation::closest);
   const Model model = crowd(formulation);
   Energy energy(model);
-  const State state = jolted(energy, 0.7, 0.03);
+  const State state = bent(energy, 0.7, 0.03);
   energy.evaluate(state);
   const Vector g = energy.gradient();
   const Eigen::MatrixXd H = whole(energy.hessian());
@@ -119,7 +110,7 @@ TEST_CASE("with bodies ∂g/∂λ agrees with differences in the load factor", "
   if (clamp) model.supports.push_back(clamped);
   Energy energy(model);
   CHECK(energy.dofs() == 5 * 3 + (clamp ? 0 : 6) + 0 + 4 + 6);
-  const State state = jolted(energy, 0.4, 0.02);
+  const State state = bent(energy, 0.4, 0.02);
   energy.evaluate(state);
   const Vector exact = energy.load_derivative();
   const double scale = whole(energy.hessian()).norm();
@@ -130,7 +121,7 @@ TEST_CASE("with bodies ∂g/∂λ agrees with differences in the load factor", "
 TEST_CASE("coordinates about another state have derivatives of their own", "[energy][bodies]") {
   const Model model = crowd(RoundedFormulation::closest);
   Energy energy(model);
-  const State origin = jolted(energy, 0.7, 0);
+  const State origin = bent(energy, 0.7, 0);
   Vector y(energy.dofs());
   for (Eigen::Index k = 0; k < y.size(); ++k) y[k] = 0.05 * std::sin(1.3 * static_cast<double>(k));
   y *= 1 + 0.1 * GENERATE(0, 1, 2);
@@ -179,7 +170,7 @@ TEST_CASE("turned as a whole, bodies have the same energy and turned forces", "[
   Model model = crowd(formulation);
   model.walls.clear(), model.loads.clear(), model.gravity.clear();
   Energy energy(model);
-  const State state = jolted(energy, 0, 0.03);
+  const State state = bent(energy, 0, 0.03);
   const Eigen::Quaterniond q = turn(Vec3(0.7, -1.1, 0.4));
   State turned = state;
   for (int p = 0; p < model.particles(); ++p) turned.set(p, {q * Vec3(state.position.col(p)), q * Vec3(state.tail.col(p))});
