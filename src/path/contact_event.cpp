@@ -361,7 +361,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
       const bool closed = before.count(key) > 0;
       const bool at = std::abs(here) <= contact_event::together * size_of(model, key.particle);
       const bool stays = (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle);
-      if (a.slack ? closed || at || here < 0 : at ? stays : (here < 0) != closed) continue;
+      if (at ? stays : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);
       if (part >= 0 && part <= 1.5 && part < least) least = part, first = key;
     }
@@ -383,9 +383,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
     const bool closed = before.count(key) > 0;
     if (key == first || !std::isfinite(here)) continue;
     if (std::abs(here) > contact_event::together * size_of(model, key.particle)) {
-      if ((here < 0) != closed && !(a.slack && closed)) return {};
-    } else if (a.slack) {
-      if (!closed) changed.push_back(key);
+      if ((here < 0) != closed) return {};
     } else if ((gap(energy, key, ahead) < 0) != closed) {
       changed.push_back(key);
     }
