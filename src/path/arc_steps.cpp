@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace elamin {
@@ -86,14 +87,22 @@ std::optional<Waypoint> ArcSteps::next() {
   const bool meets = may_touch(newton_.energy().model());
   int refused = 0, shifts = 0;
   double natural = current_.slack ? 1 : arc_steps::first_natural;       // where nothing bears a force there is no arc to measure
+  std::optional<Direction> along;
+  bool looked = false;
   step_ = std::min(step_, longest());
   for (double s = step_; s >= shortest_ && !interrupted();) {
     double better = 0;
     std::optional<Candidate> c;
-    if (!current_.slack) c = attempt(s, shifts, better, why);
+    if (!current_.slack) c = attempt(s, direction_, shifts, better, why);
+    if (!c && better == 0 && !just_made_.empty()) {
+      if (!looked) along = along_contact();
+      looked = true;
+      if (along && (c = attempt(s, *along, shifts, better, why))) direction_ = *along;
+    }
     if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (current_.slack || at_contact_ || refused >= arc_steps::refused_first)) {
       const double target = next_load(natural);
       c = reach_load(current_, target, why);
+      if (c && natural >= arc_steps::least_bent && over_bend(*c)) c.reset(), why = "the branch bends too much to be told from another one";
       if (c && c->events.empty() && std::binary_search(options_.stops.begin(), options_.stops.end(), target)) c->stop = target;
       natural /= 4;
     }
@@ -111,12 +120,29 @@ std::optional<Waypoint> ArcSteps::next() {
   return {};
 }
 
+// Whether the contacts that have just been made are closed there.
+bool ArcSteps::still_closed(const Equilibrium& e) {
+  const ContactSet closed = closed_contacts(newton_.energy(), e);
+  return std::all_of(just_made_.begin(), just_made_.end(), [&](const ContactKey& key) { return closed.count(key) > 0; });
+}
+
+// Whether a step of the load factor goes over a bend; behind a contact that has just changed the tangent is another one.
+bool ArcSteps::over_bend(const Candidate& c) {
+  if (current_.slack || !at_contact_) return false;
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const double way = std::abs(c.e.point.state.load_factor - current_.point.state.load_factor);
+  const auto over = [&](const Equilibrium& from) { return bends(kinematics, from, c.e, load_steps::most_bend); };
+  return over(current_) && over(past_contact(load_steps::past_contact * way));
+}
+
 // A step of the length s and what happens on it; else `better` is a length that suits the step, 0: a shorter one.
-std::optional<Branch::Candidate> ArcSteps::attempt(double s, int& shifts, double& better, std::string& why) {
-  const Arc arc(newton_, current_, direction_, metric_);
+std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& towards, int& shifts, double& better, std::string& why) {
+  const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
-  const bool corner = !c && (c = reach_corner(arc, s)).has_value();
+  const bool along = &towards != &direction_;
+  const bool corner = !c && !along && (c = reach_corner(arc, s)).has_value();
   if (!c) return {};
+  if (along && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
   if (!corner) {
     const double change = std::abs(c->e.point.state.load_factor - current_.point.state.load_factor);
     if (change > 1.5 * options_.load_step) return better = s * std::clamp(0.9 * std::sqrt(options_.load_step / change), 0.1, 0.9), std::nullopt;
@@ -148,11 +174,12 @@ std::optional<Branch::Candidate> ArcSteps::reach(const Arc& arc, double s, std::
 }
 
 bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const {
+  const Direction& start = arc.direction();
   if (arc.distance(e.point.state) > arc_steps::largest_departure * s) return why = "the corrector moved further than the predictor", false;
-  const Direction d = direction_of(e, metric_, direction_);
-  if (cosine(d, direction_, metric_) < std::cos(arc_steps::largest_angle)) return why = "the branch turns too sharply", false;
-  const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state), mean = d.x + direction_.x;
-  const double load = e.point.state.load_factor - current_.point.state.load_factor, mean_load = d.load + direction_.load;
+  const Direction d = direction_of(e, metric_, start);
+  if (cosine(d, start, metric_) < std::cos(arc_steps::largest_angle)) return why = "the branch turns too sharply", false;
+  const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state), mean = d.x + start.x;
+  const double load = e.point.state.load_factor - current_.point.state.load_factor, mean_load = d.load + start.load;
   const double part = metric_.dot(x, load, mean, mean_load) / metric_.dot(mean, mean_load, mean, mean_load);
   const Vector off = x - part * mean;
   const double off_load = load - part * mean_load;
@@ -165,7 +192,7 @@ bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, s
 bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
   const Equilibrium near = arc.at(arc_steps::just_beyond * c.parameter, current_);
   if (!near.point.report.converged()) return false;
-  const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, direction_).load >= 0; };
+  const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, arc.direction()).load >= 0; };
   if (near.point.stability.negative != c.e.point.stability.negative || rises(near) != rises(c.e)) return false;
   negative_ = near.point.stability.negative, sign_ = rises(near) ? 1 : -1;
   return true;
@@ -197,7 +224,7 @@ void ArcSteps::carry_neutral(Equilibrium& e) {
 // Or, where the branch may end or turn in a corner, the corner.
 std::optional<Branch::Candidate> ArcSteps::reach_corner(const Arc& arc, double s) {
   if (!contacts_) return {};
-  std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * direction_.x, s * direction_.load);
+  std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * arc.direction().x, s * arc.direction().load);
   if (!change) return {};
   const double t = arc.position(change->at.point.state);
   if (!(t >= -arc_steps::standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(arc_steps::largest_departure * t, arc_steps::standing * s)) return {};
@@ -282,6 +309,9 @@ Waypoint ArcSteps::accept(Candidate c) {
   } else {
     rotate(c);
   }
+  just_made_.clear();
+  if (event && (event->kind == EventKind::contact || corner) && !c.e.slack)
+    std::set_difference(event->closed.begin(), event->closed.end(), closed_.begin(), closed_.end(), std::back_inserter(just_made_));
   take(c);
   if (corner) step_ = std::min(step_, longest());
   else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, arc_steps::least_part * step_);
@@ -304,6 +334,14 @@ void ArcSteps::rotate(const Candidate& c) {
   const double ease = std::exp2((arc_steps::wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
   step_ = c.parameter * std::clamp(std::min(ease, arc_steps::wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
   weigh(c.e);
+}
+
+// How the branch goes on behind the contacts that have just been made, if they are stiff.
+std::optional<Direction> ArcSteps::along_contact() {
+  const std::optional<Rates> rates = along_contacts(newton_, current_, just_made_, metric_.load);
+  if (!rates) return {};
+  const double size = std::sqrt(metric_.dot(rates->x, rates->load, rates->x, rates->load));
+  return Direction{rates->x / size, rates->load / size};
 }
 
 // Positions must not weigh less than the load factor, or the steps would be load steps: L ≤ Λ |dx/dλ|.

@@ -27,8 +27,8 @@ Metric metric_for(const Energy& energy, const Equilibrium& start, double load_ra
 /// chord is parallel to the sum of the tangents at a and b, as it is, up to the third order in the step, on a smooth curve, and the Morse index and the sign
 /// of dλ/ds are the same at a and b or explained (see Branch).
 ///
-/// Where contacts are made that are much stiffer than what they press on, the branch has corners that no step of arc length resolves: there
-/// steps of the load factor go on, in the direction in which it was going, as long as they are needed.
+/// Where contacts are made that are much stiffer than what they press on, the branch has corners that no step of arc length along its tangent resolves:
+/// there a step goes along the contact as if it were rigid (along_contacts), or steps of the load factor go on, in the direction in which it was going.
 class ArcSteps final : public Branch {
  public:
   ArcSteps(Newton& newton, Departure from, Direction direction, Metric metric, ArcOptions options);
@@ -46,7 +46,9 @@ class ArcSteps final : public Branch {
 
  private:
   double longest() const;
-  std::optional<Candidate> attempt(double s, int& shifts, double& better, std::string& why);
+  bool still_closed(const Equilibrium& e);
+  bool over_bend(const Candidate& c);
+  std::optional<Candidate> attempt(double s, const Direction& towards, int& shifts, double& better, std::string& why);
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   std::optional<Candidate> reach_corner(const Arc& arc, double s);
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
@@ -58,11 +60,13 @@ class ArcSteps final : public Branch {
   Equilibrium at_load(const Equilibrium& from, double load_factor);
   Waypoint accept(Candidate c);
   void rotate(const Candidate& c);
+  std::optional<Direction> along_contact();
   void weigh(const Equilibrium& e);
 
   Metric metric_;
   ArcOptions options_;
   Direction direction_;
+  std::vector<ContactKey> just_made_;  // where it stands
   std::optional<double> last_stop_;    // where it stands, if at a stop
   double step_, shortest_, least_length_, taken_ = 0;
 };

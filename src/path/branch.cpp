@@ -34,15 +34,16 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
   return c;
 }
 
-void Branch::look_past_contact(double way) {
-  at_contact_ = false;
+Equilibrium Branch::past_contact(double way) {
   for (double part = 1; part >= branch::least_past; part /= 16) {
     const Equilibrium e = continue_to(newton_, current_, current_.point.state.load_factor + sign_ * part * way);
     if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
     if (closed_contacts(newton_.energy(), e) != closed_) continue;
-    current_.tangent = e.tangent;
-    return;
+    Equilibrium past = current_;
+    past.tangent = e.tangent;
+    return past;
   }
+  return current_;
 }
 
 Segment Branch::beside(Segment segment, const Candidate& c) const {

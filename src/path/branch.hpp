@@ -62,8 +62,8 @@ class Branch {
 
   /// The equilibrium at a load factor, if it is on the same branch, or what happens before.
   std::optional<Candidate> reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
-  /// Behind a contact that has just changed the tangent is another one: that of an equilibrium which is farther by `way` of the load factor, or less.
-  void look_past_contact(double way);
+  /// Where the branch is, with the tangent behind a contact that has just changed: that of an equilibrium which is farther by `way` of the load factor, or less.
+  Equilibrium past_contact(double way);
   /// Equilibria between here and the candidate lie beside the chord.
   Segment beside(Segment segment, const Candidate& c) const;
   Candidate with_contact(Candidate c, ContactChange change) const;

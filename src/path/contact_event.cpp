@@ -84,8 +84,8 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
     const double r = rate(key, tangent, 1, small) * (change.after.count(key) ? -1 : 1);       // > 0: to the side beyond
     ++(r > 0 ? ahead : back);
   }
-  const int came = load_change < 0 ? -1 : 1;
-  change.onward = back == 0 ? came : ahead == 0 ? -came : 0;
+  const bool free = change.beyond->point.stability.zero != change.at.point.stability.zero;      // on one side: no load factor tells where it goes
+  if (ahead == 0 || back == 0) change.onward = free ? (load_change < 0 ? -1 : 1) : back == 0 ? 1 : -1;
 }
 
 // Completes the equilibrium at which these contacts change; negative: the Morse index where the way begins.
@@ -103,9 +103,14 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vect
   if (sentences.size() > contact_event::most_told) change.what += fmt::format(" and {} more", sentences.size() - contact_event::most_told);
   change.after = std::move(now);
   // What particles do to each other begins from nothing. Where they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses
-  // zero nearer to the event than rounding lets it be seen.
-  if (change.at.point.stability.negative == negative) std::erase_if(here, [](const ContactKey& key) { return key.feature < 0; });
-  if (!here.empty() && !change.at.slack) look_both_ways(newton, change, here, way, load_change);
+  // zero nearer to the event than rounding lets it be seen: it is taken where they are lost, given where they are made.
+  const int at = change.at.point.stability.negative;
+  if (at == negative) std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (negative == 0 || !change.after.count(key)); });
+  if (here.empty() || change.at.slack) return;
+  const Equilibrium open = change.at;
+  look_both_ways(newton, change, here, way, load_change);
+  const bool bodies = std::any_of(here.begin(), here.end(), [](const ContactKey& key) { return key.feature >= 0; });
+  if (change.beyond && !bodies && at == negative && change.beyond->point.stability.negative == at) change.at = open, change.beyond.reset(), change.onward = 0;
 }
 
 // The direction in which a gap grows: of a contact of bodies with its point, of particles at their centres.
@@ -390,6 +395,26 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   }
   tell(newton, change, before, changed, way, load_change, a.point.stability.negative);
   return change;
+}
+
+std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load) {
+  Energy& energy = newton.energy();
+  Factors& factors = newton.factors();
+  const Eigen::Index m = static_cast<Eigen::Index>(made.size());
+  Eigen::MatrixXd normals(at.tangent.size(), m), yields(at.tangent.size(), m);
+  Vector closing(m), row;
+  energy.evaluate(at.point.state);
+  if (!factors.factorize_holding(at.zero_modes)) return {};
+  for (Eigen::Index k = 0; k < m; ++k) {
+    double by_load = 0;
+    if (!slope(energy, made[static_cast<std::size_t>(k)], at.point.state, load, row, by_load)) return {};
+    normals.col(k) = row, yields.col(k) = factors.solve_holding(row);
+    closing[k] = -(row.dot(at.tangent) + by_load);
+  }
+  const Vector force = solved(normals.transpose() * yields, closing);      // per λ' = 1
+  if (!force.allFinite() || force.minCoeff() * force.maxCoeff() <= 0) return {};
+  const double sense = force[0] > 0 ? 1 : -1;
+  return Rates{sense * (at.tangent + yields * force), sense};
 }
 
 }  // namespace elamin

@@ -45,4 +45,12 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
 std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
 
+/// How a branch goes on behind an equilibrium at which these contacts have just been made, as if they were rigid: the rates of what is free (dofs) and of the
+/// load factor, ±1, at which the gaps n_i stay closed and the contact forces F grow from nothing,
+///   H x' + ∂g/∂λ λ' = Σ n_i F_i',   n_i·x' + ∂gap_i/∂λ λ' = 0,   F_i' > 0.
+/// Where nᵀH⁻¹n < 0, as on an unstable branch, the load factor turns. Nothing where some contacts would open again.
+/// `load`: the scale of the load factor. Behind contacts much stiffer than what they press on the branch takes this direction after an overlap that is next to nothing.
+struct Rates { Vector x; double load; };
+std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load);
+
 }  // namespace elamin

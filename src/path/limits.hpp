@@ -57,6 +57,7 @@ constexpr double just_beyond = 0.125;  // of a first step from a branch point: w
 constexpr double same_end = 1e-3;  // of the way: an event leads there
 constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step: the longest and the shortest that is tried over a contact …
 constexpr int refused_first = 6;  // … where so many of arc length have been refused, or right behind a contact
+constexpr double least_bent = 1e-6;  // … and the shortest that bends are a reason to shorten
 constexpr double same_mode = 0.9;  // cosine between a neutral mode and what it has become a step further
 constexpr double next_to_nothing = 1e-6;  // of the next stiffness
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance

@@ -56,7 +56,7 @@ std::optional<Waypoint> LoadSteps::next() {
 
 // Right behind a branch point its critical modes are free, or held where that leads to another branch.
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
-  if (at_contact_) look_past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor));
+  if (at_contact_) current_ = past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor)), at_contact_ = false;
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
   if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !(current_.slack && c->e.slack) && bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
