@@ -54,16 +54,25 @@ void PairForces::put(const PairList::Pair& pair) {
   to.coefficient.push_back(DampedContact(model_.contacts[t].damping, mi * mj / (mi + mj), stiffness, ri * (rj / (ri + rj))).coefficient);
 }
 
+void PairForces::Cohesive::clear() {
+  first.clear(), second.clear();
+  for (std::vector<double>* column : {&cutoff, &epsilon, &sigma, &inner, &force, &a, &b}) column->clear();
+}
+
 void PairForces::find(const Columns& x) {
   list_.find(x);
   for (Hertz& h : hertz_) h.first.clear(), h.second.clear(), h.reach.clear(), h.stiffness.clear(), h.coefficient.clear();
   for (const PairList::Pair& p : list_.hertz()) put(p);
-  cohesive_.first.clear(), cohesive_.second.clear();
-  cohesive_.cutoff.clear(), cohesive_.epsilon.clear(), cohesive_.sigma.clear();
+  cohesive_.clear(), smooth_.clear();
   for (const PairList::Pair& p : list_.lj()) {
     const PairContact& c = model_.contacts[p.table];
-    cohesive_.first.push_back(p.first), cohesive_.second.push_back(p.second);
-    cohesive_.cutoff.push_back(c.cutoff), cohesive_.epsilon.push_back(c.epsilon), cohesive_.sigma.push_back(c.sigma);
+    const bool smooth = c.cutoff_style == CutoffStyle::smooth;
+    Cohesive& to = smooth ? smooth_ : cohesive_;                // shifted: the same force
+    to.first.push_back(p.first), to.second.push_back(p.second);
+    to.cutoff.push_back(c.cutoff), to.epsilon.push_back(c.epsilon), to.sigma.push_back(c.sigma);
+    if (!smooth) continue;
+    const Cohesion::Shell t = Cohesion{c.epsilon, c.sigma, c.cutoff, c.cutoff_style, c.inner_cutoff}.shell();
+    to.inner.push_back(c.inner_cutoff), to.force.push_back(t.force), to.a.push_back(t.a), to.b.push_back(t.b);
   }
   closed_.resize(std::max(list_.hertz().size(), list_.lj().size()) + 8);
 }
@@ -76,7 +85,8 @@ void PairForces::add(const Movement& movement, Pushes& pushes) {
     else if (damps(d)) add<true, false>(hertz_[t], d, movement, pushes);
     else add<false, false>(hertz_[t], d, movement, pushes);
   }
-  if (!cohesive_.first.empty()) add(cohesive_, movement, pushes);
+  if (!cohesive_.first.empty()) add<false>(cohesive_, movement, pushes);
+  if (!smooth_.first.empty()) add<true>(smooth_, movement, pushes);
 }
 
 int PairForces::find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& reach,
@@ -137,6 +147,7 @@ void PairForces::add(const Hertz& pairs, const ContactDamping& damping, const Mo
   }
 }
 
+template <bool smooth>
 void PairForces::add(const Cohesive& pairs, const Movement& movement, Pushes& pushes) {
   const int count = find_closed(pairs.first, pairs.second, pairs.cutoff, movement.position);
   for (int at = 0; at < count; at += 4) {
@@ -144,7 +155,16 @@ void PairForces::add(const Cohesive& pairs, const Movement& movement, Pushes& pu
     const int first[4] = {pairs.first[c[0]], pairs.first[c[1]], pairs.first[c[2]], pairs.first[c[3]]};
     const int second[4] = {pairs.second[c[0]], pairs.second[c[1]], pairs.second[c[2]], pairs.second[c[3]]};
     const Triple<Lanes> d = differences(movement.position, first, second);
-    const Lanes f = Cohesion::push(dot(d, d), Lanes::gather(pairs.epsilon.data(), c), Lanes::gather(pairs.sigma.data(), c));
+    const Lanes q = dot(d, d), epsilon = Lanes::gather(pairs.epsilon.data(), c), sigma = Lanes::gather(pairs.sigma.data(), c);
+    Lanes f;
+    if constexpr (smooth) {                                     // the shell's force, and what the other adds to it inside
+      const Lanes r = sqrt(q), inner = Lanes::gather(pairs.inner.data(), c), cutoff = Lanes::gather(pairs.cutoff.data(), c), within = min(r, inner);
+      const Lanes u = min(max(cutoff - r, Lanes(0.0)), cutoff - inner);
+      const Lanes shell = u * u * (Lanes::gather(pairs.a.data(), c) + Lanes::gather(pairs.b.data(), c) * u);
+      f = (Cohesion::push(within * within, epsilon, sigma) * within - Lanes::gather(pairs.force.data(), c) + shell) / r;
+    } else {
+      f = Cohesion::push(q, epsilon, sigma);
+    }
     push(pushes.force, f * d, first, second, std::min(count - at, 4));
   }
 }

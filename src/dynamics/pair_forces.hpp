@@ -39,10 +39,13 @@ class PairForces {
   struct Cohesive {
     std::vector<int> first, second;
     std::vector<double> cutoff, epsilon, sigma;
+    std::vector<double> inner, force, a, b;     // see Cohesion::Shell; of smooth ones alone
+    void clear();
   };
   void put(const PairList::Pair& pair);
   template <bool damped, bool rubs>
   void add(const Hertz& pairs, const ContactDamping& damping, const Movement& movement, Pushes& pushes);
+  template <bool smooth>
   void add(const Cohesive& pairs, const Movement& movement, Pushes& pushes);
   /// The indices of those pairs that are nearer than `reach`, in closed_, and how many; some more behind them may be read.
   int find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& reach, const Rows& x);
@@ -51,7 +54,7 @@ class PairForces {
   PairList list_;
   bool damped_ = false, rubs_ = false;
   std::vector<Hertz> hertz_;                    // of every table
-  Cohesive cohesive_;
+  Cohesive cohesive_, smooth_;
   std::vector<double> radius_;                  // of every particle
   std::vector<int> closed_;
 };

@@ -140,7 +140,7 @@ Parts contact_group(const Model& model, const Kinematics& kinematics, const Neig
 Parts cohesion_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours) {
   return pair_groups<Cohesion>(model, kinematics, neighbours.lj(), [&](int i, int j) {
     const PairContact& t = model.contacts[neighbours.rules().lj(i, j)];
-    return Cohesion{t.epsilon, t.sigma, t.cutoff};
+    return Cohesion{t.epsilon, t.sigma, t.cutoff, t.cutoff_style, t.inner_cutoff};
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // A structure made of glued particles: what there is, how it is held and loaded. No mathematics, no input.
+#include "laws/cohesion.hpp"
 #include "laws/region.hpp"
 #include "laws/rounded/kernel.hpp"
 #include "laws/section.hpp"
@@ -130,6 +131,8 @@ struct PairContact {
   Law law = Law::hertz;
   double effective_modulus = 0;                 // hertz: E_eff; 0: no contact
   double epsilon = 0, sigma = 0, cutoff = 0;    // lj
+  CutoffStyle cutoff_style = CutoffStyle::cut;
+  double inner_cutoff = 0;                      // lj, smooth
   std::optional<int> exclude_bonds;             // pairs this many bonds apart or nearer feel nothing; see Energy
   bool hard = false;                            // hertz: impenetrable, gap ≥ 0, instead of elastic
   ContactDamping damping = {};

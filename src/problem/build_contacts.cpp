@@ -55,6 +55,7 @@ class ContactBuilder {
     if (t.law == "lj") {
       c.law = PairContact::Law::lj;
       c.epsilon = *t.epsilon, c.sigma = *t.sigma, c.cutoff = *t.cutoff;
+      c.cutoff_style = t.cutoff_style, c.inner_cutoff = t.inner_cutoff.value_or(0);
     } else {
       c.hard = t.hard, c.damping = damping_of(t.damping);
       c.effective_modulus = t.hard ? 0 : effective_modulus(t);

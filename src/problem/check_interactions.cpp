@@ -57,6 +57,9 @@ class CheckInteractions {
   void check(ContactTable& c) {
     const bool whole = !c.place.broken;
     names_.refer(c.place, "between", c.between);
+    if (whole && c.inner_cutoff && *c.inner_cutoff >= *c.cutoff)
+      mistakes_.add(c.place, "inner_cutoff", fmt::format("is {}, and cutoff is {}; the shell in which the force goes to zero ends there, and begins before",
+                                                         *c.inner_cutoff, *c.cutoff));
     if (!whole || c.law != "hertz") return;
     damping(c.place, c.damping);
     if (c.hard) return hard(c.place);

@@ -41,7 +41,8 @@ struct ContactTable {
   std::vector<double> youngs_modulus, poissons_ratio;   // one number, or of unlike materials two
   std::optional<double> effective_modulus;
   std::optional<int> exclude_bonds;
-  std::optional<double> epsilon, sigma, cutoff;
+  std::optional<double> epsilon, sigma, cutoff, inner_cutoff;
+  CutoffStyle cutoff_style = CutoffStyle::cut;
   bool hard = false;                            // hertz: impenetrable instead of elastic
   DampingKeys damping;
   RoundedKeys rounded;

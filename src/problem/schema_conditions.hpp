@@ -177,7 +177,7 @@ template <class IO> void describe(IO& io, ContactTable& t) {
   const auto rounded = {"k_n", "k_na", "formulation", "kernel", "delta_ua", "mu", "c_n", "c_t", "slip"};
   if (t.law == "rounded") {
     const std::string has = "law \"rounded\", which has k_n, k_na, cutoff, formulation, kernel, delta_ua, mu, c_n, c_t, slip and damping";
-    foreign(hertz, has), foreign({"epsilon", "sigma", "exclude_bonds"}, has);
+    foreign(hertz, has), foreign({"epsilon", "sigma", "cutoff_style", "inner_cutoff", "exclude_bonds"}, has);
     return describe_rounded(io, t);
   }
   if (t.law == "hertz") {
@@ -185,14 +185,17 @@ template <class IO> void describe(IO& io, ContactTable& t) {
     io.one_or_two("poissons_ratio", t.poissons_ratio, range::poissons_ratio);
     io.may("effective_modulus", t.effective_modulus, range::not_negative);
     const std::string has = "law \"hertz\", which has youngs_modulus, poissons_ratio, effective_modulus, hard, damping and exclude_bonds";
-    foreign({"epsilon", "sigma", "cutoff"}, has), foreign(rounded, has);
+    foreign({"epsilon", "sigma", "cutoff", "cutoff_style", "inner_cutoff"}, has), foreign(rounded, has);
     io.may("hard", t.hard);
     describe_damping(io, t.damping);
   } else {
     io.must("epsilon", t.epsilon, range::not_negative);
     io.must("sigma", t.sigma, range::positive);
     io.must("cutoff", t.cutoff, range::positive);
-    const std::string has = "law \"lj\", which has epsilon, sigma, cutoff and exclude_bonds";
+    io.word("cutoff_style", t.cutoff_style, cutoff_style_words);
+    if (t.cutoff_style == CutoffStyle::smooth) io.must("inner_cutoff", t.inner_cutoff, range::positive);
+    else io.foreign("inner_cutoff", "this cutoff_style; it is for \"smooth\", whose force goes to zero from there on");
+    const std::string has = "law \"lj\", which has epsilon, sigma, cutoff, cutoff_style, inner_cutoff and exclude_bonds";
     foreign(hertz, has), foreign({"damping"}, has), foreign(rounded, has);
   }
   io.may("exclude_bonds", t.exclude_bonds, Range{0, 1000});

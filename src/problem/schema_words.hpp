@@ -50,6 +50,7 @@ inline constexpr Word<const char*> round_faces[]{{"lo", "lo"}, {"hi", "hi"}, {"s
 inline constexpr Word<bool> side_words[]{{"inside", true}, {"outside", false}};
 inline constexpr Word<bool> effective_radius_words[]{{"particle", false}, {"curved", true}};
 inline constexpr Word<const char*> law_words[]{{"hertz", "hertz"}, {"lj", "lj"}, {"rounded", "rounded"}};
+inline constexpr Word<CutoffStyle> cutoff_style_words[]{{"cut", CutoffStyle::cut}, {"shifted", CutoffStyle::shifted}, {"smooth", CutoffStyle::smooth}};
 inline constexpr Word<RoundedFormulation> formulation_words[]{{"multi", RoundedFormulation::multi},
                                                               {"closest", RoundedFormulation::closest},
                                                               {"lammps", RoundedFormulation::lammps}};

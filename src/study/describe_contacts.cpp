@@ -49,12 +49,18 @@ std::string describe_damping(const ContactDamping& d) {
   return text;
 }
 
+// How a cohesion ends at its cutoff.
+std::string end_of(const PairContact& c) {
+  if (c.cutoff_style == CutoffStyle::smooth) return fmt::format(", smooth from {:.10g} on", c.inner_cutoff);
+  return c.cutoff_style == CutoffStyle::shifted ? ", shifted" : "";
+}
+
 std::string describe_pair(const Model& model, const PairContact& c, int excluded, const Overlaps& overlaps) {
   std::string text = fmt::format("contact of '{}' and '{}': ", c.between[0], c.between[1]);
   const std::string left_out = excluded > 0 ? fmt::format("pairs up to {} bond{} apart are left out", excluded, excluded == 1 ? "" : "s")
                                             : std::string("bonded pairs too");
   if (c.law == PairContact::Law::lj)
-    return text + fmt::format("lj, epsilon = {:.10g}, sigma = {:.10g}, cutoff {:.10g}; {}\n", c.epsilon, c.sigma, c.cutoff, left_out);
+    return text + fmt::format("lj, epsilon = {:.10g}, sigma = {:.10g}, cutoff {:.10g}{}; {}\n", c.epsilon, c.sigma, c.cutoff, end_of(c), left_out);
   const auto a = radii(model, c.particles[0]), b = radii(model, c.particles[1]);
   const auto effective = [](double r, double s) { return r + s > 0 ? r * s / (r + s) : 0.0; };
   const double least = effective(a[0], b[0]), most = effective(a[1], b[1]);

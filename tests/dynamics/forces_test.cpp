@@ -127,6 +127,8 @@ TEST_CASE("plain forces of contacts of alike and of very different sizes, and of
     lj.epsilon = 2, lj.sigma = 0.7, lj.cutoff = 1.6;
     m.contacts.push_back(lj);
     same_forces(m, 1e5);
+    m.contacts.back().cutoff_style = CutoffStyle::smooth, m.contacts.back().inner_cutoff = 1.1;
+    same_forces(m, 1e5);
   }
 }
 

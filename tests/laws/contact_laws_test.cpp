@@ -101,6 +101,41 @@ TEST_CASE("cohesion agrees with differences of its value", "[laws][contact]") {
       }
 }
 
+TEST_CASE("cohesion that ends smoothly, or is shifted, agrees with differences of its value", "[laws][contact]") {
+  for (const double size : {1e-3, 1.0, 1e3})
+    for (const double depth : {1e-7, 1e6})
+      for (const double distance : {0.9, 1.1, 1.7, 1.95, 2.05, 2.2, 2.4}) {
+        INFO("size " << size << ", distance " << distance);
+        const Points<2> x = apart(distance * size);
+        for (const CutoffStyle style : {CutoffStyle::shifted, CutoffStyle::smooth})
+          CHECK(check_law(Cohesion{depth, size, 2.5 * size, style, 2 * size}, x, std::min(size / 50, std::abs(distance - 2) * size / 5)) == std::vector<std::string>{});
+      }
+}
+
+// LAMMPS's own coefficients of the shell (pair_lj_smooth.cpp): force C1 + C2 t + C3 t² + C4 t³, t = r − inner.
+TEST_CASE("smooth cohesion is LAMMPS's lj/smooth, shifted", "[laws][contact]") {
+  const double e = 0.7, size = 1.1, inner = 2.2, cutoff = 3, width = cutoff - inner;
+  const Cohesion smooth{e, size, cutoff, CutoffStyle::smooth, inner}, cut{e, size, cutoff};
+  Local<2> at_inner = cut.derivatives(apart(inner));
+  const auto along = [](const Points<2>& x) { return x.edge(0, 1).hi.normalized(); };
+  const Vec3 n = along(apart(inner));
+  const double c1 = -at_inner.force_part(1).dot(n), c2 = -n.dot(at_inner.block(1, 1) * n);
+  const double c3 = -3 / (width * width) * (c1 + 2.0 / 3 * c2 * width), c4 = -1 / (3 * width * width) * (c2 + 2 * c3 * width);
+  const auto work = [&](double t) { return t * (c1 + t * (c2 / 2 + t * (c3 / 3 + t * c4 / 4))); };
+  const double scale = std::abs(c1) * width;
+  for (const double r : {2.2, 2.3, 2.6, 2.9, 2.999, 3.0}) {
+    INFO("r = " << r);
+    const double t = r - inner, force = c1 + t * (c2 + t * (c3 + t * c4));
+    Local<2> u = smooth.derivatives(apart(r));
+    CHECK(std::abs(-u.force_part(1).dot(along(apart(r))) - force) <= 1e-13 * std::abs(c1));
+    CHECK(std::abs(smooth.value(apart(r)) - (work(width) - work(t))) <= 1e-13 * scale);
+  }
+  const double shift = cut.value(apart(inner)) - work(width);     // continuous where the shell begins
+  CHECK(std::abs(smooth.value(apart(1.3)) - (cut.value(apart(1.3)) - shift)) <= 1e-14 * e);
+  const Cohesion shifted{e, size, cutoff, CutoffStyle::shifted};
+  CHECK(std::abs(shifted.value(apart(1.3)) - (cut.value(apart(1.3)) - cut.value(apart(cutoff * (1 - 1e-16))))) <= 1e-14 * e);
+}
+
 TEST_CASE("cohesion: zero at sigma, minus epsilon at its minimum, nothing beyond the cutoff", "[laws][contact]") {
   const auto at = [](double distance) {
     Eigen::Matrix<double, 3, 2> x = Eigen::Matrix<double, 3, 2>::Zero();

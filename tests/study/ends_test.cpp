@@ -199,6 +199,8 @@ type = "equilibrium"
   INFO(at.answer.text);
   CHECK(at.answer.status == 2);
   CHECK(at.says("at the cutoff of law \"lj\", 2.5, where its energy jumps by 0.0163"));
+  CHECK(run(hanging("2.5\ncutoff_style = \"shifted\"")).answer.status == 0);
+  CHECK(run(hanging("2.5\ncutoff_style = \"smooth\"\ninner_cutoff = 2")).answer.status == 0);
   // With a shorter cutoff nothing attracts it any more: it lies on the floor.
   CHECK(run(hanging("2.2")).answer.status == 0);
 }
