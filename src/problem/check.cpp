@@ -93,7 +93,7 @@ namespace {
 
 void check_solving(Problem& problem, Mistakes& mistakes) {
   SolverTable& s = problem.solver;
-  const bool newton = s.method == "newton";
+  const bool newton = s.by_newton();
   if (!newton && problem.study == StudyType::modes)
     mistakes.add(s.place, "method", "must be \"newton\" in a study of modes, is " + in_quotes(s.method));
   if (!newton && problem.study == StudyType::path) {

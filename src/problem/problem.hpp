@@ -189,7 +189,8 @@ struct PathTable {
 
 struct SolverTable {
   TablePlace place;
-  std::string method = "newton";                // or "ipopt", "fire", "nlopt:NAME"
+  std::string method = "auto";                  // or "newton", "ipopt", "fire", "nlopt:NAME"
+  bool by_newton() const { return method == "auto" || method == "newton"; }
   double tolerance = 1e-10;                     // residual, relative to the largest internal force
   std::optional<int> max_iterations;            // default: by method
   int max_evaluations = 100'000;                // of NLopt

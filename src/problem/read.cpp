@@ -15,7 +15,7 @@ namespace {
 /// Defaults that are the values of other keys.
 void complete(Problem& p) {
   if (!p.solver.max_iterations && p.solver.method.rfind("nlopt:", 0) != 0)
-    p.solver.max_iterations = p.solver.method == "newton" ? 200 : p.solver.method == "ipopt" ? 1000 : 200'000;
+    p.solver.max_iterations = p.solver.by_newton() ? 200 : p.solver.method == "ipopt" ? 1000 : 200'000;
   const bool arc_length = p.path.method == PathMethod::arc_length;
   if (!p.path.when_unstable) p.path.when_unstable = arc_length ? WhenUnstable::follow : WhenUnstable::jump;
   if ((arc_length || p.path.branches > 0) && !p.path.points) p.path.points = 20 * p.path.steps;

@@ -69,6 +69,7 @@ inline constexpr Word<WhenUnstable> when_unstable_words[]{
     {"jump", WhenUnstable::jump}, {"follow", WhenUnstable::follow}, {"stop", WhenUnstable::stop}};
 inline constexpr Word<const char*> event_words[]{{"limit", "limit"}, {"branch", "branch"}, {"contact", "contact"}};
 inline constexpr Word<const char*> solver_words[]{
+    {"auto", "auto"},
     {"newton", "newton"},
     {"ipopt", "ipopt"},
     {"fire", "fire"},

@@ -53,6 +53,16 @@ constexpr int most_polishing = 4;
 constexpr int modes_looked_at = 3;
 constexpr double alike = 0.1;
 constexpr double no_push = 1e-6;                 // of the whole gradient
+/// Packings. Loose grains that are so many are one.
+constexpr int packing = 20;
+/// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor. Of tests/bench/packings: 3 and 30 cost more steps.
+constexpr double wanted_overlap = 0.01, stiffer = 10;
+/// The longest step, of the smallest diameter: less than takes a grain past another one.
+constexpr double settling_reach = 0.3;
+/// The least shift that is tried, of the one that keeps a step within reach where nothing else resists.
+constexpr double least_shift = 1e-3;
+/// Steps that are refused in a row, each a quarter of the one before, until a descent is given up; and steps of one descent.
+constexpr int most_refused = 40, most_settling = 5000;
 /// Extents of the structure: what is that far away comes back no more.
 constexpr double lost = 100;
 

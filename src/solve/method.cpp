@@ -2,6 +2,8 @@
 
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
+#include "solve/limits.hpp"
+#include "solve/settle.hpp"
 
 #include <fmt/format.h>
 
@@ -42,19 +44,39 @@ int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
   return most_finishing;
 }
 
+// Newton's method and, where there are loose grains that press on something, settle(): for a packing at once, for fewer where Newton's method stalls.
+Report by_what_works(Newton& newton, State& state) {
+  const Model& model = newton.energy().model();
+  const bool presses = std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.effective_modulus > 0; }) ||
+                       std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& w) { return w.effective_modulus > 0; });
+  const int loose = presses && model.bodies.empty() ? loose_grains(newton.energy()) : 0;
+  if (loose >= limits::packing) return settle(newton, state, limits::most_settling);
+  State settled = state;
+  const Report report = newton.minimise(state);
+  if (report.status != Status::not_converged || loose == 0) return report;
+  Report other = settle(newton, settled, limits::most_settling);
+  if (!other.converged()) {
+    newton.energy().evaluate(state);
+    return report;
+  }
+  state = std::move(settled);
+  other.why = fmt::format("Newton's method stalled after {} iterations; {}", report.iterations, other.why);
+  return other;
+}
+
 }  // namespace
 
 std::string name_of(const Method& method) {
   return std::visit(Cases{[](const NewtonOptions&) { return std::string("newton"); },
                           [](const IpoptOptions&) { return std::string("ipopt"); },
-                          [](const NloptOptions& o) { return "nlopt:" + o.algorithm; }}, method);
+                          [](const NloptOptions& o) { return "nlopt:" + o.algorithm; },
+                          [](const AutoOptions&) { return std::string("auto"); }}, method);
 }
 
 std::string refusal(const Method& method, const Energy& energy) {
   const bool hard = any_hard(energy.model());
-  return std::visit(Cases{[&](const NewtonOptions&) {
-                            return std::string(hard ? "Newton's method knows no hard contacts; use \"ipopt\", or an elastic contact" : "");
-                          },
+  const std::string newton = hard ? "Newton's method knows no hard contacts; use \"ipopt\", or an elastic contact" : "";
+  return std::visit(Cases{[&](const NewtonOptions&) { return newton; }, [&](const AutoOptions&) { return newton; },
                           [](const IpoptOptions&) { return std::string(); },
                           [&](const NloptOptions& o) { return nlopt_refuses(o.algorithm, energy.dofs(), hard); }}, method);
 }
@@ -124,6 +146,7 @@ Report minimise(Newton& newton, State& state, const Method& method) {
     return refused;
   }
   if (std::holds_alternative<NewtonOptions>(method)) return newton.minimise(state);
+  if (std::holds_alternative<AutoOptions>(method)) return by_what_works(newton, state);
   return stable_end(newton, state, [&](State& s) {
     if (const auto* ipopt = std::get_if<IpoptOptions>(&method)) return minimise_by_ipopt(newton.energy(), s, *ipopt);
     return minimise_by_nlopt(newton, s, std::get<NloptOptions>(method));

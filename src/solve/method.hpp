@@ -10,8 +10,11 @@
 
 namespace elamin {
 
+/// Newton's method; packings of loose grains, and where it stalls beside loose grains, by settle().
+struct AutoOptions { NewtonOptions newton = {}; };
+
 /// How a minimum is looked for.
-using Method = std::variant<NewtonOptions, IpoptOptions, NloptOptions>;
+using Method = std::variant<NewtonOptions, IpoptOptions, NloptOptions, AutoOptions>;
 
 /// "newton", "ipopt", "nlopt:LD_LBFGS", …
 std::string name_of(const Method& method);

@@ -174,8 +174,8 @@ int compare_command(const CompareOptions& options) {
     throw InputError(fmt::format("{}: study.type: methods are compared on the equilibria of a study of type \"equilibrium\" or \"path\"", problem.file));
   const std::vector<std::string> methods = options.methods.empty() ? compared_methods() : options.methods;
   for (const std::string& m : methods)                             // before anything runs
-    if (m != "newton" && m != "ipopt" && m != "fire" && m.rfind("nlopt:", 0) != 0)
-      throw InputError(fmt::format("--methods: {}: there is no such method; there are newton, ipopt, fire, and nlopt:LD_LBFGS and NLopt's other names", m));
+    if (m != "auto" && m != "newton" && m != "ipopt" && m != "fire" && m.rfind("nlopt:", 0) != 0)
+      throw InputError(fmt::format("--methods: {}: there is no such method; there are auto, newton, ipopt, fire, and nlopt:LD_LBFGS and NLopt's other names", m));
   set_threads(options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   const std::vector<Compared> rows = compare(problem, methods, options.limit);
   if (options.json) fmt::print("{}\n", json(rows).dump(2));

@@ -20,7 +20,7 @@ RelaxOptions relax_options(const Problem& problem) {
 
 NewtonOptions solver_options(const Problem& problem) {
   NewtonOptions options{.tolerance = problem.solver.tolerance};
-  if (problem.solver.method == "newton") options.max_iterations = problem.solver.max_iterations.value_or(options.max_iterations);
+  if (problem.solver.by_newton()) options.max_iterations = problem.solver.max_iterations.value_or(options.max_iterations);
   return options;
 }
 
@@ -33,7 +33,8 @@ Method solver_method(const Problem& problem) {
     return NloptOptions{.algorithm = s.method.substr(of_nlopt.size()), .tolerance = s.tolerance,
                         .max_evaluations = s.max_evaluations, .polish = s.polish, .precondition = s.precondition,
                         .bounds = s.bounds, .seed = static_cast<unsigned long>(s.seed)};
-  return solver_options(problem);
+  const NewtonOptions newton = solver_options(problem);
+  return s.method == "auto" ? Method(AutoOptions{newton}) : Method(newton);
 }
 
 Corrector minimiser_of(const Problem& problem, Newton& newton) {

@@ -170,7 +170,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     Model in_stage = model_in(stage, all, start);
     before = std::move(run);
     run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, held ? std::nullopt : stored);
-    const bool by_newton = problem.solver.method == "newton" || any_hard(run->model);
+    const bool by_newton = problem.solver.by_newton() || any_hard(run->model);
     if (k == first && !by_newton)
       sink.note(fmt::format("the path's start, its events and the stability of its points are a matter of Newton's method; solver.method = "
                             "\"{}\" finds the equilibria between them", problem.solver.method));

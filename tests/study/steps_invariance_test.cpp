@@ -137,7 +137,7 @@ TEST_CASE("the events and the end of a path do not depend on its steps and its m
         same_events(w.events, first->events, first->range);
         same_end(w, *first);
       }
-      if (problem.solver.method != "newton" || problem.path.lowest || problem.path.highest) continue;
+      if (!problem.solver.by_newton() || problem.path.lowest || problem.path.highest) continue;
       for (const int steps : steps_of(name)) {
         if (steps == 5 || steps == 200) continue;               // two numbers, or one, are enough to compare methods
         const Walked w = walk(file, way(problem, steps, true));

@@ -1,0 +1,153 @@
+#include "solve/settle.hpp"
+
+#include "core/dense.hpp"
+#include "core/interrupt.hpp"
+#include "core/timing.hpp"
+#include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elamin {
+
+namespace {
+
+Model softened(const Model& model, double part) {
+  Model soft = model;
+  for (PairContact& c : soft.contacts) c.effective_modulus *= part;
+  for (Wall& w : soft.walls) w.effective_modulus *= part;
+  return soft;
+}
+
+// The forces on grains that are not those of contact, and the part of their moduli at which grains under those of one layer of a heap
+// overlap by the wanted part of their size: F = E √R δ^{3/2}.
+double first_part(const Energy& energy, const State& state) {
+  const Model& model = energy.model();
+  Model alone = model;
+  alone.contacts.clear(), alone.walls.clear();
+  Energy outside(alone);
+  const double pressing = outside.terms(state).total();
+  if (!std::isfinite(pressing)) return 1;
+  outside.evaluate(state, false);
+  double force = 0, modulus = 0, size = 0;
+  for (const int d : energy.loose()) force += std::abs(outside.gradient()[d]), size = std::max(size, model.diameter[energy.kinematics().site_of(d)]);
+  for (const PairContact& c : model.contacts) modulus = std::max(modulus, c.effective_modulus);
+  for (const Wall& w : model.walls) modulus = std::max(modulus, w.effective_modulus);
+  const double layer = force / std::pow(std::max(loose_grains(energy), 1), 2.0 / 3);
+  const double part = layer / (modulus * size * size) / std::pow(limits::wanted_overlap, 1.5);
+  return std::isfinite(part) && part > 0 ? std::min(part, 1.0) : 1.0;
+}
+
+// A descent, and the longest step that it may take [length].
+class Descend {
+ public:
+  Descend(Energy& energy, Factors& factors, double farthest, Report& report)
+      : energy_(energy), factors_(factors), farthest_(farthest), reach_(farthest), report_(report) {}
+
+  // Whether the residual gets below the tolerance.
+  bool to(State& state, double tolerance, int most) {
+    energy_.evaluate(state);
+    for (int k = 0, refused = 0; k < most && !interrupted(); ++k) {
+      const double residual = energy_.relative(energy_.gradient());
+      report_.history.push_back({energy_.last_terms().total(), residual, moved_, shift_});
+      if (residual <= tolerance) return true;
+      ++report_.iterations;
+      if (step(state)) refused = 0;
+      else if (++refused > limits::most_refused) return false;
+    }
+    return false;
+  }
+
+ private:
+  // The smallest shift, of a short list that begins below the last one, with which H + τI is positive definite and the step within reach.
+  bool shifted_step(const Vector& g, Vector& p) {
+    const double stiff = infinity_norm(g) / reach_, least = limits::least_shift * stiff;
+    const double first = shift_ / 8 > least ? shift_ / 8 : 0.0;
+    for (double shift = first; std::isfinite(shift) && !interrupted(); shift = std::max(4 * shift, least)) {
+      if (!factors_.try_cholesky(shift)) continue;
+      p = -factors_.cholesky().solve(g);
+      if (!p.allFinite() || infinity_norm(p) > 2 * reach_) continue;
+      shift_ = shift;
+      return true;
+    }
+    return false;
+  }
+
+  // Takes a step if the energy falls as predicted, or, where rounding hides that, the residual; and chooses how long the next one may be.
+  bool step(State& state) {
+    const Vector g = energy_.gradient();
+    const double before = energy_.last_terms().total(), rounding = 16 * epsilon * energy_.last_terms().size();
+    Vector p;
+    if (!shifted_step(g, p)) return false;
+    const double predicted = g.dot(p) - p.dot(g + shift_ * p) / 2, length = infinity_norm(p);
+    State next = state;
+    energy_.kinematics().retract(next, p, 1);
+    energy_.evaluate(next);
+    ++report_.evaluations;
+    const double change = energy_.last_terms().total() - before;
+    const bool hidden = std::abs(predicted) <= rounding;
+    if (hidden ? !(infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(g)) : !(change <= limits::armijo * predicted)) {
+      reach_ = length / 4;
+      energy_.evaluate(state);
+      return false;
+    }
+    state = std::move(next), moved_ = length;
+    if (change <= predicted / 2) reach_ = std::min(farthest_, std::max(reach_, 2 * length));
+    else if (change > predicted / 4) reach_ = length / 2;
+    return true;
+  }
+
+  Energy& energy_;
+  Factors& factors_;
+  const double farthest_;
+  double reach_, shift_ = 0, moved_ = 0;
+  Report& report_;
+};
+
+}  // namespace
+
+int loose_grains(const Energy& energy) {
+  int count = 0, last = -1;
+  for (const int d : energy.loose()) {
+    const int site = energy.kinematics().site_of(d);
+    if (site != last && site < energy.model().particles()) ++count, last = site;
+  }
+  return count;
+}
+
+Report settle(Newton& newton, State& state, int most) {
+  const Stopwatch watch;
+  Energy& energy = newton.energy();
+  const Model& model = energy.model();
+  Report report;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const int d : energy.loose()) smallest = std::min(smallest, model.diameter[energy.kinematics().site_of(d)]);
+  const double farthest = limits::settling_reach * smallest, first = first_part(energy, state);
+  const auto descend = [&](Energy& in, Factors& factors) {
+    const int before = factors.factorizations();
+    const bool there = Descend(in, factors, farthest, report).to(state, newton.tolerance(), most);
+    report.factorizations += factors.factorizations() - before;
+    return there;
+  };
+  int stages = 1;
+  for (double part = first; part < 1 && !interrupted(); part *= limits::stiffer, ++stages) {
+    const Model soft = softened(model, part);
+    Energy in(soft);
+    Factors factors(in);
+    if (!descend(in, factors) && !falling(in).empty()) break;   // what falls without end falls in stiffer contacts as well
+  }
+  if (falling(energy).empty()) descend(energy, newton.factors());
+  Report last = newton.minimise(state);
+  report.history.insert(report.history.end(), last.history.begin(), last.history.end());
+  last.history = std::move(report.history);
+  last.iterations += report.iterations, last.evaluations += report.evaluations, last.factorizations += report.factorizations;
+  last.seconds = watch.seconds();
+  last.why = fmt::format("loose grains settled in {} steps, contacts from {:.1g} of their stiffness on; ", report.iterations, first) + last.why;
+  return last;
+}
+
+}  // namespace elamin
