@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace elamin {
@@ -94,7 +93,7 @@ std::optional<Waypoint> ArcSteps::next() {
     double better = 0;
     std::optional<Candidate> c;
     if (!current_.slack) c = attempt(s, direction_, shifts, better, why);
-    if (!c && better == 0 && !just_made_.empty()) {
+    if (!c && better == 0 && at_contact_ && !current_.slack) {
       if (!looked) along = along_contact();
       looked = true;
       if (along && (c = attempt(s, *along, shifts, better, why))) direction_ = *along;
@@ -309,9 +308,6 @@ Waypoint ArcSteps::accept(Candidate c) {
   } else {
     rotate(c);
   }
-  just_made_.clear();
-  if (event && (event->kind == EventKind::contact || corner) && !c.e.slack)
-    std::set_difference(event->closed.begin(), event->closed.end(), closed_.begin(), closed_.end(), std::back_inserter(just_made_));
   take(c);
   if (corner) step_ = std::min(step_, longest());
   else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, arc_steps::least_part * step_);
@@ -338,7 +334,8 @@ void ArcSteps::rotate(const Candidate& c) {
 
 // How the branch goes on behind the contacts that have just been made, if they are stiff.
 std::optional<Direction> ArcSteps::along_contact() {
-  const std::optional<Rates> rates = along_contacts(newton_, current_, just_made_, metric_.load);
+  just_made_ = just_touching(newton_.energy(), current_.point.state, closed_);
+  const std::optional<Rates> rates = just_made_.empty() ? std::nullopt : along_contacts(newton_, current_, just_made_, metric_.load);
   if (!rates) return {};
   const double size = std::sqrt(metric_.dot(rates->x, rates->load, rates->x, rates->load));
   return Direction{rates->x / size, rates->load / size};

@@ -66,7 +66,7 @@ class ArcSteps final : public Branch {
   Metric metric_;
   ArcOptions options_;
   Direction direction_;
-  std::vector<ContactKey> just_made_;  // where it stands
+  std::vector<ContactKey> just_made_;  // where it stands, if steps go along them
   std::optional<double> last_stop_;    // where it stands, if at a stop
   double step_, shortest_, least_length_, taken_ = 0;
 };

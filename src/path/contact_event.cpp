@@ -397,6 +397,13 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   return change;
 }
 
+std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed) {
+  std::vector<ContactKey> keys;
+  for (const ContactKey& key : closed)
+    if (std::abs(gap(energy, key, state)) <= contact_event::together * size_of(energy.model(), key.particle)) keys.push_back(key);
+  return keys;
+}
+
 std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load) {
   Energy& energy = newton.energy();
   Factors& factors = newton.factors();

@@ -45,6 +45,9 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
 std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
 
+/// Those of the closed contacts whose gap is none: made where the state is, or next to rigid.
+std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed);
+
 /// How a branch goes on behind an equilibrium at which these contacts have just been made, as if they were rigid: the rates of what is free (dofs) and of the
 /// load factor, ±1, at which the gaps n_i stay closed and the contact forces F grow from nothing,
 ///   H x' + ∂g/∂λ λ' = Σ n_i F_i',   n_i·x' + ∂gap_i/∂λ λ' = 0,   F_i' > 0.

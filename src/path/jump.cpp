@@ -4,25 +4,29 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace elamin {
 
 using namespace limits;
 
-namespace {
-}
-
 Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what) {
   Energy& energy = newton.energy();
   const double at = event.at.point.state.load_factor;
-  State state = event.at.point.state;
-  energy.kinematics().prescribe(state, past);
-  State from = state;
-  if (event.kind == EventKind::branch) {
-    energy.kinematics().retract(state, event.at.tangent, past - at);
-    const Report report = newton.correct(state, event.modes, &event.at.point.state);   // the unstable equilibrium beyond
-    from = state;
-    if (report.converged()) newton.leave_saddle(state, event.modes.col(0));
+  State state;
+  // From a branch point the fall begins at the unstable equilibrium beyond; where there is none so far away, nearer to the event.
+  for (int k = 0;; ++k, past = at + (past - at) / 4) {
+    state = event.at.point.state;
+    energy.kinematics().prescribe(state, past);
+    if (event.kind != EventKind::branch) break;
+    State beyond = state;
+    energy.kinematics().retract(beyond, event.at.tangent, past - at);
+    const bool found = newton.correct(beyond, event.modes, &event.at.point.state).converged() && energy.passage(event.at.point.state, beyond) == 1;
+    if (found) state = std::move(beyond);
+    if (found || k == jump::most_nearer) break;
   }
+  const State from = state;
+  if (event.kind == EventKind::branch) newton.leave_saddle(state, event.modes.col(0));
   energy.evaluate(from);
   const double before = energy.last_terms().total();
   // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.

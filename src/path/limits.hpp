@@ -136,6 +136,7 @@ constexpr int most_in_row = 50;  // … or parts in a row move one after the oth
 
 /// Falls.
 namespace jump {
+constexpr int most_nearer = 4;  // times the fall begins nearer to its event, by a factor of four each
 constexpr int most_downhill = 50;  // iterations before long steps are allowed
 }
 

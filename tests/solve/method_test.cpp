@@ -6,6 +6,7 @@ using namespace elamin;
 using Catch::Matchers::Contains;
 
 TEST_CASE("methods have the names of the problem file", "[solve][method]") {
+  CHECK(name_of(AutoOptions{}) == "auto");
   CHECK(name_of(NewtonOptions{}) == "newton");
   CHECK(name_of(IpoptOptions{}) == "ipopt");
   CHECK(name_of(NloptOptions{.algorithm = "LD_MMA"}) == "nlopt:LD_MMA");

@@ -1,0 +1,87 @@
+#include "catch.hpp"
+#include "chain.hpp"
+#include "model/grains.hpp"
+#include "solve/method.hpp"
+#include "solve/settle.hpp"
+
+#include <random>
+
+using namespace elamin;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Grains at random above a floor, in a slot of the xz plane.
+Model heap(int n, double unit, double modulus) {
+  std::mt19937 random(4);
+  const auto uniform = [&](double from, double to) { return unit * (from + (to - from) * (random() / 4294967296.0)); };
+  Model m;
+  Field x = Field::Zero(3, n);
+  for (int i = 0; i < n; ++i) x(0, i) = uniform(-2, 2), x(2, i) = uniform(1, 0.5 * n);
+  add_grains(m, {{"grains", x, std::vector<double>(static_cast<std::size_t>(n), unit), 1}});
+  m.plane_normal = 1;
+  PairContact contact;
+  contact.particles = {numbers(n), numbers(n)}, contact.effective_modulus = modulus * unit;
+  m.contacts.push_back(contact);
+  Wall w;
+  w.particles = numbers(n), w.effective_modulus = modulus * unit, w.region.normal = Vec3::UnitZ(), w.name = "floor";
+  m.walls.push_back(w);
+  w.region.normal = Vec3::UnitX(), w.region.center = Vec3(-2.5 * unit, 0, 0), w.name = "left";
+  m.walls.push_back(w);
+  w.region.normal = -Vec3::UnitX(), w.region.center = Vec3(2.5 * unit, 0, 0), w.name = "right";
+  m.walls.push_back(w);
+  weigh(m, 1);
+  return m;
+}
+
+double on_floor(Energy& energy, const State& state) {
+  double borne = 0;
+  for (const Touch& t : energy.touches(state))
+    if (t.wall == 0) borne += t.force[2];
+  return borne;
+}
+
+}  // namespace
+
+TEST_CASE("a packing settles on its floor, in any units and however stiff its grains are", "[solve][settle]") {
+  for (const double unit : {1e-3, 1e3})
+    for (const double modulus : {1e2, 1e5, 1e9}) {
+      INFO("unit " << unit << ", modulus " << modulus);
+      const Model m = heap(30, unit, modulus);
+      Energy energy(m);
+      Newton newton(energy);
+      State state = m.start;
+      const Report report = minimise(newton, state, AutoOptions{});
+      INFO(report.why);
+      REQUIRE(report.converged());
+      CHECK_THAT(report.why, Contains("loose grains settled in"));
+      CHECK(report.negative == 0);
+      double weight = 0;
+      for (int i = 0; i < m.particles(); ++i) weight += m.mass(i);
+      CHECK(std::abs(on_floor(energy, state) - weight) <= 1e-9 * weight);     // 30 contacts, each to the residual 1e-10 of the largest
+    }
+}
+
+TEST_CASE("a packing without a floor falls, which is said", "[solve][settle]") {
+  Model m = heap(25, 1, 1e4);
+  m.walls.erase(m.walls.begin());
+  Energy energy(m);
+  Newton newton(energy);
+  State state = m.start;
+  const Report report = minimise(newton, state, AutoOptions{});
+  INFO(report.why);
+  CHECK(report.status == Status::not_converged);
+  CHECK((report.why.find("moves away without end") != std::string::npos || report.why.find("flies freely under a force") != std::string::npos));
+}
+
+TEST_CASE("without loose grains the method auto is Newton's", "[solve][settle]") {
+  Model m = heap(25, 1, 1e4);
+  m.supports.push_back({"", numbers(25), {true, true, true}, Vec3::Zero(), Scaling()});
+  Energy energy(m);
+  CHECK(loose_grains(energy) == 0);
+  Newton newton(energy);
+  State by_auto = m.start, by_newton = m.start;
+  const Report a = minimise(newton, by_auto, AutoOptions{}), b = minimise(newton, by_newton, NewtonOptions{});
+  CHECK(a.why == b.why);
+  CHECK((by_auto.position.array() == by_newton.position.array()).all());
+}
