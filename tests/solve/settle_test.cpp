@@ -85,3 +85,36 @@ TEST_CASE("without loose grains the method auto is Newton's", "[solve][settle]")
   CHECK(a.why == b.why);
   CHECK((by_auto.position.array() == by_newton.position.array()).all());
 }
+
+// Where everything parts the forces vanish, and the scale of a residual must not vanish with them.
+TEST_CASE("grains that overlap in a box with room part until no force is left", "[solve][settle]") {
+  std::mt19937 random(11);
+  const auto uniform = [&](double from, double to) { return from + (to - from) * (random() / 4294967296.0); };
+  for (int draw = 0; draw < 24; ++draw) {
+    const int n = 4 + draw;                                       // from 20 on a packing
+    const double unit = std::pow(10, uniform(-3, 3)), modulus = std::pow(10, uniform(0, 9)), half = 0.75 * std::cbrt(n) + 0.5;
+    INFO("draw " << draw << ", unit " << unit << ", modulus " << modulus);
+    Model m;
+    Field x(3, n);
+    for (int i = 0; i < n; ++i)
+      for (int c = 0; c < 3; ++c) x(c, i) = unit * uniform(-half, half);
+    add_grains(m, {{"grains", x, std::vector<double>(static_cast<std::size_t>(n), unit), 1}});
+    PairContact contact;
+    contact.particles = {numbers(n), numbers(n)}, contact.effective_modulus = modulus;
+    m.contacts.push_back(contact);
+    Wall box;
+    box.name = "box", box.particles = numbers(n), box.effective_modulus = modulus, box.region.shape = Shape::block;
+    box.region.lo = Vec3::Constant(-half * unit), box.region.hi = Vec3::Constant(half * unit);
+    m.walls.push_back(box);
+    Energy energy(m);
+    for (const Method& method : {Method(NewtonOptions{}), Method(AutoOptions{})}) {
+      Newton newton(energy);
+      State state = m.start;
+      const double before = energy.value(state);
+      const Report report = minimise(newton, state, method);
+      INFO(name_of(method) << ": " << report.why);
+      CHECK(report.converged());
+      CHECK(report.energy <= 1e-15 * before);                   // overlaps of the tolerance, 1e-10^{2/3} of a diameter, to the power 5/2
+    }
+  }
+}
