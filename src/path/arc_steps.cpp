@@ -92,11 +92,11 @@ std::optional<Waypoint> ArcSteps::next() {
   for (double s = step_; s >= shortest_ && !interrupted();) {
     double better = 0;
     std::optional<Candidate> c;
-    if (!current_.slack) c = attempt(s, direction_, shifts, better, why);
+    if (!current_.slack) c = attempt(s, direction_, false, shifts, better, why);
     if (!c && better == 0 && at_contact_ && !current_.slack) {
       if (!looked) along = along_contact();
       looked = true;
-      if (along && (c = attempt(s, *along, shifts, better, why))) direction_ = *along;
+      if (along && (c = attempt(s, *along, true, shifts, better, why))) direction_ = *along;
     }
     if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (current_.slack || at_contact_ || refused >= arc_steps::refused_first)) {
       const double target = next_load(natural);
@@ -135,13 +135,12 @@ bool ArcSteps::over_bend(const Candidate& c) {
 }
 
 // A step of the length s and what happens on it; else `better` is a length that suits the step, 0: a shorter one.
-std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& towards, int& shifts, double& better, std::string& why) {
+std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why) {
   const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
-  const bool along = &towards != &direction_;
-  const bool corner = !c && !along && (c = reach_corner(arc, s)).has_value();
+  const bool corner = !c && !along_contact && (c = reach_corner(arc, s)).has_value();
   if (!c) return {};
-  if (along && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
+  if (along_contact && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
   if (!corner) {
     const double change = std::abs(c->e.point.state.load_factor - current_.point.state.load_factor);
     if (change > 1.5 * options_.load_step) return better = s * std::clamp(0.9 * std::sqrt(options_.load_step / change), 0.1, 0.9), std::nullopt;

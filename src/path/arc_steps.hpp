@@ -48,7 +48,7 @@ class ArcSteps final : public Branch {
   double longest() const;
   bool still_closed(const Equilibrium& e);
   bool over_bend(const Candidate& c);
-  std::optional<Candidate> attempt(double s, const Direction& towards, int& shifts, double& better, std::string& why);
+  std::optional<Candidate> attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why);
   std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   std::optional<Candidate> reach_corner(const Arc& arc, double s);
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;

@@ -95,7 +95,7 @@ void check_solving(Problem& problem, Mistakes& mistakes) {
   SolverTable& s = problem.solver;
   const bool newton = s.by_newton();
   if (!newton && problem.study == StudyType::modes)
-    mistakes.add(s.place, "method", "must be \"newton\" in a study of modes, is " + in_quotes(s.method));
+    mistakes.add(s.place, "method", "must be \"auto\" or \"newton\" in a study of modes, is " + in_quotes(s.method));
   if (!newton && problem.study == StudyType::path) {
     const auto by_newton = [&](TablePlace& place, const char* key, const char* what) {
       mistakes.add(place, key, fmt::format("{} follows stable and unstable equilibria, which {} does not; use solver.method = "

@@ -548,3 +548,17 @@ TEST_CASE("loose cubes are pushed together at no force", "[paths][endless_loose_
       CHECK(never.path.back()["energy"] <= 1e-20 * force * squeezed);
     }
 }
+
+// Unstable, on the way back, a column meets a stop that is all but rigid: nᵀH⁻¹n < 0 there, the load factor turns where the contact is made, and the contact makes it stable.
+TEST_CASE("the load turns at a stiff contact on the way back, whatever the steps", "[paths][column_back_at_stop]") {
+  const Run first("column_back_at_stop", {in_steps(10)});
+  CHECK_ENDS_AT(first, 0.84529362413277542);
+  REQUIRE(first.of("limit").size() == 2);
+  CHECK(first.path.back()["negative"] == 0);
+  for (const int n : {17, 50}) {
+    const Run other("column_back_at_stop", {in_steps(n)});
+    INFO(n << " steps");
+    same_events(first, other);
+    CHECK(other.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-12));
+  }
+}
