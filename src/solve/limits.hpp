@@ -55,7 +55,7 @@ constexpr double alike = 0.1;
 constexpr double no_push = 1e-6;                 // of the whole gradient
 /// Packings. Loose grains that are so many are one.
 constexpr int packing = 20;
-/// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor. Of tests/bench/packings: 3 and 30 cost more steps.
+/// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor: overlaps shrink to a fifth.
 constexpr double wanted_overlap = 0.01, stiffer = 10;
 /// The longest step, of the smallest diameter: less than takes a grain past another one.
 constexpr double settling_reach = 0.3;

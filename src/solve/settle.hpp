@@ -11,7 +11,7 @@ int loose_grains(const Energy& energy);
 /// hundredth of their size, then tenfold again and again up to what they are, each time from the minimum before; at the end by Newton's method, whose
 /// `newton.minimise` decides what is converged. Each descent takes steps p of (H + τI) p = −g with the τ that makes H + τI positive definite and keeps every
 /// step within a part of a diameter, shorter where the energy does not fall as predicted (a trust region: Nocedal & Wright 2006, §4.1, with the shift of Levenberg
-/// and Marquardt for its radius). For particles without bodies and hard contacts. Not converged after `most` steps of one descent.
+/// and Marquardt for its radius). For models without bodies and without hard contacts. Not converged after `most` steps of one descent.
 Report settle(Newton& newton, State& state, int most);
 
 }  // namespace elamin
