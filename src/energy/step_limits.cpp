@@ -126,9 +126,9 @@ std::string obstacle(const Energy& energy, const State& state) {
     if (t < 0 || !found.empty()) continue;
     const PairContact& lj = model.contacts[t];
     if (!(std::abs(d - lj.cutoff) <= at_cutoff * lj.cutoff)) continue;
-    const double s = std::pow(lj.sigma / lj.cutoff, 6);
     const bool shifted = lj.cutoff_style == CutoffStyle::shifted;
-    const double jump = shifted ? 24 * lj.epsilon / lj.cutoff * s * (1 - 2 * s) : 4 * lj.epsilon * s * (1 - s);
+    const double s = std::pow(lj.sigma / lj.cutoff, 6);
+    const double jump = shifted ? Cohesion::push(lj.cutoff * lj.cutoff, lj.epsilon, lj.sigma) * lj.cutoff : 4 * lj.epsilon * s * (1 - s);
     if (jump != 0 && lj.cutoff_style != CutoffStyle::smooth)
       found = fmt::format("{} are at the cutoff of law \"lj\", {:.6g}, where its {} jumps by {:.3g} and there is no equilibrium; with a larger "
                           "cutoff the jump is smaller, with cutoff_style = \"smooth\" there is none", both(i, j), lj.cutoff, shifted ? "force" : "energy", std::abs(jump));

@@ -10,8 +10,8 @@
 
 namespace elamin {
 
-/// Newton's method; packings of loose grains, and where it stalls beside loose grains, by settle().
-struct AutoOptions { NewtonOptions newton = {}; };
+/// Newton's method, as the Newton that is given has it; settle() for packings of loose grains, and where Newton's method stalls beside fewer of them.
+struct AutoOptions {};
 
 /// How a minimum is looked for.
 using Method = std::variant<NewtonOptions, IpoptOptions, NloptOptions, AutoOptions>;

@@ -30,8 +30,6 @@ double first_part(const Energy& energy, const State& state) {
   Model alone = model;
   alone.contacts.clear(), alone.walls.clear();
   Energy outside(alone);
-  const double pressing = outside.terms(state).total();
-  if (!std::isfinite(pressing)) return 1;
   outside.evaluate(state, false);
   double force = 0, modulus = 0, size = 0;
   for (const int d : energy.loose()) force += std::abs(outside.gradient()[d]), size = std::max(size, model.diameter[energy.kinematics().site_of(d)]);

@@ -33,8 +33,7 @@ Method solver_method(const Problem& problem) {
     return NloptOptions{.algorithm = s.method.substr(of_nlopt.size()), .tolerance = s.tolerance,
                         .max_evaluations = s.max_evaluations, .polish = s.polish, .precondition = s.precondition,
                         .bounds = s.bounds, .seed = static_cast<unsigned long>(s.seed)};
-  const NewtonOptions newton = solver_options(problem);
-  return s.method == "auto" ? Method(AutoOptions{newton}) : Method(newton);
+  return s.method == "auto" ? Method(AutoOptions{}) : Method(solver_options(problem));
 }
 
 Corrector minimiser_of(const Problem& problem, Newton& newton) {
