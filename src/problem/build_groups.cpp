@@ -5,8 +5,10 @@
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace elamin {
@@ -27,6 +29,9 @@ Members part_of(const Members& from, int skip, int count) {
     else part.bodies.push_back(from.bodies[k - particles]);
   return part;
 }
+
+/// What a group is chosen from, for messages.
+std::string origin(const GroupTable& table) { return fmt::format("\"{}\"", fmt::join(table.of, "\" and \"")); }
 
 /// What a set is made of, for messages.
 std::string kinds(const Members& members) {
@@ -78,13 +83,39 @@ const Members* Groups::find(const TablePlace& table, const char* key, const std:
 }
 
 void Groups::add(const GroupTable& table) {
-  const Members* from = table.place.broken ? nullptr : find(table.place, "of", table.of);
   std::optional<Members> members;
-  if (from) members = chosen(table, *from);
+  if (!table.place.broken) members = source(table);
+  if (members) members = chosen(table, *members);
   if (members)
     put(table.name, std::move(*members));
   else if (!sets_.count(table.name))
     add_unknown(table.name);
+}
+
+std::optional<Members> Groups::source(const GroupTable& table) {
+  Members all;
+  const auto take = [&](const char* key, const std::vector<std::string>& names, const auto& combine) {
+    for (const std::string& name : names) {
+      const Members* members = find(table.place, key, name);
+      if (!members) return false;
+      all = {combine(all.particles, members->particles), combine(all.bodies, members->bodies)};
+    }
+    return true;
+  };
+  const auto unite = [](const std::vector<int>& a, const std::vector<int>& b) {
+    std::vector<int> both;
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    return both;
+  };
+  const auto without = [](const std::vector<int>& a, const std::vector<int>& b) {
+    std::vector<int> rest;
+    std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+    return rest;
+  };
+  if (!take("of", table.of, unite) || !take("except", table.except.value_or(std::vector<std::string>()), without)) return std::nullopt;
+  if (all.count() > 0) return all;
+  mistakes_.add(table.place, "except", "leaves nothing of " + origin(table) + "; a group has at least one");
+  return std::nullopt;
 }
 
 std::optional<Members> Groups::chosen(const GroupTable& table, const Members& from) {
@@ -93,7 +124,7 @@ std::optional<Members> Groups::chosen(const GroupTable& table, const Members& fr
     if (!count) continue;
     if (*count > size) {
       mistakes_.add(table.place, key,
-                    fmt::format("must be at most {}, the {} of \"{}\", is {}", size, kinds(from), table.of, *count));
+                    fmt::format("must be at most {}, the {} of {}, is {}", size, kinds(from), origin(table), *count));
       return std::nullopt;
     }
     // The middle n of N; where one side must have one more left over, it is the end: the lower ones are taken.
@@ -113,7 +144,7 @@ std::optional<Members> Groups::chosen(const GroupTable& table, const Members& fr
   if (members.count() == 0) {
     const std::string what = from.bodies.empty() ? "no particle" : from.particles.empty() ? "no body" : "no particle and no body";
     mistakes_.add(table.place, inside ? "inside" : "outside",
-                  fmt::format("holds {} of \"{}\"; a group has at least one", what, table.of));
+                  fmt::format("holds {} of {}; a group has at least one", what, origin(table)));
     return std::nullopt;
   }
   return members;
@@ -143,8 +174,8 @@ std::optional<Members> Groups::with_ids(const GroupTable& table, const Members& 
   for (const int b : from.bodies) ends.push_back(body(b));
   const auto [lowest, highest] = std::minmax_element(ends.begin(), ends.end());
   mistakes_.add(table.place, "ids",
-                fmt::format("{}{} not in \"{}\", whose ids lie from {} to {}", absent[0],
-                            absent.size() > 1 ? fmt::format(" and {} more are", absent.size() - 1) : " is", table.of,
+                fmt::format("{}{} not in {}, whose ids lie from {} to {}", absent[0],
+                            absent.size() > 1 ? fmt::format(" and {} more are", absent.size() - 1) : " is", origin(table),
                             *lowest, *highest));
   return std::nullopt;
 }

@@ -35,6 +35,8 @@ class Groups {
 
  private:
   void put(const std::string& name, Members members);
+  /// What is in any of the groups `of` and in none of those that are excepted; nothing after a mistake.
+  std::optional<Members> source(const GroupTable& table);
   /// The chosen ones of a set; nothing after a mistake.
   std::optional<Members> chosen(const GroupTable& table, const Members& from);
   std::optional<Members> with_ids(const GroupTable& table, const Members& from);

@@ -154,7 +154,8 @@ void check_structures(Problem& problem, Names& names, Mistakes& mistakes) {
 
 void check_groups(Problem& problem, Names& names, Mistakes& mistakes) {
   for (GroupTable& g : problem.groups) {
-    names.refer(g.place, "of", g.of);
+    for (const std::string& name : g.of) names.refer(g.place, "of", name);
+    for (const std::string& name : g.except.value_or(std::vector<std::string>())) names.refer(g.place, "except", name);
     std::string selectors;
     int count = 0;
     for (const char* key : {"first", "last", "middle", "ids", "inside", "outside"})

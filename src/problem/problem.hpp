@@ -78,8 +78,10 @@ struct LammpsTable {
 
 struct GroupTable {
   TablePlace place;
-  std::string name, of = "all";
-  std::optional<int> first, last, middle;
+  std::string name;
+  std::vector<std::string> of{"all"};           // what is in any of these groups …
+  std::optional<std::vector<std::string>> except;   // … and in none of these
+  std::optional<int> first, last, middle;       // of that
   std::optional<std::vector<int>> ids;
   struct Inside {                               // a region, as of a wall
     TablePlace place;

@@ -74,7 +74,8 @@ template <class IO> void describe(IO& io, GroupTable::Inside& t) { describe_regi
 
 template <class IO> void describe(IO& io, GroupTable& t) {
   io.name("name", t.name);
-  io.may("of", t.of);
+  io.one_or_more("of", t.of);
+  io.one_or_more("except", t.except);
   io.may("first", t.first, range::count);
   io.may("last", t.last, range::count);
   io.may("middle", t.middle, range::count);

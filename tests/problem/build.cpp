@@ -130,6 +130,39 @@ inside = {shape = "block", lo = [-1, -1, 1], hi = [1, 1, 1e9]}
   CHECK(group(m, "block_of") == Ids{2, 3});
 }
 
+TEST_CASE("Groups are what is in any of some and in none of others") {
+  const Model m = model_of(column(10) + R"(
+[[group]]
+name = "first"
+first = 3
+[[group]]
+name = "last"
+last = 2
+[[group]]
+name = "ends"
+of = ["last", "first"]
+[[group]]
+name = "inside"
+except = "ends"
+[[group]]
+name = "one"
+ids = [8]
+[[group]]
+name = "but_one"
+of = ["first", "inside", "first"]
+except = ["last", "one"]
+last = 3
+[[group]]
+name = "without"
+of = "inside"
+except = ["one", "first"]
+)");
+  CHECK(group(m, "ends") == Ids{1, 2, 3, 9, 10});
+  CHECK(group(m, "inside") == ids_of(4, 8));
+  CHECK(group(m, "but_one") == ids_of(5, 7));
+  CHECK(group(m, "without") == ids_of(4, 7));
+}
+
 TEST_CASE("The middle of a chain") {
   const auto middle = [](int particles, int n) {
     return group(model_of(column(particles) + "[[group]]\nname = \"m\"\nmiddle = " + std::to_string(n)), "m");
