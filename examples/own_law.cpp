@@ -38,7 +38,7 @@ int main() {
   Field x = Field::Zero(3, 3);
   x.row(0) << 0, 1.1, 2.3;
   double values[2], gradients[12];
-  group.derivatives(State(x), nullptr, values, gradients, nullptr);
+  group.derivatives(State(x), {}, values, gradients, nullptr);
   std::printf("energies %.15g %.15g, force on the last particle %.15g\n", values[0], values[1], -gradients[9]);
   const double e = 0.2;                                   // stretch of the second bond
   const bool right = std::abs(gradients[9] - (2 * e + 20 * e * e * e)) < 1e-14;

@@ -25,7 +25,7 @@ OtherForces::OtherForces(const Model& model, const EdgeOrder& order, double load
 void OtherForces::add(const Columns& x, Rows& force) {
   x.copy_to(state_.position);
   for (const auto& group : groups_) {
-    group->derivatives(state_, nullptr, value_.data(), gradient_.data(), nullptr);
+    group->derivatives(state_, {}, value_.data(), gradient_.data(), nullptr);
     const double* g = gradient_.data();
     for (int e = 0; e < group->elements(); ++e)
       for (const int p : group->stencil(e)) force.row[p] -= Lanes(g[0], g[1], g[2], 0), g += 3;

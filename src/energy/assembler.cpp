@@ -156,9 +156,9 @@ const std::vector<double>& Assembler::values(const State& state) {
   return sums_;
 }
 
-const std::vector<double>& Assembler::evaluate(const State& state, bool with_hessian, const State* from) {
+const std::vector<double>& Assembler::evaluate(const State& state, bool with_hessian, const Tangent& tangent) {
   for (std::size_t k = 0; k < groups_.size(); ++k)
-    groups_[k]->derivatives(state, from, values_.data() + value_offset_[k], gradients_.data() + gradient_offset_[k],
+    groups_[k]->derivatives(state, tangent, values_.data() + value_offset_[k], gradients_.data() + gradient_offset_[k],
                             with_hessian ? hessians_.data() + hessian_offset_[k] : nullptr);
   sum_values();
   return sums_;

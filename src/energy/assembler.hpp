@@ -23,7 +23,7 @@ class Assembler {
   /// Energy of each group, summed in stored order with compensation; +inf where a law is outside its domain.
   const std::vector<double>& values(const State& state);
   /// The same; fills the element buffers, which the calls below read.
-  const std::vector<double>& evaluate(const State& state, bool with_hessian, const State* from);
+  const std::vector<double>& evaluate(const State& state, bool with_hessian, const Tangent& tangent);
   /// Sum over the laws that predict their force from `from` of the energy they did not predict.
   double unpredicted(const State& state, const State& from);
   /// ∂U/∂x of all sites, 3 × sites, from the last evaluation.

@@ -65,7 +65,7 @@ class RoundedGroup final : public BodyGroup<n> {
     });
   }
 
-  void derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const override {
+  void derivatives(const State& state, const Tangent&, double* value, double* gradient, double* hessian) const override {
     parallel_for(this->elements(), bodies_per_thread, [&](std::int64_t e) {
       const PairLocal whole = rounded_derivatives(model_.rounded[table_[e]], first(e, state), second(e, state));
       Local<n> u;
@@ -109,7 +109,7 @@ class BodyWallGroup final : public BodyGroup<2> {
   void values(const State& state, double* value) const override {
     parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) { value[e] = law(e, state).value(body(e, state)); });
   }
-  void derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const override {
+  void derivatives(const State& state, const Tangent&, double* value, double* gradient, double* hessian) const override {
     parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) { store(local(e, state), e, value, gradient, hessian); });
   }
   // ∂(∇U)/∂λ = −s′ ∂(∇U)/∂x d.
@@ -161,7 +161,7 @@ class BodyLoadGroup final : public BodyGroup<2> {
   void values(const State& state, double* value) const override {
     for (int e = 0; e < elements(); ++e) value[e] = loads_[e].scaling.at(state.load_factor) * unit(e, state).value;
   }
-  void derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const override {
+  void derivatives(const State& state, const Tangent&, double* value, double* gradient, double* hessian) const override {
     for (int e = 0; e < elements(); ++e) {
       const double s = loads_[e].scaling.at(state.load_factor);
       Local<2> u = unit(e, state);

@@ -53,9 +53,9 @@ Eigen::VectorXd CarriedGroup::spread(const State& state, int e, const double* in
   return out;
 }
 
-void CarriedGroup::derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const {
+void CarriedGroup::derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const {
   const int n = inner_->gradient_size();
-  inner_->derivatives(state, from, value, gradient_.data(), hessian ? hessian_.data() : nullptr);
+  inner_->derivatives(state, tangent, value, gradient_.data(), hessian ? hessian_.data() : nullptr);
   parallel_for(elements(), 100, [&](std::int64_t at) {
     const int e = static_cast<int>(at);
     const double* const g = gradient_.data() + at * n;

@@ -148,13 +148,13 @@ EnergyTerms Energy::terms(const State& state) {
   return terms_of(assembler_->values(state), state);
 }
 
-void Energy::evaluate(const State& state, bool with_hessian, const State* from) {
+void Energy::evaluate(const State& state, bool with_hessian, const Tangent& tangent) {
   cover(state);
-  terms_ = terms_of(assembler_->evaluate(state, with_hessian, from), state);
+  terms_ = terms_of(assembler_->evaluate(state, with_hessian, tangent), state);
   finish_gradient(state);
   if (!with_hessian) return;
   assembler_->sum_hessian();
-  evaluated_ = state, predicted_ = from != nullptr;
+  evaluated_ = state, predicted_ = tangent.from || tangent.convex > 0;
   anchor_idle();
 }
 

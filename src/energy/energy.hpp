@@ -37,7 +37,7 @@ class Energy {
   /// Evaluates energy and derivatives at the state; the results below hold until the next call. With `from`, the state
   /// that a step came from, the Hessian takes the forces predicted there for its geometric part (see HarmonicBond): the
   /// same at an equilibrium, far better than the exact one after a long step of a slender structure.
-  void evaluate(const State& state, bool with_hessian = true, const State* from = nullptr);
+  void evaluate(const State& state, bool with_hessian = true, const Tangent& tangent = {});
   /// Energy at the state that the linearisation at `from` did not predict: what the next step will take out again.
   double unpredicted(const State& state, const State& from) { return assembler_->unpredicted(state, from); }
   const EnergyTerms& last_terms() const { return terms_; }

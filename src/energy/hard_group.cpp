@@ -34,7 +34,7 @@ HardPairGroup::HardPairGroup(const Model& model, const std::vector<IndexPair>& p
 
 void HardPairGroup::values(const State&, double* value) const { std::fill_n(value, elements(), 0.0); }
 
-void HardPairGroup::derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const {
+void HardPairGroup::derivatives(const State& state, const Tangent&, double* value, double* gradient, double* hessian) const {
   clear(*this, value, gradient, hessian);
   HardGap gap;
   for (const HardForce& h : state.hard) {
@@ -63,7 +63,7 @@ int HardWallGroup::element_of(int wall, int particle) const {
 
 void HardWallGroup::values(const State&, double* value) const { std::fill_n(value, elements(), 0.0); }
 
-void HardWallGroup::derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const {
+void HardWallGroup::derivatives(const State& state, const Tangent&, double* value, double* gradient, double* hessian) const {
   clear(*this, value, gradient, hessian);
   HardGap gap;
   for (const HardForce& h : state.hard)

@@ -14,7 +14,7 @@ class HardPairGroup final : public ElementGroup {
   int sites() const override { return 2; }
   std::span<const int> stencil(int element) const override { return stencils_[element]; }
   void values(const State& state, double* value) const override;
-  void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override;
+  void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
   bool unpredicted(const State&, const State&, double*) const override { return false; }
 
  private:
@@ -32,7 +32,7 @@ class HardWallGroup final : public ElementGroup {
   int sites() const override { return 1; }
   std::span<const int> stencil(int element) const override { return {&particle_[element], 1}; }
   void values(const State& state, double* value) const override;
-  void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override;
+  void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
   bool unpredicted(const State&, const State&, double*) const override { return false; }
   bool moves() const override { return moves_; }
   void load_rates(const State& state, double* rate) const override;

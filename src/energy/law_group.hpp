@@ -21,6 +21,14 @@ Points<n> points(const State& state, const std::array<int, n>& sites) {
   return x;
 }
 
+/// Which Hessian is asked for. With `from`, the state that a step came from: the one whose forces are predicted there, where the law does that
+/// (PredictingLaw). `convex`, in [0, 1]: the part of what compression takes away that is left out, where the law knows that (ConvexLaw); with
+/// all of it left out an element's Hessian is positive semidefinite.
+struct Tangent {
+  const State* from = nullptr;
+  double convex = 0;
+};
+
 /// What the assembler sees of a group: stencils, and buffers that each element fills at its own place.
 class ElementGroup {
  public:
@@ -31,9 +39,8 @@ class ElementGroup {
   virtual std::span<const int> stencil(int element) const = 0;
   /// Energy of every element.
   virtual void values(const State& state, double* value) const = 0;
-  /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element; with
-  /// `from` the Hessian that a law predicts from there, if it does.
-  virtual void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const = 0;
+  /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element.
+  virtual void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const = 0;
   /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
   virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
 
@@ -71,6 +78,14 @@ concept PredictingLaw = Law<L> && requires(const L& law, const Points<L::sites>&
   { law.unpredicted(x, x) } -> std::same_as<double>;
 };
 
+/// A law that can leave out a part in [0, 1] of what compression takes from its Hessian: all of it, and that is positive semidefinite.
+template <class L>
+concept ConvexLaw = Law<L> && (requires(const L& law, const Points<L::sites>& x) {
+  { law.convex(x, 1.0) } -> std::same_as<Local<L::sites>>;
+} || requires(const L& law, const Points<L::sites>& x) {
+  { law.convex(x, x, 1.0) } -> std::same_as<Local<L::sites>>;
+});
+
 /// Laws that change with the load factor, or with the state as a whole: of every kind the law, and as another law the
 /// rates ∂/∂λ of its parameters.
 template <class L>
@@ -99,10 +114,10 @@ class LawGroup final : public ElementGroup {
     parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].value(gather(state, e)); });
   }
 
-  void derivatives(const State& state, const State* from, double* value, double* gradient, double* hessian) const override {
+  void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override {
     at(state);
     parallel_for(elements(), grain, [&](std::int64_t e) {
-      store(local(state, from, e), e, value, gradient, hessian);
+      store(local(state, tangent, e), e, value, gradient, hessian);
     });
   }
 
@@ -144,9 +159,16 @@ class LawGroup final : public ElementGroup {
 
  private:
   static constexpr std::int64_t grain = 2000;
-  Local<n> local(const State& state, const State* from, std::int64_t e) const {
+  Local<n> local(const State& state, const Tangent& tangent, std::int64_t e) const {
+    if constexpr (ConvexLaw<L>)
+      if (tangent.convex > 0) {
+        if constexpr (PredictingLaw<L>)
+          return laws_[kind_[e]].convex(gather(state, e), gather(tangent.from ? *tangent.from : state, e), tangent.convex);
+        else
+          return laws_[kind_[e]].convex(gather(state, e), tangent.convex);
+      }
     if constexpr (PredictingLaw<L>)
-      if (from) return laws_[kind_[e]].derivatives(gather(state, e), gather(*from, e));
+      if (tangent.from) return laws_[kind_[e]].derivatives(gather(state, e), gather(*tangent.from, e));
     return laws_[kind_[e]].derivatives(gather(state, e));
   }
   Points<n> gather(const State& state, std::int64_t e) const {

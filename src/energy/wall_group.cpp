@@ -35,7 +35,7 @@ void WallGroup::values(const State& state, double* value) const {
   });
 }
 
-void WallGroup::derivatives(const State& state, const State*, double* value, double* gradient, double* hessian) const {
+void WallGroup::derivatives(const State& state, const Tangent&, double* value, double* gradient, double* hessian) const {
   const std::vector<WallContact>& walls = at(state.load_factor);
   parallel_for(elements(), touches_per_thread, [&](std::int64_t e) {
     store(walls[wall_[e]].derivatives(state.at(particle_[e]), model_.diameter[particle_[e]] / 2), e, value, gradient, hessian);

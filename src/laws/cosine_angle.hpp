@@ -4,6 +4,7 @@
 #include "laws/section.hpp"
 #include "laws/triple.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace elamin {
@@ -97,6 +98,29 @@ struct CosineAngle {
     U.block(1, 0) = U.block(0, 1).transpose();
     U.block(2, 0) = U.block(0, 2).transpose();
     U.block(2, 1) = U.block(1, 2).transpose();
+    return U;
+  }
+
+  /// The same with the Hessian of Gauss and Newton for a part of its own. That is positive semidefinite: straight at rest U = B/2 |a − b|² gives B Jᵀ J, J the derivative of
+  /// a − b; any other U = B (1 − cos ψ), ψ = φ − φ₀, gives B max(cos ψ, 0) ∇ψ ∇ψᵀ.
+  Local<3> convex(const Points<3>& x, double part) const {
+    Local<3> U = derivatives(x);
+    const Turn t(x, *this);
+    if (!t.defined) return U;
+    Eigen::Matrix<double, 3, 9> J = Eigen::Matrix<double, 3, 9>::Zero();     // of a − b or, in its first row, of ψ; times √B
+    if (t.inclined) {
+      const Vec3 m = kept_ >= 0 ? Vec3(Vec3::Unit(kept_)) : Vec3(t.n / t.sine);
+      J.row(0).head<3>() = m.cross(t.a) / t.length_u, J.row(0).tail<3>() = -t.b.cross(m) / t.length_w;
+      J.row(0).segment<3>(3) = -J.row(0).head<3>() - J.row(0).tail<3>();
+      J *= std::sqrt(B * std::max(t.C, 0.0));
+    } else {
+      J.leftCols<3>() = (t.a * t.a.transpose() - Mat3::Identity()) / t.length_u;
+      J.rightCols<3>() = (t.b * t.b.transpose() - Mat3::Identity()) / t.length_w;
+      J.middleCols<3>(3) = -J.leftCols<3>() - J.rightCols<3>();
+      J *= std::sqrt(B * std::abs(cos_rest_));
+    }
+    U.hessian *= 1 - part;
+    U.hessian.noalias() += part * J.transpose() * J;
     return U;
   }
 

@@ -37,6 +37,12 @@ struct HarmonicBond {
     return derivatives(x.edge(0, 1), linearised(x, from));
   }
 
+  /// The same without a part of the transverse stiffness where the predicted force presses, ê < 0; without all of it the Hessian is positive semidefinite.
+  Local<2> convex(const Points<2>& x, const Points<2>& from, double part) const {
+    const double e = linearised(x, from);
+    return derivatives(x.edge(0, 1), e < 0 ? (1 - part) * e : e);
+  }
+
   /// K (e − ê)²: energy of the part of the stretch e = r − r₀ that the linearisation at `from` did not predict.
   double unpredicted(const Points<2>& x, const Points<2>& from) const {
     const double e = stretch(x.edge(0, 1)) - linearised(x, from);

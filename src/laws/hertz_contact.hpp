@@ -21,27 +21,10 @@ struct HertzContact {
     return clear(d) ? 0.0 : energy(-gap(d));
   }
 
-  Local<2> derivatives(const Points<2>& x) const {
-    Local<2> u;
-    const ExactVector d = x.edge(0, 1);
-    if (clear(d)) return u;
-    const double overlap = -gap(d);
-    if (!(overlap > 0)) return u;
-    u.value = energy(overlap);
-    const double r = d.hi.norm(), f = force(-overlap), along = 1.5 * stiffness * std::sqrt(overlap);   // f = k δ^{3/2}
-    Mat3 h = along * Mat3::Identity();
-    if (r > 0) {
-      const Vec3 n = d.hi / r;
-      u.force_part(1) = -f * n;
-      u.force_part(0) = f * n;
-      h = n * n.transpose();
-      h *= along + f / r;                                            // along n nᵀ − f/r (I − n nᵀ)
-      h.diagonal().array() -= f / r;
-    }
-    u.block(0, 0) = u.block(1, 1) = h;
-    u.block(0, 1) = u.block(1, 0) = -h;
-    return u;
-  }
+  Local<2> derivatives(const Points<2>& x) const { return derivatives(x, 1); }
+
+  /// The same without a part of −k δ^{3/2}/r (I − n nᵀ) in the Hessian, which is positive semidefinite without all of it.
+  Local<2> convex(const Points<2>& x, double part) const { return derivatives(x, 1 - part); }
 
   /// k δ^{3/2} of the overlap δ ≥ 0, the force along n, in the plain arithmetic of the scalar T.
   template <class T>
@@ -57,6 +40,28 @@ struct HertzContact {
   double force(double gap) const { return gap < 0 ? stiffness * -gap * std::sqrt(-gap) : 0.0; }
 
  private:
+  Local<2> derivatives(const Points<2>& x, double turning) const {
+    Local<2> u;
+    const ExactVector d = x.edge(0, 1);
+    if (clear(d)) return u;
+    const double overlap = -gap(d);
+    if (!(overlap > 0)) return u;
+    u.value = energy(overlap);
+    const double r = d.hi.norm(), f = force(-overlap), along = 1.5 * stiffness * std::sqrt(overlap);   // f = k δ^{3/2}
+    Mat3 h = along * Mat3::Identity();
+    if (r > 0) {
+      const Vec3 n = d.hi / r;
+      u.force_part(1) = -f * n;
+      u.force_part(0) = f * n;
+      h = n * n.transpose();
+      h *= along + turning * f / r;                                  // along n nᵀ − f/r (I − n nᵀ)
+      h.diagonal().array() -= turning * f / r;
+    }
+    u.block(0, 0) = u.block(1, 1) = h;
+    u.block(0, 1) = u.block(1, 0) = -h;
+    return u;
+  }
+
   /// Farther apart than rounding could hide: most candidates are.
   bool clear(const ExactVector& d) const { return d.hi.squaredNorm() > (1 + 64 * epsilon) * reach * reach; }
 

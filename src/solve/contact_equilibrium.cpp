@@ -33,7 +33,7 @@ bool same_contacts(const std::vector<HardForce>& a, const std::vector<HardForce>
 
 // Evaluates the energy at the state, and the closed gaps; the matrix takes the values, after its pattern where that is new.
 void ContactEquilibrium::linearise(const State& state, const State* from, const Eigen::MatrixXd& held) {
-  energy_.evaluate(state, true, from);
+  energy_.evaluate(state, true, {.from = from});
   gaps_.resize(state.hard.size());
   for (std::size_t k = 0; k < gaps_.size(); ++k)
     if (!hard_gap(energy_.model(), state.hard[k], state, gaps_[k])) gaps_[k].sites = 0;

@@ -129,7 +129,7 @@ bool IpoptProblem::eval_h(Index, const Number* y, bool renewed, Number factor, I
   if (factor == 0) energy_.evaluate(at_), add(-1);
   at_.hard = contacts_;
   for (Index k = 0; k < m; ++k) at_.hard[k].force = -multiplier[k] / part * unit_ / length_;
-  energy_.evaluate(at_, true, factor == 0 ? nullptr : &before_);
+  energy_.evaluate(at_, true, {.from = factor == 0 ? nullptr : &before_});
   add(part);
   at_.hard.clear();
   differentiated_ = false;
@@ -244,7 +244,7 @@ bool IpoptProblem::differentiate(const Number* y, bool renewed) {
   if (!move(y, renewed)) return false;
   if (!differentiated_) {
     ++report_.evaluations;
-    energy_.evaluate(at_, true, &state_);
+    energy_.evaluate(at_, true, {.from = &state_});
     stale_ = stale_ || energy_.pattern_version() != version_;
     gradient_ = energy_.gradient();
     const Vector way = length_ * step_;

@@ -30,6 +30,9 @@ constexpr double refined = 1e-8;
 /// stays below theirs elsewhere, and the modes that decide the convergence are stiffer by far.
 constexpr double hold_zero_modes = 100;
 
+/// The least part of what compression takes from the Hessian that is left out to make it definite: below, a shift is as good.
+constexpr double least_pressed = 1e-6;
+
 /// Newton's steps. Bonds turn by so much at most in one [rad]: the series of cos and sin are good to one part in a hundred there.
 constexpr double largest_turn = 0.3;
 /// Part of the predicted decrease that must come true (Nocedal & Wright 2006, §3.1, with room for what contacts add).

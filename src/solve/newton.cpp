@@ -14,10 +14,6 @@
 
 namespace elamin {
 
-namespace {
-
-}  // namespace
-
 Newton::Newton(Energy& energy, NewtonOptions options)
     : energy_(energy), options_(options), factors_(energy), extent_(extent(energy.model())) {}
 
@@ -113,7 +109,7 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   const Vector g = energy_.gradient();
   steady_bodies(energy_, g);
   bool left;
-  const std::optional<double> convex = make_convex(state, g, descent.shift, settled, std::exchange(descent.left, false) || stays, left);
+  const std::optional<double> convex = make_convex(state, g, descent, settled, left);
   if (!convex) return without_factor();
   descent.shift = *convex;
   if (left) {
@@ -128,7 +124,7 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
 }
 
 void Newton::look(const State& state, Descent& descent) {
-  energy_.evaluate(state, true, descent.linearised ? &descent.previous : nullptr);
+  energy_.evaluate(state, true, {.from = descent.from()});
   ++descent.report.evaluations;
   record(descent.report, descent.moved, descent.shift);
 }
@@ -202,7 +198,7 @@ std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step
 // Contacts of bodies open and close on the way: a shorter step, bent to where they are stiff, instead of a small part of a long one.
 std::optional<Newton::Step> Newton::shorter_step(const State& state, Descent& descent, const Step& step, double alpha) {
   descent.reach = alpha * infinity_norm(step.p);
-  energy_.evaluate(state, true, descent.linearised ? &descent.previous : nullptr);
+  energy_.evaluate(state, true, {.from = descent.from()});
   steady_bodies(energy_, step.g);
   if (!factors_.make_positive_from(descent.shift)) return {};
   return step_within(descent.reach, step.g, descent.shift);
@@ -239,7 +235,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
   State previous;
   std::vector<double> sizes;                                    // of every correction
   for (double moved = 0; ; ++report.iterations) {
-    energy_.evaluate(state, true, from);
+    energy_.evaluate(state, true, {.from = from});
     ++report.evaluations;
     record(report, moved, 0);
     if (guided) report.residual = energy_.relative(free_gradient());

@@ -44,6 +44,9 @@ struct Plane {
 /// the number of iterations does not grow with slenderness. At an equilibrium both Hessians are the same.
 /// Source: Magisano, Leonetti, Garcea 2017, Int. J. Numer. Meth. Engng 109; turns of a bond are kept below 0.3 a step.
 ///
+/// Where the Hessian is indefinite, Newton steps go with H + μP: P is what compression takes from H in bonds, angles and contacts, μ ≤ 1. Unlike
+/// H + τI that leaves soft motions soft, however stiff others are: a sheet that wrinkles takes as many steps as it has turns to make.
+///
 /// Rigid bodies that nothing holds are kept from drifting by steady_bodies.
 ///
 /// Hertz contacts open and close within a run: the Hessian is continuous, but no more. Steps end before anything passes
@@ -96,12 +99,14 @@ class Newton {
     int most;                    // iterations
     double reach;                // of a step, as far as the last ones could be taken [length]
     double shift = 0;            // the last one: a guess for the next [force/length]
+    double pressed = 1;          // part of what compression takes that the last indefinite Hessian was taken without: a guess, too
     double moved = 0;            // by the last step [length]
     int unseen = 0;              // steps whose change of energy rounding hid
     bool left = false;           // a saddle, in the last iteration
     bool linearised = false;     // previous holds where the last step came from
     State previous = {};
     Report report = {};
+    const State* from() const { return linearised ? &previous : nullptr; }
   };
   /// Of a step: how much of it may be tried first, and how much of that what is in the way has left.
   struct Part { double first, free; };
@@ -127,7 +132,8 @@ class Newton {
   bool comes_nearer(const Step& step, double alpha);
   bool take_downhill(const State& from, const Step& step, double alpha, State& to);
   bool take_long(const State& from, const Step& step, double alpha, State& to);
-  std::optional<double> make_convex(State& state, const Vector& g, double guess, bool settled, bool before, bool& left);
+  std::optional<double> without_compression(const State& state, const Vector& g, Descent& descent);
+  std::optional<double> make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left);
   void polish(State& state, Report& report, const std::function<void(State&)>& step);
 
   Energy& energy_;

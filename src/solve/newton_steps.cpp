@@ -4,8 +4,11 @@
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "solve/limits.hpp"
+#include "solve/steady_bodies.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace elamin {
 
@@ -102,26 +105,49 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
   return true;
 }
 
-// Leaves a factor of H + τI, positive definite, and returns τ. Where H is indefinite τ is of the size of its lowest
-// eigenvalue; a state that has no slope along that mode is moved off the saddle instead (`left`), but not twice in a row (`before`): Newton's steps
-// must take the rest of the way down. None: there is no factor.
-std::optional<double> Newton::make_convex(State& state, const Vector& g, double guess, bool settled, bool before, bool& left) {
-  left = false;
-  const std::optional<double> positive = factors_.make_positive(guess / 4);
-  if (!positive) return {};
-  double shift = *positive;
-  const double sigma = factors_.zero_level();
-  if (shift > sigma) {
-    const EigenPairs lowest = settled ? factors_.lowest(1, shift) : factors_.lowest(limits::modes_looked_at, shift, 0.1);
-    if (settled || (!before && !pushed(lowest, g))) {
-      left = leave_saddle(state, lowest.vectors.col(0));
-      if (left) return std::abs(lowest.values[0]);
-      energy_.evaluate(state);
+// Leaves a factor of H + μP in place of H, P what compression takes from H, and remembers μ ≤ 1: twice the least of a list that makes that
+// positive definite, so that motions along which the structure buckles double at each step. Shifts H + τI hold soft motions and stiff ones
+// alike. What is left of them with all of P, for loose parts, is returned. None: it takes more than that, and H is as before.
+std::optional<double> Newton::without_compression(const State& state, const Vector& g, Descent& descent) {
+  const auto evaluate = [&](double part) {
+    energy_.evaluate(state, true, {.from = descent.from(), .convex = part});
+    steady_bodies(energy_, g);
+  };
+  const auto definite = [&](double part) { return evaluate(part), factors_.try_cholesky(0); };
+  for (double part = std::max(descent.pressed / 4, limits::least_pressed); part < 1 && !interrupted(); part *= 4)
+    if (definite(part)) {
+      descent.pressed = part;
+      if (definite(std::min(2 * part, 1.0)) || definite(part)) return 0;
     }
-    const double convex = shift;                                // with which there was a factor
-    return factors_.make_positive_from(lowest.values[0] < 0 ? std::min(-2 * lowest.values[0], convex) : convex);
+  descent.pressed = 1;
+  if (definite(1)) return 0;
+  const double shift = std::max(factors_.zero_level(), limits::least_shift * infinity_norm(g) / extent_);
+  if (factors_.try_cholesky(shift)) return shift;
+  evaluate(0);
+  return {};
+}
+
+// Leaves a factor of the Hessian, or of a positive definite one near to it, and returns the shift τ that it has. Where compression does not tell
+// how to make H definite, it is H + τI, τ of the size of the lowest eigenvalue; a state that has no slope along that mode is moved off the
+// saddle instead (`left`), but not twice in a row: Newton's steps must take the rest of the way down. None: there is no factor.
+std::optional<double> Newton::make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left) {
+  const bool stays = std::exchange(descent.left, false) || descent.pace == Pace::stationary;
+  left = false;
+  if (factors_.try_cholesky(0)) return 0;
+  const double sigma = factors_.zero_level();
+  if (factors_.try_cholesky(sigma)) return factors_.make_positive_from(limits::hold_zero_modes * sigma);   // rounding would fill the step with a zero mode
+  if (!settled)
+    if (const std::optional<double> shift = without_compression(state, g, descent)) return shift;
+  const std::optional<double> positive = factors_.make_positive_from(std::max(descent.shift / 4, 16 * sigma), 32);
+  if (!positive) return {};
+  const EigenPairs lowest = settled ? factors_.lowest(1, *positive) : factors_.lowest(limits::modes_looked_at, *positive, 0.1);
+  if (settled || (!stays && !pushed(lowest, g))) {
+    left = leave_saddle(state, lowest.vectors.col(0));
+    if (left) return std::abs(lowest.values[0]);
+    energy_.evaluate(state);
+    steady_bodies(energy_, g);
   }
-  return shift > 0 ? factors_.make_positive_from(limits::hold_zero_modes * sigma) : shift;   // a zero mode: rounding alone would fill the step with it
+  return factors_.make_positive_from(lowest.values[0] < 0 ? std::min(-2 * lowest.values[0], *positive) : *positive);
 }
 
 // The Newton step, with a shift τ so large that no dof moves by more than about `reach`: along a direction that has a force

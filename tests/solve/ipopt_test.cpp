@@ -20,8 +20,9 @@ void bow(Energy& energy, State& state, double by) {
   energy.kinematics().retract(state, v);
 }
 
-// Ipopt and Newton's method from the same state end at the same one: energies to 1e-12, places to 1e-7 of the extent.
-Report compare(const Model& model, Energy& energy, const State& start) {
+// Ipopt and Newton's method from the same state end at the same one: energies to 1e-12, places to 1e-7 of the extent. Of a symmetric structure
+// Ipopt, which keeps to no valley, may find the mirror image in x; then `mirror` says so.
+Report compare(const Model& model, Energy& energy, const State& start, bool mirror = false) {
   State by_newton = start, by_ipopt = start;
   Newton newton(energy);
   const Report expected = newton.minimise(by_newton);
@@ -34,7 +35,14 @@ Report compare(const Model& model, Energy& energy, const State& start) {
   CHECK(report.residual <= 1e-10);
   CHECK(std::abs(report.energy - expected.energy) <= 1e-12 * energy.terms(by_newton).size());
   const double extent = (model.start.position.rowwise().maxCoeff() - model.start.position.rowwise().minCoeff()).norm();
-  CHECK(displacement(by_newton, by_ipopt).cwiseAbs().maxCoeff() <= 1e-7 * extent);
+  double apart = displacement(by_newton, by_ipopt).cwiseAbs().maxCoeff();
+  if (mirror) {
+    CHECK(by_newton.position.row(0).minCoeff() >= -1e-7 * extent);                 // Newton's method stays on the side that it begins on
+    State image = by_newton;
+    image.position.row(0) *= -1, image.tail.row(0) *= -1;
+    apart = std::min(apart, displacement(image, by_ipopt).cwiseAbs().maxCoeff());
+  }
+  CHECK(apart <= 1e-7 * extent);
   return report;
 }
 
@@ -50,7 +58,7 @@ TEST_CASE("Ipopt finds a column straight and bowed", "[solve][ipopt]") {
     State state = model.start;
     energy.kinematics().prescribe(state, 1);
     bow(energy, state, 0.01);
-    const Report report = compare(model, energy, state);
+    const Report report = compare(model, energy, state, true);
     CHECK(report.iterations <= 60);
     REQUIRE(report.history.size() > 1);
     CHECK(report.history.back().residual < report.history.front().residual);
