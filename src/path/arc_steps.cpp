@@ -89,7 +89,8 @@ std::optional<Waypoint> ArcSteps::next() {
   std::optional<Direction> along;
   bool looked = false;
   step_ = std::min(step_, longest());
-  for (double s = step_; s >= shortest_ && !interrupted();) {
+  const auto patient = [&] { return options_.patience == 0 || refused_ < options_.patience; };
+  for (double s = step_; s >= shortest_ && patient() && !interrupted();) {
     double better = 0;
     std::optional<Candidate> c;
     if (!current_.slack) c = attempt(s, direction_, false, shifts, better, why);
@@ -109,6 +110,7 @@ std::optional<Waypoint> ArcSteps::next() {
       step_ = s;
       return accept(std::move(*c));
     }
+    ++refused_;
     if (better > 0) s = better;
     else s /= ++refused > arc_steps::halvings_at_first ? 4 : 2;
   }

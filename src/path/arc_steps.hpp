@@ -10,6 +10,7 @@ struct ArcOptions {
   bool contacts = true;
   std::vector<double> stops = {};      // load factors at which it stops on the way
   std::vector<Watch> watches = {};
+  int patience = 0;                    // steps that may be refused altogether; 0: as many as it takes
   double step = 0, shortest = 0;       // of the first step, in the metric; 0: as long as the limits above let it be
 };
 
@@ -41,6 +42,8 @@ class ArcSteps final : public Branch {
   /// Length of the next step, and of the shortest that is tried.
   double step() const { return step_; }
   double shortest() const { return shortest_; }
+  /// Steps that have been refused so far.
+  int refused() const { return refused_; }
   /// Of the last one; 0: it was not one of arc length.
   double taken() const { return taken_; }
 
@@ -69,6 +72,7 @@ class ArcSteps final : public Branch {
   std::vector<ContactKey> just_made_;  // where it stands, if steps go along them
   std::optional<double> last_stop_;    // where it stands, if at a stop
   double step_, shortest_, least_length_, taken_ = 0;
+  int refused_ = 0;
 };
 
 }  // namespace elamin

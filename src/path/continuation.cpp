@@ -185,11 +185,16 @@ void Continuation::jump(const Event& event) {
   land(std::move(landed), what, event.before, event.at.point.label);
 }
 
-// The path goes on from where it has fallen to.
-void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
+// Steps begin anew.
+void Continuation::begin_at(Equilibrium& at) {
   ContactSet closed = closed_contacts(newton_.energy(), at);
   set_out({.at = at, .negative = at.point.stability.negative, .closed = std::move(closed)}, towards_end(at));
   at.point.resume = resume_here({at});
+}
+
+// The path goes on from where it has fallen to.
+void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
+  begin_at(at);
   emit_landing(std::move(at.point), what, before, parent);
 }
 
@@ -204,19 +209,27 @@ void Continuation::break_off() {
   end(Status::not_converged, steps_->why() + (cause.empty() ? "" : "; " + cause));
 }
 
-// Where the branch ends within the finest step, at an event that could not be resolved: the minimum that is reached by going
-// down from there, beyond.
+// Where the branch ends within the finest step, at an event that could not be resolved, or in more of them than steps can tell: the minimum
+// that is reached by going down from there, beyond.
 bool Continuation::fall() {
   const Equilibrium last = steps_->at();
-  const double at = last.point.state.load_factor, before = newton_.energy().value(last.point.state), target = static_cast<const LoadSteps&>(*steps_).goal();
+  const double at = last.point.state.load_factor, target = static_cast<const LoadSteps&>(*steps_).goal();
   State state = last.point.state;
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().passage(last.point.state, state) < 1) return false;
+  const double before = newton_.energy().value(state);
   const Report report = newton_.minimise(state, Pace::downhill);
   if (!report.converged() || !(report.energy < before)) return false;
+  Equilibrium landed = assess(newton_, state, report);
+  if (!bends(newton_.energy().kinematics(), last, landed, load_steps::most_bend)) {
+    note(fmt::format("steps cannot tell what happens between load factors {:.10g} and {:.10g}; the branch goes on", at, target));
+    begin_at(landed);
+    emit(std::move(landed.point));
+    return true;
+  }
   note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
                    at, before, report.energy));
-  land(assess(newton_, state, report), fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target),
+  land(std::move(landed), fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target),
        steps_->negative(), "");
   return true;
 }

@@ -41,6 +41,7 @@ class Continuation : public Path {
   std::optional<Resume> resume_here(const Waypoint& waypoint) const;
   bool goes_on_behind(Event& event);
   void jump(const Event& event);
+  void begin_at(Equilibrium& at);
   void land(Equilibrium at, const std::string& what, int before, const std::string& parent);
   void break_off();
   bool fall();

@@ -31,16 +31,19 @@ LoadSteps::LoadSteps(Newton& newton, Departure from, const PathOptions& options)
       correct_(options.correct) {
   sign_ = options.to < options.from ? -1 : 1;
   grid_.restart(current_.point.state.load_factor);
+  patience_.since = current_.point.state.load_factor, patience_.creep = load_steps::creep * std::abs(options.to - options.from) / options.steps;
+  if (options.when_unstable == WhenUnstable::jump && !options.contacts && may_touch(newton.energy().model())) patience_.most = load_steps::patience;
 }
 
 std::optional<Waypoint> LoadSteps::next() {
   const double here = current_.point.state.load_factor;
   std::string why;
-  while (!grid_.done() && !interrupted() && status() == Status::converged) {
+  while (!grid_.done() && patient() && !interrupted() && status() == Status::converged) {
     if (detour_) {
       if (std::optional<Waypoint> w = on_detour()) return w;
     } else {
       if (std::optional<Candidate> c = reach(grid_.next(), why)) return accept(std::move(*c));
+      ++patience_.refused;
       if (grid_.halvings() >= load_steps::first_detour && (grid_.halvings() - load_steps::first_detour) % load_steps::next_detour == 0) {
         set_out_on_detour();
         continue;
@@ -49,7 +52,8 @@ std::optional<Waypoint> LoadSteps::next() {
     if (grid_.halve()) continue;
     stop_here(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}", here, std::abs(grid_.next() - here), why));
   }
-  if (grid_.done()) stop_here(Status::converged, fmt::format("load factor {:.10g} reached", here));
+  if (!patient()) stop_here(Status::not_converged, fmt::format("load factor {:.10g} could not be passed in {} steps: {}", here, patience_.refused, why));
+  else if (grid_.done()) stop_here(Status::converged, fmt::format("load factor {:.10g} reached", here));
   else if (interrupted()) stop_here(Status::interrupted, fmt::format("interrupted at load factor {:.10g}", here));
   return {};
 }
@@ -69,16 +73,23 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
 Waypoint LoadSteps::accept(Candidate c) {
   if (c.events.empty()) grid_.arrive();
   else grid_.restart(c.e.point.state.load_factor);
+  arrived(c);
+  return {std::move(c.e), std::move(c.events)};
+}
+
+void LoadSteps::arrived(const Candidate& c) {
+  const double load = c.e.point.state.load_factor;
+  if (!c.events.empty() || std::abs(load - patience_.since) >= patience_.creep) patience_.since = load, patience_.refused = 0;
   critical_ = c.events.empty() ? Eigen::MatrixXd() : c.events.front().modes;
   take(c);
-  return {std::move(c.e), std::move(c.events)};
 }
 
 // What stops the steps, told by arc length: an event that load steps cannot meet themselves, or an equilibrium beyond.
 void LoadSteps::set_out_on_detour() {
   const double here = current_.point.state.load_factor, way = grid_.next() - here;
   goal_ = grid_.next(), taken_ = 0;
-  ArcOptions a{.load_step = std::abs(way), .turn = 0.1, .contacts = contacts_, .stops = {goal_, here - 100 * way}, .watches = watches_};
+  ArcOptions a{.load_step = std::abs(way), .turn = 0.1, .contacts = contacts_, .stops = {goal_, here - 100 * way}, .watches = watches_,
+               .patience = patience_.most > 0 ? patience_.most - patience_.refused : 0};
   std::sort(a.stops.begin(), a.stops.end());
   const Metric metric = metric_for(newton_.energy(), current_, way);
   const Direction towards{Vector::Zero(current_.tangent.size()), sign_ * metric.load};
@@ -88,14 +99,15 @@ void LoadSteps::set_out_on_detour() {
 
 // It ends at its goal, at the first event, or where it leads nowhere: nothing is told then, and the next step is shorter.
 std::optional<Waypoint> LoadSteps::on_detour() {
+  const int before = detour_->refused();
   std::optional<Waypoint> w = ++taken_ <= load_steps::longest_detour ? detour_->next() : std::nullopt;
+  patience_.refused += detour_->refused() - before;
   if (w && w->stop && *w->stop != goal_) w.reset();
   if (!w) return detour_.reset(), std::nullopt;
   const double load = w->at.point.state.load_factor;
   const bool there = !w->events.empty() || (load - goal_) * sign_ >= 0;
   grid_.restart(load, w->events.empty() ? std::max(0, grid_.halvings() - 1) : 0);
-  critical_ = w->events.empty() ? Eigen::MatrixXd() : w->events.front().modes;
-  take(Candidate{.parameter = load, .e = w->at, .events = w->events});
+  arrived(Candidate{.parameter = load, .e = w->at, .events = w->events});
   if (there) detour_.reset();
   return Waypoint{std::move(w->at), std::move(w->events)};
 }

@@ -9,7 +9,8 @@ std::vector<double> load_targets(const PathOptions& options);
 
 /// A branch in steps of the load factor. Steps that fail are halved, down to 2⁻²⁰ of a step; halved steps double again, so
 /// that every multiple of the step is hit. Where steps fail, the branch is followed in arc length to see what is there: a limit point, a
-/// branch point that is reached along a side branch, or only a sharp bend.
+/// branch point that is reached along a side branch, or only a sharp bend. Where something touches and nobody asks for contacts, a path that may
+/// jump has no patience with what lies nearer together than steps can tell: it stops there, and falls.
 class LoadSteps final : public Branch {
  public:
   LoadSteps(Newton& newton, Departure from, const PathOptions& options);
@@ -23,6 +24,8 @@ class LoadSteps final : public Branch {
   Waypoint accept(Candidate c);
   void set_out_on_detour();
   std::optional<Waypoint> on_detour();
+  void arrived(const Candidate& c);
+  bool patient() const { return patience_.most == 0 || patience_.refused < patience_.most; }
 
   LoadGrid grid_;
   Corrector correct_;
@@ -30,6 +33,11 @@ class LoadSteps final : public Branch {
   std::optional<ArcSteps> detour_;
   double goal_ = 0;                      // of the detour …
   int taken_ = 0;                        // … and its steps so far
+  struct Patience {                      // with steps that are refused, until the load factor has gone on by `creep` or something happened
+    int most = 0;                        // 0: without end
+    double creep = 0, since = 0;
+    int refused = 0;
+  } patience_;
 };
 
 }  // namespace elamin
