@@ -1,5 +1,7 @@
 #include "path/start.hpp"
 
+#include "solve/method.hpp"
+
 #include <fmt/format.h>
 
 namespace elamin {
@@ -25,7 +27,7 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
   } else {
     state = given;
   }
-  report = newton.minimise(state);
+  report = minimise(newton, state, AutoOptions{});
   if (report.converged()) return assess(newton, state, report);
   Equilibrium failed;
   failed.point.state = state;

@@ -7,6 +7,7 @@
 #include "problem/build_groups.hpp"
 #include "problem/build_lammps.hpp"
 #include "problem/build_structures.hpp"
+#include "problem/staged_structure.hpp"
 #include "problem/stages.hpp"
 
 namespace elamin {
@@ -37,10 +38,10 @@ class Builder {
     holding = add_supports(p_, groups, model_, mistakes_) && holding;
     add_loads(p_, groups, model_, mistakes_);
     holding = add_contacts(p_, groups, model_, mistakes_) && holding;
+    model_.groups = groups.groups();
     if (holding && whole_) check_bodies_built(p_, model_, mistakes_);
     if (holding && whole_) check_all_held();
     if (holding && whole_) check_modes(p_, model_, mistakes_);
-    model_.groups = groups.groups();
     if (whole_ && !p_.path.start.empty() && !p_.path.place.broken) add_restart(p_, model_, mistakes_);
     if (holding && whole_) check_sides(p_, model_, mistakes_);
     if (holding && whole_ && p_.in_time() && !mistakes_.any()) check_timestep(p_, model_, mistakes_);
@@ -56,8 +57,9 @@ class Builder {
     for (const StageTable& table : p_.stages) {
       std::string unclear;
       const Stage stage = stages.enter(unclear);
+      if (connects_before(p_, stage.number)) return;           // where to is not known yet
       Mistakes of_stage(p_.file);
-      check_held(p_, model_in(stage, all, model_.start), of_stage);
+      check_held(p_, model_in(p_, stage, all, model_.start), of_stage);
       for (const Mistake& m : of_stage.list()) mistakes_.add(table.place, m.key + ": " + m.what);
       stages.leave(stage.path.to);
     }

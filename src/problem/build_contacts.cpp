@@ -4,6 +4,7 @@
 #include "model/connect.hpp"
 #include "problem/build_structures.hpp"
 #include "problem/conditions.hpp"
+#include "problem/staged_structure.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
@@ -86,12 +87,8 @@ class ContactBuilder {
     std::array<Members, 2> members;
     std::array<std::vector<int>, 2> particles;
     if (t.place.broken || !both(t.place, t.between, members) || !take_particles(t, members, particles)) return false;
-    Connection c;
+    Connection c = connection_of(t);
     c.first = std::move(particles[0]), c.second = std::move(particles[1]);
-    c.within = t.within, c.bonds_per_particle = t.bonds_per_particle.value_or(0);
-    c.bond_stiffness = t.bond_stiffness, c.rest_length = t.rest_length.value_or(0);
-    c.angle_stiffness = t.angle_stiffness.value_or(0);
-    c.as_built = t.rest.as_built, c.rest = rest_angle(t.rest, pi);
     const int bonds = connect(model_, c);
     if (bonds > 0) return true;
     mistakes_.add(t.place, "within",
@@ -237,10 +234,20 @@ Region with_unit_normal(Region region) {
   return region;
 }
 
+Connection connection_of(const ConnectTable& t) {
+  Connection c;
+  c.within = t.within, c.bonds_per_particle = t.bonds_per_particle.value_or(0);
+  c.bond_stiffness = t.bond_stiffness, c.rest_length = t.rest_length.value_or(0);
+  c.angle_stiffness = t.angle_stiffness.value_or(0);
+  c.as_built = t.rest.as_built, c.rest = rest_angle(t.rest, pi);
+  return c;
+}
+
 bool add_connections(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
   ContactBuilder builder(groups, model, mistakes);
   bool whole = true;
-  for (const ConnectTable& t : problem.connections) whole = builder.add(t) && whole;
+  for (const ConnectTable& t : problem.connections)
+    if (stage_number(problem, t.from_stage) == 0) whole = builder.add(t) && whole;
   return whole;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // What touches and glues particles besides the structures they were built in: connections, contacts, walls.
+#include "model/connect.hpp"
 #include "problem/build_groups.hpp"
 
 namespace elamin {
@@ -7,7 +8,10 @@ namespace elamin {
 /// The region with a normal of length 1, if it has one.
 Region with_unit_normal(Region region);
 
-/// Adds the bonds and angles of the connections. A mistake: one that makes no bond. Returns whether all could be built.
+/// What a table says, without the particles of its groups.
+Connection connection_of(const ConnectTable& table);
+
+/// Adds the bonds and angles of the connections that are made before the first stage. A mistake: one that makes no bond. Returns whether all could be built.
 bool add_connections(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
 /// Adds contacts, of rounded bodies too, and walls. A mistake: groups without what a law is between; particles without diameter

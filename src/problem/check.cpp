@@ -1,6 +1,7 @@
 #include "problem/check.hpp"
 
 #include "problem/check_parts.hpp"
+#include "problem/staged_structure.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
@@ -143,6 +144,8 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
     else if (!problem.in_time())
       mistakes.add(v.place, v.velocity || !v.spin ? "velocity" : "spin", "belongs to dynamics, study.type = \"dynamics\" without relax");
   }
+  for (RemoveTable& r : problem.removals) names.refer(r.place, "group", r.group);
+  check_staged_structure(problem, mistakes);
   check_path(problem, mistakes);
   check_solving(problem, mistakes);
   check_interactions(problem, names, mistakes);

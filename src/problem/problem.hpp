@@ -275,6 +275,7 @@ struct Problem {
   std::vector<BodyTable> bodies;
   std::vector<GlueTable> glue;
   std::vector<ConnectTable> connections;
+  std::vector<RemoveTable> removals;
   std::vector<GroupTable> groups;
   std::vector<SupportTable> supports;
   std::vector<LoadTable> loads;

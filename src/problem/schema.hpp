@@ -152,6 +152,7 @@ template <class IO> void describe(IO& io, ProblemFile& f) {
   io.tables("body", p.bodies);
   io.tables("group", p.groups);
   io.tables("connect", p.connections);
+  io.tables("remove", p.removals);
   io.tables("glue", p.glue);
   io.tables("support", p.supports);
   io.tables("load", p.loads);

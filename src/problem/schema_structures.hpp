@@ -33,6 +33,7 @@ template <class IO, class Table> void describe_row_stiffness(IO& io, Table& t) {
 
 template <class IO> void describe(IO& io, BeamTable& t) {
   io.name("name", t.name);
+  io.may("from_stage", t.from_stage);
   io.word("section", t.section, section_words);
   io.must("particles", t.particles, Range{2, most_particles});
   io.may("from", t.from);
@@ -53,6 +54,7 @@ template <class IO> void describe(IO& io, BeamTable& t) {
 
 template <class IO> void describe(IO& io, LoopTable& t) {
   io.name("name", t.name);
+  io.may("from_stage", t.from_stage);
   io.word("section", t.section, section_words);
   io.must("particles", t.particles, Range{3, most_particles});
   io.may("center", t.center);
@@ -65,6 +67,7 @@ template <class IO> void describe(IO& io, LoopTable& t) {
 
 template <class IO> void describe(IO& io, SheetTable& t) {
   io.name("name", t.name);
+  io.may("from_stage", t.from_stage);
   if (!io.word("shape", t.shape, sheet_words)) return io.skip_the_rest();   // other keys belong to other shapes
   switch (t.shape) {
     case SheetShape::rectangle:
@@ -90,6 +93,7 @@ template <class IO> void describe(IO& io, SheetTable& t) {
 
 template <class IO> void describe(IO& io, GrainsTable& t) {
   io.name("name", t.name);
+  io.may("from_stage", t.from_stage);
   io.may("positions", t.positions);
   io.may_file("file", t.file);
   io.may("diameter", t.diameter, range::positive);
@@ -151,8 +155,15 @@ template <class IO> void describe(IO& io, GlueTable& t) {
   io.must("body", t.body);
 }
 
+template <class IO> void describe(IO& io, RemoveTable& t) {
+  io.must("group", t.group);
+  io.must("from_stage", t.from_stage);
+  io.word("what", t.what, remove_words);
+}
+
 template <class IO> void describe(IO& io, ConnectTable& t) {
   io.must("between", t.between);
+  io.may("from_stage", t.from_stage);
   io.must("within", t.within, range::positive);
   io.may("bonds_per_particle", t.bonds_per_particle, range::count);
   io.must("bond_stiffness", t.bond_stiffness, range::positive);

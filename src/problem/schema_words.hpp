@@ -37,6 +37,8 @@ inline constexpr Word<BodyShape> body_words[]{{"sphere", BodyShape::sphere},
                                               {"box", BodyShape::box},
                                               {"mesh", BodyShape::mesh},
                                               {"molecule", BodyShape::molecule}};
+inline constexpr Word<RemoveTable::What> remove_words[]{
+    {"particles", RemoveTable::What::particles}, {"bonds", RemoveTable::What::bonds}, {"angles", RemoveTable::What::angles}};
 inline constexpr Word<const char*> plane_words[]{{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}};
 inline constexpr Word<Shape> shape_words[]{{"plane", Shape::plane},
                                            {"block", Shape::block},

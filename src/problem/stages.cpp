@@ -1,6 +1,7 @@
 #include "problem/stages.hpp"
 
 #include "problem/check.hpp"
+#include "problem/staged_structure.hpp"
 #include "problem/suggest.hpp"
 
 #include <fmt/format.h>
@@ -92,7 +93,7 @@ bool Stages::resume(const StoredStage& stored) {
 Stage Stages::enter(std::string& unclear) {
   const bool first = next_ == 0, staged = !problem_.stages.empty();
   const StageTable* t = staged ? &problem_.stages[next_] : nullptr;
-  Stage stage{t ? t->name : "", problem_.path, {}, {}, {}};
+  Stage stage{t ? t->name : "", next_, problem_.path, {}, {}, {}};
   for (std::size_t i = 0; i < tables_.size(); ++i) {
     stage.in_force.push_back(!staged || in_force(problem_, tables_[i], from_stage_[i], next_));
     stage.entering.push_back(!first && stage.in_force[i] && !was_in_force_[i]);
@@ -145,7 +146,7 @@ void Stages::leave(double load_factor) {
     if (varied_[i]) amount_[i] = offset_[i] + load_factor;
 }
 
-Model model_in(const Stage& stage, Model& all, const State& now) {
+Model model_in(const Problem& problem, const Stage& stage, Model& all, const State& now) {
   const std::vector<Scaling*> scalings = scalings_in(all);
   for (std::size_t i = 0; i < scalings.size(); ++i) *scalings[i] = stage.in_force[i] ? stage.scaling[i] : Scaling(0, 0);
   for (std::size_t s = 0; s < all.supports.size(); ++s) {
@@ -177,6 +178,7 @@ Model model_in(const Stage& stage, Model& all, const State& now) {
   for (std::size_t w = 0; w < model.walls.size(); ++w)
     if (!stage.in_force[walls + w]) model.walls[w].particles.clear(), model.walls[w].bodies.clear();
   keep(model.supports, 0);
+  leave_out(problem, stage.number, model, now);
   return model;
 }
 

@@ -13,6 +13,7 @@ namespace elamin {
 /// bodies last:
 struct Stage {
   std::string name;                     // "": the path has no stages
+  int number = 0;                       // from 0
   PathTable path;                       // the keys of [path] in this stage, its `from` and `to` among them
   std::vector<bool> in_force, entering; // entering: in force, and not in the stage before; never in the first one
                                         // (resumed: in force, and not so from the start on)
@@ -49,11 +50,11 @@ class Stages {
   std::optional<StoredStage> resumed_;
 };
 
-/// The model in a stage: what is not in force is left out (walls stay, without particles, so that they keep their
+/// The model in a stage: what is not in force, or not there, is left out (walls stay, without particles, so that they keep their
 /// numbers), and supports that enter hold their particles where they are `now`. `all` has everything in force; the
 /// places of such supports are kept in it for the stages to come. A support that entered before a state was stored holds
 /// its particles where they are less its displacement so far, bodies less its rotation too.
-Model model_in(const Stage& stage, Model& all, const State& now);
+Model model_in(const Problem& problem, const Stage& stage, Model& all, const State& now);
 
 /// Labels of the conditions that the load factor of a stage scales.
 std::vector<std::string> varied(const Problem& problem, const Stage& stage);

@@ -36,6 +36,7 @@ enum class ClampedEnds { from, to, both };
 struct BeamTable {
   TablePlace place;
   std::string name;
+  std::string from_stage;                       // there from that stage on; "": from the start
   Section section = Section::cylinder;
   int particles = 0;
   std::optional<Vec3> from, to;                 // either these …
@@ -59,6 +60,7 @@ struct BeamTable {
 struct LoopTable {
   TablePlace place;
   std::string name;
+  std::string from_stage;                       // there from that stage on; "": from the start
   Section section = Section::cylinder;
   int particles = 0;
   Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
@@ -77,6 +79,7 @@ enum class SheetShape { rectangle, circle, cylinder };
 struct SheetTable {
   TablePlace place;
   std::string name;
+  std::string from_stage;                       // there from that stage on; "": from the start
   SheetShape shape = SheetShape::rectangle;
   std::optional<std::array<double, 2>> size;    // rectangle
   std::optional<double> radius, height;         // circle: radius; cylinder: both
@@ -93,6 +96,7 @@ struct SheetTable {
 struct GrainsTable {
   TablePlace place;
   std::string name;
+  std::string from_stage;                       // there from that stage on; "": from the start
   std::optional<std::vector<Vec3>> positions;   // either these …
   std::string file;                             // … or a CSV file: x,y,z, and a diameter if there is a fourth column
   std::optional<double> diameter;               // needed unless the file has it
@@ -141,6 +145,7 @@ struct GlueTable {
 /// Bonds between the particles of two groups that are near each other, and angles over these bonds.
 struct ConnectTable {
   TablePlace place;
+  std::string from_stage;                       // made as that stage begins, where things are by then; "": as built
   std::array<std::string, 2> between;
   double within = 0;
   std::optional<int> bonds_per_particle;        // of the first group: its nearest ones only; default all
@@ -149,6 +154,15 @@ struct ConnectTable {
   std::optional<double> angle_stiffness;        // default: no angles
   Rest rest{true, 180};                         // as built
   bool operator==(const ConnectTable&) const = default;
+};
+
+/// What is gone from a stage on.
+struct RemoveTable {
+  enum class What { particles, bonds, angles };
+  TablePlace place;
+  std::string group, from_stage;
+  What what = What::particles;                  // particles with all that is on them; bonds between them, and angles over these; angles
+  bool operator==(const RemoveTable&) const = default;
 };
 
 }  // namespace elamin

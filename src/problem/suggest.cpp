@@ -47,7 +47,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 30;
+  constexpr std::size_t most = 32;
   std::string text;
   for (std::size_t i = 0; i < std::min(words.size(), most); ++i) text += (i ? ", " : "") + words[i];
   if (words.size() > most) text += ", and " + std::to_string(words.size() - most) + " more";

@@ -3,6 +3,7 @@
 #include "model/entities.hpp"
 #include "path/path.hpp"
 #include "problem/check.hpp"
+#include "problem/staged_structure.hpp"
 #include "problem/stages.hpp"
 #include "study/observed.hpp"
 
@@ -167,7 +168,14 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     const State start = held ? held->state : model.restart.value_or(model.start);
     std::string unclear;
     Stage stage = stages.enter(unclear);
-    Model in_stage = model_in(stage, all, start);
+    std::string broken = connect_in(problem, stage.number, all, start);       // why the path is not gone on with
+    if (stored && !held && connects_before(problem, stage.number))
+      broken = "a path is not taken up behind a [[connect]] with from_stage, whose bonds are not those of the file; begin with a stage before it";
+    if (!broken.empty()) {
+      outcome = {Status::not_converged, stage.name + ": " + broken};
+      break;
+    }
+    Model in_stage = model_in(problem, stage, all, start);
     before = std::move(run);
     run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, held ? std::nullopt : stored);
     const bool by_newton = problem.solver.by_newton() || any_hard(run->model);
@@ -176,7 +184,6 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
                             "\"{}\" finds the equilibria between them", problem.solver.method));
     bool begun = false;
     Headway headway(run->stage.path);
-    std::string broken;                                // why the path is not gone on with
     while (std::optional<PathPoint> point = broken.empty() ? run->path->next() : std::nullopt) {
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));

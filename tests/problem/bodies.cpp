@@ -188,12 +188,12 @@ TEST_CASE("A support of bodies that enters in a stage holds them where they are 
   Model all = build_model(p);
   Stages stages(p);
   std::string unclear;
-  const Model a = model_in(stages.enter(unclear), all, all.start);
+  const Model a = model_in(p, stages.enter(unclear), all, all.start);
   CHECK((a.supports.size() == 2 && a.rounded.size() == 2 && a.walls[0].bodies.empty()));
   stages.leave(1);
   State now = all.start;
   now.bodies[0] = moved(now.bodies[0], Vec3(0.25, 0, 0), Vec3(0, 0, 0.3));
-  const Model b = model_in(stages.enter(unclear), all, now);
+  const Model b = model_in(p, stages.enter(unclear), all, now);
   REQUIRE((b.supports.size() == 2 && b.rounded.size() == 1 && b.rounded[0].kernel.normal == 2 && b.walls[0].bodies.size() == 2));
   REQUIRE(b.supports[1].body_reference.size() == 1);
   // Held where it is at the beginning of the stage, turned by the whole rotation at its end.

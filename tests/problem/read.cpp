@@ -96,7 +96,7 @@ TEST_CASE("The hash is SHA-256 of the bytes") {
 }
 
 TEST_CASE("The resolved problem reads back to the same problem") {
-  for (const char* name : {"column.toml", "everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "dynamics.toml", "bodies.toml",
+  for (const char* name : {"column.toml", "everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "staged.toml", "dynamics.toml", "bodies.toml",
                            "falling.toml"}) {
     const Problem p = read_problem(good + name);
     INFO(resolved_toml(p));
@@ -118,7 +118,7 @@ TEST_CASE("The resolved problems hold every key") {
   all_keys(tree, "", all);
   const ScratchDirectory scratch;
   std::vector<Node> roots;
-  for (const char* name : {"everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "dynamics.toml", "bodies.toml",
+  for (const char* name : {"everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "staged.toml", "dynamics.toml", "bodies.toml",
                            "falling.toml"})
     roots.push_back({{}, read_document(scratch.file("r.toml", resolved_toml(read_problem(good + name)))).root});
   // A key is there if one of the tables of its name has it.
