@@ -1,10 +1,15 @@
 #pragma once
-// Ctrl-C asks; long loops look here between iterations, finish what they hold and say so.
+// Ctrl-C asks; long loops look here between iterations, finish what they hold and say so. While they look they are at work.
+#include "core/heartbeat.hpp"
+
 #include <atomic>
 
 namespace elamin {
 
 inline std::atomic<bool> interrupt_requested{false};
-inline bool interrupted() { return interrupt_requested.load(std::memory_order_relaxed); }
+inline bool interrupted() {
+  beat();
+  return interrupt_requested.load(std::memory_order_relaxed);
+}
 
 }  // namespace elamin

@@ -1,5 +1,6 @@
 #include "study/single.hpp"
 
+#include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "problem/resolved.hpp"
 #include "results/run_directory.hpp"
@@ -16,6 +17,8 @@
 namespace elamin {
 
 namespace {
+
+constexpr double longest_silence = 4;         // seconds without a line
 
 std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
 
@@ -48,6 +51,15 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   const bool in_time = problem.in_time();
   Progress progress(stdout, style, in_time ? 0 : starting_load_factor(problem), in_time ? problem.dynamics.steps : problem.path.to);
   Summary summary;
+  Stopwatch since_point, since_line;
+  std::string after = "the first equilibrium";                 // what is looked for
+  double at = starting_load_factor(problem);
+  const Heartbeat at_work([&] {
+    if (in_time || since_line.seconds() < longest_silence) return;
+    const std::string line = fmt::format("at work on {} for {:.0f} s", after, since_point.seconds());
+    results.log(line), progress.show(line, at, false);
+    since_line = Stopwatch();
+  });
   const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
     if (last && point.label.empty()) point.label = "final";
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
@@ -61,6 +73,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     if (point.modes.cols() > 0) results.add_null_vectors(point.label, null_vectors(point, energy->kinematics()));
     if (last && point.label != "final") results.add_state("final", point, touches);
     progress.show(point);
+    at = point.state.load_factor, after = fmt::format("what comes after step {}, load factor {:.7g},", point.step, at);
+    since_point = since_line = Stopwatch();
     summary.zero_modes = point.stability.zero_modes;
   };
   const Sink sink{
@@ -69,8 +83,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         results.enter(stage, energy->model());
         if (problem.study == StudyType::path && problem.path.eigenvalues > 0) lowest.emplace(energy->model(), problem.path.eigenvalues);
         results.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
-                                stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), model.bonds.size(),
-                                model.angles.size(), energy->dofs(), energy->hessian().nonZeros()));
+                                stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), energy->model().bonds.size(),
+                                energy->model().angles.size(), energy->dofs(), energy->hessian().nonZeros()));
         if (setup == 0)
           for (const std::string& warning : doubts(model)) results.log(warning);
         if (setup == 0)

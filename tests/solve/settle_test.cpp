@@ -1,5 +1,6 @@
 #include "catch.hpp"
 #include "chain.hpp"
+#include "core/heartbeat.hpp"
 #include "model/grains.hpp"
 #include "solve/method.hpp"
 #include "solve/settle.hpp"
@@ -117,4 +118,23 @@ TEST_CASE("grains that overlap in a box with room part until no force is left", 
       CHECK(report.energy <= 1e-15 * before);                   // overlaps of the tolerance, 1e-10^{2/3} of a diameter, to the power 5/2
     }
   }
+}
+
+TEST_CASE("long work tells that it is at work", "[solve][settle]") {
+  const Model m = heap(30, 1, 1e5);
+  Energy energy(m);
+  Newton newton(energy);
+  State state = m.start;
+  int inner = 0, outer = 0;
+  const Heartbeat all([&] { ++outer; });
+  Report report;
+  {
+    const Heartbeat at_work([&] { ++inner; });
+    report = minimise(newton, state, AutoOptions{});
+  }
+  REQUIRE(report.converged());
+  CHECK(inner >= report.iterations);
+  CHECK(outer == 0);
+  newton.minimise(state);
+  CHECK(outer > 0);
 }
