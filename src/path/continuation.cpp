@@ -201,17 +201,18 @@ void Continuation::land(Equilibrium at, const std::string& what, int before, con
 // The branch cannot be followed any further, or there is nothing left to hit.
 void Continuation::break_off() {
   if (steps_->status() != Status::not_converged) return end(steps_->status(), steps_->why());
-  if (!arcs() && options_.when_unstable == WhenUnstable::jump && fall()) return;
+  std::string no_fall;
+  if (!arcs() && options_.when_unstable == WhenUnstable::jump && fall(no_fall)) return;
   const State& last = steps_->at().point.state;
   if (const std::string together = collapsed(newton_.energy().model(), last); arcs() && !together.empty())
     return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", last.load_factor, together));
   const std::string cause = cause_at(newton_, steps_->at());
-  end(Status::not_converged, steps_->why() + (cause.empty() ? "" : "; " + cause));
+  end(Status::not_converged, steps_->why() + no_fall + (cause.empty() ? "" : "; " + cause));
 }
 
 // Where the branch ends within the finest step, at an event that could not be resolved, or in more of them than steps can tell: the minimum
 // that is reached by going down from there, beyond.
-bool Continuation::fall() {
+bool Continuation::fall(std::string& why) {
   const Equilibrium last = steps_->at();
   const double at = last.point.state.load_factor, target = static_cast<const LoadSteps&>(*steps_).goal();
   State state = last.point.state;
@@ -219,6 +220,7 @@ bool Continuation::fall() {
   if (newton_.energy().passage(last.point.state, state) < 1) return false;
   const double before = newton_.energy().value(state);
   const Report report = newton_.minimise(state, Pace::downhill);
+  if (!report.converged()) why = fmt::format("; and no minimum was found beyond, at load factor {:.10g}: {}", target, report.why);
   if (!report.converged() || !(report.energy < before)) return false;
   Equilibrium landed = assess(newton_, state, report);
   if (!bends(newton_.energy().kinematics(), last, landed, load_steps::most_bend)) {

@@ -52,7 +52,7 @@ std::optional<Waypoint> LoadSteps::next() {
     if (grid_.halve()) continue;
     stop_here(Status::not_converged, fmt::format("load factor {:.10g} could not be passed even in steps of {:.3g}: {}", here, std::abs(grid_.next() - here), why));
   }
-  if (!patient()) stop_here(Status::not_converged, fmt::format("load factor {:.10g} could not be passed in {} steps: {}", here, patience_.refused, why));
+  if (!patient()) stop_here(Status::not_converged, fmt::format("load factor {:.10g} could not be passed in {} steps{}", here, patience_.refused, why.empty() ? "" : ": " + why));
   else if (grid_.done()) stop_here(Status::converged, fmt::format("load factor {:.10g} reached", here));
   else if (interrupted()) stop_here(Status::interrupted, fmt::format("interrupted at load factor {:.10g}", here));
   return {};

@@ -50,7 +50,7 @@ class CheckInteractions {
 
   void check(ConnectTable& c) {
     names_.refer(c.place, "between", c.between);
-    if (c.place.keys.count("rest") && !c.place.keys.count("angle_stiffness"))
+    if (!c.rest.as_built && !c.place.keys.count("angle_stiffness"))
       mistakes_.add(c.place, "rest", "is of no use without angle_stiffness; without it there are no angles");
   }
 

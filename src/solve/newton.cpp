@@ -158,13 +158,13 @@ Newton::Part Newton::part_of(const State& state, const Step& step) const {
   return {turn * free, free};
 }
 
-// Takes as much of the step as goes down, halving it; where rounding hides the energy's change and the model is convex, Newton's step
+// Takes as much of the step as goes down, halving it; where rounding hides the energy's change and the Hessian itself is convex, Newton's step
 // itself is the best there is.
 std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step step) {
   Part part = part_of(state, step);
   double alpha = part.first;
   State next;
-  const bool hidden = std::abs(step.slope) <= step.energy_rounding &&
+  const bool hidden = !descent.eased && std::abs(step.slope) <= step.energy_rounding &&
                       descent.shift <= limits::hold_zero_modes * factors_.zero_level() && ++descent.unseen <= limits::most_unseen;
   if (hidden) {
     next = state;
@@ -181,7 +181,9 @@ std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step
       step = *bent, part = part_of(state, step), alpha = part.first;
       continue;
     }
-    if (!(alpha > limits::least_part * part.first))                 // or where nothing of the step is free
+    const bool nothing = !(alpha > limits::least_part * part.first);             // or where nothing of the step is free
+    if (nothing && std::exchange(descent.eased, false)) return descent.refused = true, std::nullopt;
+    if (nothing)
       return Halt{Status::not_converged, fmt::format("no step lowers the {}; the residual stays at {:.2g}",
           std::abs(step.slope) <= step.energy_rounding ? "residual, whose changes are rounding; a larger solver.tolerance may do" : "energy",
           descent.report.residual)};

@@ -100,6 +100,8 @@ class Newton {
     double reach;                // of a step, as far as the last ones could be taken [length]
     double shift = 0;            // the last one: a guess for the next [force/length]
     double pressed = 1;          // part of what compression takes that the last indefinite Hessian was taken without: a guess, too
+    bool eased = false;          // the last step was one without compression; …
+    bool refused = false;        // … and none of it could be taken: the next one takes a shift
     double moved = 0;            // by the last step [length]
     int unseen = 0;              // steps whose change of energy rounding hid
     bool left = false;           // a saddle, in the last iteration

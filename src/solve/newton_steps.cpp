@@ -132,12 +132,12 @@ std::optional<double> Newton::without_compression(const State& state, const Vect
 // saddle instead (`left`), but not twice in a row: Newton's steps must take the rest of the way down. None: there is no factor.
 std::optional<double> Newton::make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left) {
   const bool stays = std::exchange(descent.left, false) || descent.pace == Pace::stationary;
-  left = false;
+  left = descent.eased = false;
   if (factors_.try_cholesky(0)) return 0;
   const double sigma = factors_.zero_level();
   if (factors_.try_cholesky(sigma)) return factors_.make_positive_from(limits::hold_zero_modes * sigma);   // rounding would fill the step with a zero mode
-  if (!settled)
-    if (const std::optional<double> shift = without_compression(state, g, descent)) return shift;
+  if (!settled && !std::exchange(descent.refused, false))
+    if (const std::optional<double> shift = without_compression(state, g, descent)) return descent.eased = true, shift;
   const std::optional<double> positive = factors_.make_positive_from(std::max(descent.shift / 4, 16 * sigma), 32);
   if (!positive) return {};
   const EigenPairs lowest = settled ? factors_.lowest(1, *positive) : factors_.lowest(limits::modes_looked_at, *positive, 0.1);

@@ -114,7 +114,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   const auto said = [&](const std::string& key, const std::string& value) { return mistakes_of(file, {{key, value}}); };
   CHECK(mistakes_of(file) == "");
   CHECK(said("beam.column.particels", "3") ==
-        "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, section, particles, from, to, "
+        "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, from_stage, section, particles, from, to, "
         "rise, angle, toward, profile, through, clamped, center, axis, "
         "spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, angle_stiffness, rest_length, rest, "
         "axial_stiffness, bending_stiffness; "
@@ -123,7 +123,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
         "--set: \"beam.colum.particles\": no [[beam]] is \"colum\"; there are: column; did you mean \"column\"?");
   CHECK(said("beam.2.particles", "3") == "--set: \"beam.2.particles\": no [[beam]] is \"2\"; there are: column");
   CHECK(said("beam.column", "3") ==
-        "--set: \"beam.column\": is a table; name one of its keys: name, section, particles, from, to, "
+        "--set: \"beam.column\": is a table; name one of its keys: name, from_stage, section, particles, from, to, "
         "rise, angle, toward, profile, through, clamped, center, axis, spacing, diameter, thickness, youngs_modulus, "
         "density, bond_stiffness, angle_stiffness, rest_length, rest, axial_stiffness, bending_stiffness");
   CHECK(said("load.1.force", "[0, 0, 1]") == "--set: \"load.1.force\": there is no [[load]] in this file");
@@ -131,7 +131,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
   CHECK(
       said("", "1") ==
-      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, body, group, connect, glue, support, "
+      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, body, group, connect, remove, glue, support, "
       "load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, observe, event, "
       "expect, sweep");
   CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");
