@@ -58,7 +58,7 @@ void Continuation::begin() {
   }
   std::string sentence;
   const double at = options_.start.value_or(options_.from);
-  Equilibrium e = first_equilibrium(newton_, start_, at, options_.when_unstable, options_.resume.has_value(), sentence);
+  Equilibrium e = first_equilibrium(newton_, start_, at, options_.when_unstable, options_.resume.has_value(), options_.descend, sentence);
   if (!sentence.empty()) note(sentence);
   if (!e.point.report.converged()) return end(e.point.report.status, e.point.report.why);
   metric_ = metric_for(newton_.energy(), e, range());

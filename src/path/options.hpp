@@ -52,6 +52,7 @@ struct PathOptions {
   int most_points = 0;                   // on one branch; 0: twenty times `steps`
   std::vector<Watch> watches = {};
   Corrector correct = {};                     // of load steps; none: Newton's method. What is between two steps is Newton's.
+  Corrector descend = {};                     // to the minimum that the path begins at; none: Newton's method
   std::optional<Resume> resume = {};          // of the point that the path is taken up at
   int deflate = 0;                       // further equilibria to look for …
   std::vector<double> deflate_at = {};        // … at these load factors; none: at `to`

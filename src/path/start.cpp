@@ -1,13 +1,11 @@
 #include "path/start.hpp"
 
-#include "solve/method.hpp"
-
 #include <fmt/format.h>
 
 namespace elamin {
 
 Equilibrium first_equilibrium(Newton& newton, const State& start, double load_factor, WhenUnstable when_unstable, bool stored,
-                              std::string& note) {
+                              const Corrector& descend, std::string& note) {
   State state = start;
   newton.energy().kinematics().prescribe(state, load_factor);
   const State given = state;
@@ -27,7 +25,7 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
   } else {
     state = given;
   }
-  report = minimise(newton, state, AutoOptions{});
+  report = descend ? descend(state) : newton.minimise(state);
   if (report.converged()) return assess(newton, state, report);
   Equilibrium failed;
   failed.point.state = state;

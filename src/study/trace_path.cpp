@@ -43,6 +43,8 @@ struct Run {
       : stage(std::move(in_force)), model(std::move(in_stage)), energy(model), newton(energy, solver_options(problem)) {
     PathOptions options = options_of(problem, stage.path, model);
     options.correct = corrector_of(problem, newton);
+    if (std::holds_alternative<AutoOptions>(solver_method(problem)))
+      options.descend = [this](State& state) { return minimise(newton, state, AutoOptions{}); };
     if (stored && goes_on(*stored, problem)) options.resume = stored->path->resume;
     path = make_path(newton, start, options);
   }

@@ -126,13 +126,13 @@ TEST_CASE("Plates under a load across them", "[solve][reference]") {
     }
 }
 
-// Pressed together from all sides to fifty times its buckling strain: hundreds of negative eigenvalues, stiff in the plane, soft across it.
+// Pressed together from all sides far beyond buckling: many negative eigenvalues at once, stiff in the plane, soft across it.
 TEST_CASE("a sheet that wrinkles takes no more than 200 steps, and few factors a step", "[solve]") {
   for (const double unit : {1e-3, 1e3})
     for (const double strain : {0.01, 0.03}) {
       INFO("unit " << unit << ", strain " << strain);
-      Plate p = plate(31, 31, false, unit, 1, 1e-3 * unit * unit);
-      p.hold(p.edge("clamped"), [&](const Vec3& x) { return Vec3(-strain * (x - Vec3(15, 13, 0) * unit)); });
+      Plate p = plate(21, 21, false, unit, 1, 1e-3 * unit * unit);
+      p.hold(p.edge("clamped"), [&](const Vec3& x) { return Vec3(-strain * (x - Vec3(10, 8.7, 0) * unit)); });
       std::mt19937 random(3);
       for (int i = 0; i < p.model.particles(); ++i) p.model.start.position(2, i) = 1e-3 * unit * (random() / 4294967296.0 - 0.5);
       Energy energy(p.model);
