@@ -143,19 +143,21 @@ void leave_out(const Problem& problem, int stage, Model& model, const State& now
   if (std::find(absent.begin(), absent.end(), true) != absent.end()) hold_absent(absent, model, now);
 }
 
-void check_staged_structure(Problem& problem, Mistakes& mistakes) {
+void check_from_stage(const Problem& problem, TablePlace& place, const std::string& from, Mistakes& mistakes) {
   std::vector<std::string> names;
   for (const StageTable& s : problem.stages) names.push_back(s.name);
-  const std::string there = names.empty() ? "there is none" : "there are: " + listed(names);
-  const auto check = [&](TablePlace& place, const std::string& from) {
-    if (!from.empty() && std::find(names.begin(), names.end(), from) == names.end())
-      mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + there + did_you_mean(from, names));
-  };
+  if (from.empty() || std::find(names.begin(), names.end(), from) != names.end()) return;
+  mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
+                                        did_you_mean(from, names));
+}
+
+void check_staged_structure(Problem& problem, Mistakes& mistakes) {
+  const auto check = [&](TablePlace& place, const std::string& from) { check_from_stage(problem, place, from, mistakes); };
   for_structures(problem, [&](auto& t) { check(t.place, t.from_stage); });
   for (ConnectTable& c : problem.connections) check(c.place, c.from_stage);
   for (RemoveTable& r : problem.removals) {
     check(r.place, r.from_stage);
-    if (!names.empty() && r.from_stage == names.front())
+    if (!problem.stages.empty() && r.from_stage == problem.stages.front().name)
       mistakes.add(r.place, "from_stage", "is the first stage; what is never there is best left out");
   }
 }

@@ -45,10 +45,7 @@ bool named(const Condition& table, const std::vector<std::string>& words) {
 }
 
 bool in_force(const Problem& problem, const Condition& table, const std::string& from_stage, int stage) {
-  int first = 0;
-  for (int k = 0; k < static_cast<int>(problem.stages.size()); ++k)
-    if (problem.stages[k].name == from_stage) first = k;
-  return stage >= first && !named(table, problem.stages[stage].off);
+  return stage >= stage_number(problem, from_stage) && !named(table, problem.stages[stage].off);
 }
 
 }  // namespace
@@ -205,11 +202,7 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
       mistakes.add(s.place, "name", in_quotes(s.name) + " is the name of another [[stage]]; names are unique");
     names.push_back(s.name);
   }
-  const std::string there = names.empty() ? "there is none" : "there are: " + listed(names);
-  for_tables(problem, [&](TablePlace& place, const std::string& from) {
-    if (!from.empty() && std::find(names.begin(), names.end(), from) == names.end())
-      mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + there + did_you_mean(from, names));
-  });
+  for_tables(problem, [&](TablePlace& place, const std::string& from) { check_from_stage(problem, place, from, mistakes); });
   if (problem.stages.empty()) return;
 
   const std::vector<Condition> tables = tables_of(problem), conditions = conditions_of(problem);
