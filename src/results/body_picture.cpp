@@ -1,6 +1,6 @@
 #include "results/body_picture.hpp"
 
-#include "results/text_file.hpp"
+#include "core/text_file.hpp"
 
 #include <fmt/format.h>
 

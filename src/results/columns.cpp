@@ -1,6 +1,6 @@
 #include "results/columns.hpp"
 
-#include "problem/check.hpp"
+#include "input/check.hpp"
 #include "results/trajectory.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // The columns of path.csv, events.csv and sweep.csv, and how a point of a path becomes a row of them.
 #include "path/point.hpp"
-#include "problem/problem.hpp"
+#include "input/problem.hpp"
 #include "results/table.hpp"
 
 #include <optional>

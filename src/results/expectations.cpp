@@ -1,7 +1,7 @@
 #include "results/expectations.hpp"
 
-#include "problem/check.hpp"
-#include "problem/suggest.hpp"
+#include "input/check.hpp"
+#include "core/suggest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 // Does a run give what its file expects?
-#include "problem/problem.hpp"
+#include "input/problem.hpp"
 #include "results/table.hpp"
 
 #include <array>

@@ -3,7 +3,7 @@
 #include "dynamics/motion.hpp"
 #include "energy/touch.hpp"
 #include "model/model.hpp"
-#include "problem/problem.hpp"
+#include "input/problem.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // What a run has found so far, in memory: the rows of its path and of its events.
 #include "path/point.hpp"
-#include "problem/stages.hpp"
+#include "input/stages.hpp"
 #include "results/observables.hpp"
 #include "results/table.hpp"
 #include "results/trajectory.hpp"

@@ -2,11 +2,11 @@
 
 #include "core/error.hpp"
 #include "model/entities.hpp"
-#include "problem/state_tail.hpp"
+#include "input/state_tail.hpp"
 #include "results/body_picture.hpp"
 #include "results/columns.hpp"
-#include "results/lammps_state.hpp"
-#include "results/text_file.hpp"
+#include "lammps/state.hpp"
+#include "core/text_file.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

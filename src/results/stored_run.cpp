@@ -1,9 +1,9 @@
 #include "results/stored_run.hpp"
 
 #include "core/error.hpp"
-#include "problem/lammps_data.hpp"
-#include "problem/state_tail.hpp"
-#include "problem/text.hpp"
+#include "lammps/data.hpp"
+#include "input/state_tail.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "results/summary.hpp"
 
-#include "results/text_file.hpp"
+#include "core/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include "core/timing.hpp"
 #include "results/columns.hpp"
 #include "results/summary.hpp"
-#include "results/text_file.hpp"
+#include "core/text_file.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
 

@@ -1,6 +1,6 @@
 #include "study/check_command.hpp"
 
-#include "problem/sweep.hpp"
+#include "study/prepare.hpp"
 #include "study/describe.hpp"
 #include "study/trace.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // One problem by every method that can, side by side.
-#include "problem/problem.hpp"
-#include "problem/settings.hpp"
+#include "input/problem.hpp"
+#include "input/settings.hpp"
 #include "solve/report.hpp"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 // What `elamin check` says of a model, in lines for reading.
 #include "energy/energy.hpp"
-#include "problem/problem.hpp"
+#include "input/problem.hpp"
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "dynamics/timestep.hpp"
 #include "energy/changes.hpp"
-#include "problem/conditions.hpp"
-#include "problem/suggest.hpp"
+#include "input/conditions.hpp"
+#include "core/suggest.hpp"
 
 #include <fmt/format.h>
 

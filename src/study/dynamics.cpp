@@ -4,7 +4,7 @@
 #include "core/timing.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "dynamics/verlet.hpp"
-#include "problem/check.hpp"
+#include "input/check.hpp"
 
 #include <fmt/format.h>
 

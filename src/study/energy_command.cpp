@@ -2,8 +2,8 @@
 
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
-#include "problem/build.hpp"
-#include "problem/read.hpp"
+#include "input/build.hpp"
+#include "input/read.hpp"
 #include "results/table.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "problem/settings.hpp"
+#include "input/settings.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 // One study from its problem to its directory, and many of them side by side.
-#include "problem/problem.hpp"
-#include "problem/settings.hpp"
+#include "input/problem.hpp"
+#include "input/settings.hpp"
 #include "results/expectations.hpp"
 
 #include <string>

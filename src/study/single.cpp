@@ -2,7 +2,7 @@
 
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
-#include "problem/resolved.hpp"
+#include "input/resolved.hpp"
 #include "results/run_directory.hpp"
 #include "study/eigenvalues.hpp"
 #include "study/observed.hpp"

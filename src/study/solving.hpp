@@ -1,7 +1,7 @@
 #pragma once
 // Which solver a problem asks for.
 #include "path/options.hpp"
-#include "problem/problem.hpp"
+#include "input/problem.hpp"
 #include "solve/method.hpp"
 
 namespace elamin {

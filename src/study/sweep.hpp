@@ -1,6 +1,6 @@
 #pragma once
 // All runs of a file with [[sweep]].
-#include "problem/sweep.hpp"
+#include "study/prepare.hpp"
 #include "study/run.hpp"
 
 namespace elamin {

@@ -1,8 +1,8 @@
 #pragma once
 // From a problem and its model to equilibria: which solver calls a study is made of.
 #include "path/point.hpp"
-#include "problem/problem.hpp"
-#include "problem/stages.hpp"
+#include "input/problem.hpp"
+#include "input/stages.hpp"
 #include "results/mode.hpp"
 #include "results/trajectory.hpp"
 #include "study/solving.hpp"

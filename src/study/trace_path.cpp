@@ -2,9 +2,9 @@
 
 #include "model/entities.hpp"
 #include "path/path.hpp"
-#include "problem/check.hpp"
-#include "problem/staged_structure.hpp"
-#include "problem/stages.hpp"
+#include "input/check.hpp"
+#include "input/staged_structure.hpp"
+#include "input/stages.hpp"
 #include "study/observed.hpp"
 
 #include <fmt/format.h>

@@ -10,8 +10,8 @@
 #include "core/exact.hpp"
 #include "core/parallel.hpp"
 #include "energy/energy.hpp"
-#include "problem/build.hpp"
-#include "problem/read.hpp"
+#include "input/build.hpp"
+#include "input/read.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>

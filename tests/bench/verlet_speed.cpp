@@ -5,8 +5,8 @@
 // Takes so many steps of the problem's model from its start, on one thread, and prints the seconds of the processor that they took and the
 // particle-steps per second. POSITIONS: a file for the final positions, a particle a line. Fails if a position is lost.
 #include "dynamics/verlet.hpp"
-#include "problem/build.hpp"
-#include "problem/read.hpp"
+#include "input/build.hpp"
+#include "input/read.hpp"
 
 #include <cstdio>
 #include <cstdlib>

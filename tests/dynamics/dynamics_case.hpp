@@ -1,7 +1,7 @@
 #pragma once
 // A moving configuration of data/lammps as a model.
 #include "dynamics/contact_damping.hpp"
-#include "problem/model_of.hpp"
+#include "input/model_of.hpp"
 #include "study/lammps_case.hpp"
 
 namespace elamin {

@@ -5,7 +5,7 @@
 #include "laws/harmonic_bond.hpp"
 #include "laws/hertz_contact.hpp"
 #include "laws/wall_sites.hpp"
-#include "problem/lammps_data.hpp"
+#include "lammps/data.hpp"
 #include "reference.hpp"
 
 #include <map>

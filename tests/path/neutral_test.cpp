@@ -1,7 +1,7 @@
 // Branches that are families: an oval may slide along its ring at no cost, and is to stay where its symmetry keeps it.
 #include "catch.hpp"
-#include "problem/build.hpp"
-#include "problem/read.hpp"
+#include "input/build.hpp"
+#include "input/read.hpp"
 #include "scratch_directory.hpp"
 #include "study/trace.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
-#include "problem/lammps_data.hpp"
-#include "problem/state_tail.hpp"
+#include "lammps/data.hpp"
+#include "input/state_tail.hpp"
 #include "results/sample.hpp"
 #include "scratch_directory.hpp"
 

@@ -3,7 +3,7 @@
 #include "energy/touch.hpp"
 #include "model/model.hpp"
 #include "path/point.hpp"
-#include "problem/problem.hpp"
+#include "input/problem.hpp"
 
 /// Five particles along z with bonds and angles; the first is held in full, the last along x and z.
 inline elamin::Model sample_model() {

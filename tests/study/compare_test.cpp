@@ -1,7 +1,7 @@
 // One problem by many methods.
 #include "catch.hpp"
 #include "core/interrupt.hpp"
-#include "problem/read.hpp"
+#include "input/read.hpp"
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
 #include "study/compare.hpp"

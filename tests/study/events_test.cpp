@@ -3,7 +3,7 @@
 #include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
 #include "path/arc.hpp"
-#include "problem/sweep.hpp"
+#include "study/prepare.hpp"
 #include "study/observed.hpp"
 #include "study/trace.hpp"
 

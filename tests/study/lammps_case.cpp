@@ -1,6 +1,6 @@
 #include "study/lammps_case.hpp"
 
-#include "problem/lammps_data.hpp"
+#include "lammps/data.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "problem/lammps_data.hpp"
+#include "lammps/data.hpp"
 #include "scratch_directory.hpp"
 #include "study/lammps_case.hpp"
 

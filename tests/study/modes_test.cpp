@@ -1,7 +1,7 @@
 #include "catch.hpp"
 #include "chain.hpp"
 #include "core/dense.hpp"
-#include "problem/lammps_data.hpp"
+#include "lammps/data.hpp"
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
 #include "study/spectrum.hpp"

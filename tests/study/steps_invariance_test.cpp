@@ -8,7 +8,7 @@
 //   Ipopt         walks by load steps alone.
 // Not met yet, and named in `not_yet`: paths on which contacts are just closed where they begin or follow each other closely.
 #include "catch.hpp"
-#include "problem/sweep.hpp"
+#include "study/prepare.hpp"
 #include "study/trace.hpp"
 
 #include <algorithm>

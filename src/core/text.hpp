@@ -1,0 +1,30 @@
+#pragma once
+// The bytes of a file, before anything is known of them.
+#include "core/place.hpp"
+
+#include <string>
+
+namespace elamin {
+
+/// Mistakes of one data file; then reading it ends.
+constexpr std::size_t most_mistakes = 20;
+
+/// The contents of a file that is to be a text in UTF-8. Throws InputError if it is not there, is a folder, cannot be
+/// read, is larger than 64 MB, or holds bytes that are no text (with the line and column of the first).
+std::string read_text(const std::string& file);
+
+/// The contents of a file of numbers, of any size. Throws InputError, which names the `kind` of file that is wanted, if
+/// it is not there, is no regular file, cannot be read, or holds control characters, as binary files do (and then the
+/// `hint` follows).
+std::string read_data(const std::string& file, const std::string& kind, const std::string& hint = "");
+
+/// Whether the bytes are well-formed UTF-8 without the character 0.
+bool is_text(const std::string& bytes);
+
+/// Line and column, in characters from 1, of the byte at an offset.
+Place place_in(const std::string& text, std::size_t offset);
+
+/// SHA-256, as 64 hexadecimal digits.
+std::string sha256(const std::string& bytes);
+
+}  // namespace elamin

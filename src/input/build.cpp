@@ -1,0 +1,86 @@
+#include "input/build.hpp"
+
+#include "input/build_bodies.hpp"
+#include "input/build_checks.hpp"
+#include "input/build_conditions.hpp"
+#include "input/build_contacts.hpp"
+#include "input/build_groups.hpp"
+#include "input/build_lammps.hpp"
+#include "input/build_structures.hpp"
+#include "input/staged_structure.hpp"
+#include "input/stages.hpp"
+
+namespace elamin {
+namespace {
+
+class Builder {
+ public:
+  Builder(const Problem& problem, bool whole, Mistakes& mistakes) : p_(problem), mistakes_(mistakes), whole_(whole) {}
+
+  Model build() {
+    if (p_.plane == "yz") model_.plane_normal = 0;
+    if (p_.plane == "xz") model_.plane_normal = 1;
+    if (p_.plane == "xy") model_.plane_normal = 2;
+    if (p_.lammps && !add_lammps(p_, model_, mistakes_)) unknown_.push_back("lammps");
+    if (!add_structures(p_, model_, unknown_, mistakes_)) return {};
+    add_bodies(p_, model_, unknown_, mistakes_);
+    whole_ = whole_ && unknown_.empty() && model_.particles() + model_.bodies.size() > 0;
+    model_.start.load_factor = p_.path.from;
+    if (whole_) check_distinct(p_, model_, mistakes_);
+    if (whole_) check_plane(p_, model_, model_.start, place_of(p_, model_.structures.front()), mistakes_);
+
+    Groups groups(model_, whole_, mistakes_);
+    for (const std::string& name : unknown_) groups.add_unknown(name);
+    for (const GroupTable& g : p_.groups) groups.add(g);
+    bool holding = add_connections(p_, groups, model_, mistakes_);
+    holding = add_glue(p_, groups, model_, mistakes_) && holding;
+    if (p_.in_time()) need_masses(p_, model_, mistakes_);
+    holding = add_supports(p_, groups, model_, mistakes_) && holding;
+    add_loads(p_, groups, model_, mistakes_);
+    holding = add_contacts(p_, groups, model_, mistakes_) && holding;
+    model_.groups = groups.groups();
+    if (holding && whole_) check_bodies_built(p_, model_, mistakes_);
+    if (holding && whole_) check_all_held();
+    if (holding && whole_) check_modes(p_, model_, mistakes_);
+    if (whole_ && !p_.path.start.empty() && !p_.path.place.broken) add_restart(p_, model_, mistakes_);
+    if (holding && whole_) check_sides(p_, model_, mistakes_);
+    if (holding && whole_ && p_.in_time() && !mistakes_.any()) check_timestep(p_, model_, mistakes_);
+    return std::move(model_);
+  }
+
+ private:
+  /// Held in every stage.
+  void check_all_held() {
+    if (p_.stages.empty()) return check_held(p_, model_, mistakes_);
+    Stages stages(p_);
+    Model all = model_;
+    for (const StageTable& table : p_.stages) {
+      std::string unclear;
+      const Stage stage = stages.enter(unclear);
+      if (connects_before(p_, stage.number)) return;           // where to is not known yet
+      Mistakes of_stage(p_.file);
+      check_held(p_, model_in(p_, stage, all, model_.start), of_stage);
+      for (const Mistake& m : of_stage.list()) mistakes_.add(table.place, m.key + ": " + m.what);
+      stages.leave(stage.path.to);
+    }
+  }
+
+  const Problem& p_;
+  Mistakes& mistakes_;
+  Model model_;
+  bool whole_;                         // no structure was left out
+  std::vector<std::string> unknown_;   // names of those that were; what depends on them is left out of the checks
+};
+
+}  // namespace
+
+Model build_model(const Problem& problem) {
+  Mistakes mistakes(problem.file);
+  Model model = Builder(problem, true, mistakes).build();
+  mistakes.raise();
+  return model;
+}
+
+void check_model(const Problem& problem, bool whole, Mistakes& mistakes) { Builder(problem, whole, mistakes).build(); }
+
+}  // namespace elamin

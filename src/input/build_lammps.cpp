@@ -1,0 +1,218 @@
+#include "input/build_lammps.hpp"
+
+#include "core/dense.hpp"
+#include "input/build_checks.hpp"
+#include "lammps/data.hpp"
+#include "lammps/state.hpp"
+#include "input/stages.hpp"
+#include "input/state_tail.hpp"
+#include "core/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace elamin {
+namespace {
+
+/// A LAMMPS data file, or nothing if it holds mistakes.
+std::optional<LammpsData> read(const std::string& file, const std::string& atom_style, Mistakes& mistakes) {
+  try {
+    return read_lammps_data(file, atom_style);
+  } catch (const InputError& e) {
+    mistakes.add(e.mistakes());
+    return std::nullopt;
+  }
+}
+
+void move_bodies(LammpsData& from, LammpsData& to) {
+  to.shapes = std::move(from.shapes), to.bodies = std::move(from.bodies), to.body_position = std::move(from.body_position);
+  to.body_velocity = std::move(from.body_velocity), to.angular_momentum = std::move(from.angular_momentum);
+}
+
+/// The files of [lammps] as one; nothing after a mistake.
+std::optional<LammpsData> read(const LammpsTable& table, Mistakes& mistakes) {
+  if (table.place.broken) return std::nullopt;
+  std::optional<LammpsData> data, bodies;
+  if (!table.data.empty()) data = read(table.data, table.atom_style, mistakes);
+  if (!table.bodies.empty()) bodies = read(table.bodies, table.data.empty() ? table.atom_style : "", mistakes);
+  if ((!table.data.empty() && !data) || (!table.bodies.empty() && !bodies)) return std::nullopt;
+  if (bodies && !bodies->id.empty()) {
+    mistakes.add(table.place, "bodies", fmt::format("holds {} particles; these belong into the file of `data`", bodies->id.size()));
+    return std::nullopt;
+  }
+  if (data && bodies && !data->bodies.empty()) {
+    mistakes.add(table.place, "bodies", "and `data` both hold bodies; all of them belong into one file");
+    return std::nullopt;
+  }
+  if (!data) data.emplace();
+  if (bodies) move_bodies(*bodies, *data);
+  for (const Body& b : data->bodies)
+    if (std::binary_search(data->id.begin(), data->id.end(), b.id)) {
+      mistakes.add(table.place, "bodies", fmt::format("the id {} is that of a body and of a particle; one id names one of them", b.id));
+      return std::nullopt;
+    }
+  return data;
+}
+
+/// At rest where the file tells no velocities.
+void take_velocities(LammpsData& data, Model& model) {
+  model.velocity = std::move(data.velocity);
+  model.spin = data.spin.isZero(0) ? Field() : std::move(data.spin);
+  model.body_velocity = std::move(data.body_velocity), model.angular_momentum = std::move(data.angular_momentum);
+}
+
+/// The rotation R with R r = v for all vertices, in the sense of least squares.
+Eigen::Quaterniond rotation_between(const std::vector<Vec3>& r, const std::vector<Vec3>& v) {
+  if (r.size() < 2) return Eigen::Quaterniond::Identity();
+  if (r.size() == 2) return Eigen::Quaterniond::FromTwoVectors(r[1] - r[0], v[1] - v[0]);   // a rod: without a turn about itself
+  Mat3 m = Mat3::Zero();
+  for (std::size_t k = 0; k < r.size(); ++k) m += v[k] * r[k].transpose();
+  const Singular svd = singular_values(m);
+  const Mat3 flip = Vec3(1, 1, (svd.u * svd.v.transpose()).determinant() < 0 ? -1 : 1).asDiagonal();
+  return Eigen::Quaterniond(Mat3(svd.u * flip * svd.v.transpose())).normalized();
+}
+
+/// How far a shape turned by q is from another one, relative to its size; infinity if they do not compare.
+double off(const RoundedShape& shape, const Eigen::Quaterniond& q, const RoundedShape& other) {
+  if (shape.vertices.size() != other.vertices.size()) return std::numeric_limits<double>::infinity();
+  double most = std::abs(shape.radius - other.radius);
+  for (std::size_t k = 0; k < shape.vertices.size(); ++k)
+    most = std::max(most, (q * shape.vertices[k] - other.vertices[k]).norm());
+  return most / shape.reach();
+}
+
+class Restart {
+ public:
+  Restart(const Problem& problem, Model& model, Mistakes& mistakes) : p_(problem), model_(model), mistakes_(mistakes) {}
+
+  void add() {
+    auto data = read(p_.path.start, "", mistakes_);
+    if (!data) return;
+    if (!model_.bodies.empty() && model_.particles() > 0 && data->bodies.empty()) {
+      auto bodies = read(bodies_file(p_.path.start), "", mistakes_);
+      if (!bodies) return;
+      move_bodies(*bodies, *data);
+    }
+    std::vector<int> own, ids;
+    for (const Body& b : model_.bodies) own.push_back(b.id);
+    for (const Body& b : data->bodies) ids.push_back(b.id);
+    const bool particles = same(data->id, model_.id, "particles");
+    if (!same(ids, own, "bodies") || !particles) return;
+    model_.restart = State(data->position);
+    if (!take_poses(*data)) return;
+    check_plane(p_, model_, *model_.restart, p_.path.place, mistakes_);
+    if (p_.in_time()) take_velocities(*data, model_);
+    model_.restart->load_factor = p_.path.start_lambda.value_or(p_.path.from);
+    try {
+      if (const auto stored = read_tail(p_.path.start)) {
+        take_tail(*stored, *data);
+        if (stored->stage && !p_.stages.empty() && !Stages(p_).resume(*stored->stage))
+          mistakes_.add(p_.path.place, "start", fmt::format("is a state of the stage {}, and the problem has no such stage or "
+                                                            "other tables", in_quotes(stored->stage->name)));
+      }
+    } catch (const InputError& e) {
+      mistakes_.add(e.mistakes());
+    }
+    if (p_.in_time()) drive_on();
+  }
+
+ private:
+  /// Supports that move in time go on from where the state has what they hold.
+  void drive_on() {
+    for (Support& s : model_.supports) {
+      if (s.velocity.isZero(0)) continue;
+      s.displacement.setZero(), s.rotation.setZero();
+      s.reference.clear(), s.body_reference.clear();
+      for (const int p : s.particles) s.reference.push_back(model_.restart->at(p));
+      for (const int b : s.bodies) s.body_reference.push_back(model_.restart->bodies[b]);
+    }
+  }
+
+  bool same(const std::vector<int>& ids, const std::vector<int>& own, const char* what) {
+    if (ids == own) return true;
+    mistakes_.add(p_.path.place, "start",
+                  ids.size() != own.size() ? fmt::format("holds {} {}, the problem {}; it must be a state of this problem",
+                                                         ids.size(), what, own.size())
+                                           : fmt::format("holds {} with other ids; it must be a state of this problem", what));
+    return false;
+  }
+
+  bool take_poses(const LammpsData& data) {
+    for (std::size_t b = 0; b < data.bodies.size(); ++b) {
+      const RoundedShape &own = model_.shapes[model_.bodies[b].shape], &there = data.shapes[data.bodies[b].shape];
+      const bool alike = own.vertices.size() == there.vertices.size();
+      const Eigen::Quaterniond q = alike ? rotation_between(own.vertices, there.vertices) : Eigen::Quaterniond::Identity();
+      if (!(off(own, q, there) <= 1e-6)) {
+        mistakes_.add(p_.path.place, "start", fmt::format("holds body {} in another shape; it must be a state of this problem",
+                                                          data.bodies[b].id));
+        model_.restart.reset();
+        return false;
+      }
+      model_.restart->bodies.push_back({{data.body_position.col(static_cast<Eigen::Index>(b)), Vec3::Zero()}, q});
+    }
+    return true;
+  }
+
+  /// The tails of the restart's positions, each of them less than half a unit in the last place, and the rotations.
+  void take_tail(const StateTail& stored, const LammpsData& data) {
+    State& state = *model_.restart;
+    bool one = stored.tail.cols() == state.position.cols() && state.position + stored.tail == state.position &&
+               stored.bodies.size() == state.bodies.size();
+    for (std::size_t b = 0; one && b < stored.bodies.size(); ++b) {
+      const Vec3& x = state.bodies[b].position.hi;
+      one = x + stored.bodies[b].position.lo == x &&
+            off(model_.shapes[model_.bodies[b].shape], stored.bodies[b].rotation, data.shapes[data.bodies[b].shape]) <= 1e-12;
+    }
+    if (!one)
+      return mistakes_.add(p_.path.place, "start",
+                           fmt::format("and {} beside it are not of one state; take the latter away, or both from one run",
+                                       in_quotes(tail_file(p_.path.start))));
+    state.tail = stored.tail;
+    for (std::size_t b = 0; b < stored.bodies.size(); ++b) {
+      state.bodies[b].position.lo = stored.bodies[b].position.lo;
+      state.bodies[b].rotation = stored.bodies[b].rotation;
+    }
+  }
+
+  const Problem& p_;
+  Model& model_;
+  Mistakes& mistakes_;
+};
+
+}  // namespace
+
+bool add_lammps(const Problem& problem, Model& model, Mistakes& mistakes) {
+  auto data = read(*problem.lammps, mistakes);
+  if (!data) return false;
+  const int n = static_cast<int>(data->id.size()), bodies = static_cast<int>(data->bodies.size());
+  if (n + bodies == 0) {
+    mistakes.add(problem.lammps->place, "data", "holds no particle and no body");
+    return false;
+  }
+  if (n > 0) model.start = State(std::move(data->position));
+  model.id = std::move(data->id);
+  model.type = std::move(data->type);
+  model.molecule = std::move(data->molecule);
+  model.diameter = std::move(data->diameter);
+  model.density = std::move(data->density);
+  // Mass given by type instead: the density that a sphere of that mass has.
+  for (int i = 0; i < n; ++i)
+    if (const double d = model.diameter[i]; model.density[i] == 0 && d > 0 && !data->mass.empty())
+      model.density[i] = data->mass[i] / (pi / 6 * d * d * d);
+  take_velocities(*data, model);
+  model.bond_types = std::move(data->bond_types);
+  model.angle_types = std::move(data->angle_types);
+  model.bonds = std::move(data->bonds);
+  model.angles = std::move(data->angles);
+  model.shapes = std::move(data->shapes);
+  model.bodies = std::move(data->bodies);
+  for (int b = 0; b < bodies; ++b)
+    model.start.bodies.push_back({{data->body_position.col(b), Vec3::Zero()}, Eigen::Quaterniond::Identity()});
+  model.structures.push_back({"lammps", "lammps", 0, n, 0, -1, -1, 0, bodies});
+  return true;
+}
+
+void add_restart(const Problem& problem, Model& model, Mistakes& mistakes) { Restart(problem, model, mistakes).add(); }
+
+}  // namespace elamin

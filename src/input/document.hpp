@@ -1,0 +1,55 @@
+#pragma once
+// A TOML text as a tree that knows where everything stands and that settings may change before it is read.
+#include "input/problem.hpp"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace elamin {
+
+struct Node;
+struct Entry;
+struct Date {};                        // a date or time: no key wants one
+using List = std::vector<Node>;
+using Entries = std::vector<Entry>;    // of a table, in the order of the file
+
+struct Node {
+  Place place;
+  std::variant<bool, std::int64_t, double, std::string, Date, List, Entries> value;
+};
+
+struct Entry {
+  std::string key;
+  Place place;                         // of the key
+  Node node;
+};
+
+struct Document {
+  std::string file, sha256;            // as given; of the bytes
+  Entries root;
+};
+
+/// Reads a TOML file. Throws InputError if it is not there, not a text in UTF-8, or not TOML.
+Document read_document(const std::string& file);
+
+/// One TOML value, such as `[0, 0, 1e-3]`; what is no TOML value is taken as a string of these letters.
+Node parse_value(const std::string& text, Place place);
+
+/// The entry of that key, or null.
+const Node* find(const Entries& entries, const std::string& key);
+Node* find(Entries& entries, const std::string& key);
+
+/// The elements of [[key]] (or of a list of inline tables); false if the node is something else.
+bool is_tables(const Node& node);
+
+/// What a node is, for messages: `3.5`, `the string "abc"`, `a list of 2`, `a table`.
+std::string shown(const Node& node);
+
+/// The node as TOML on one line.
+std::string to_toml(const Node& node);
+std::string to_toml(double value);               // 17 digits: reads back to the same bits
+std::string to_toml(const std::string& value);   // quoted and escaped
+
+}  // namespace elamin

@@ -1,0 +1,101 @@
+#include "input/read.hpp"
+
+#include "input/build.hpp"
+#include "input/check.hpp"
+#include "input/reader.hpp"
+#include "input/state_tail.hpp"
+#include "input/tables.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace elamin {
+namespace {
+
+/// Defaults that are the values of other keys.
+void complete(Problem& p) {
+  if (!p.solver.max_iterations && p.solver.method.rfind("nlopt:", 0) != 0)
+    p.solver.max_iterations = p.solver.by_newton() ? 200 : p.solver.method == "ipopt" ? 1000 : 200'000;
+  const bool arc_length = p.path.method == PathMethod::arc_length;
+  if (!p.path.when_unstable) p.path.when_unstable = arc_length ? WhenUnstable::follow : WhenUnstable::jump;
+  if ((arc_length || p.path.branches > 0) && !p.path.points) p.path.points = 20 * p.path.steps;
+  for (BeamTable& b : p.beams) {
+    if (!b.thickness) b.thickness = b.diameter;
+    if (b.center && !b.spacing) b.spacing = b.diameter;
+  }
+  for (LoopTable& l : p.loops)
+    if (!l.thickness) l.thickness = l.diameter;
+  for (SheetTable& s : p.sheets) {
+    if (!s.thickness) s.thickness = s.spacing;
+    if (!s.diameter) s.diameter = s.spacing;
+  }
+  for (SupportTable& s : p.supports)
+    if (!s.directions && !s.turns && !s.rotation && p.bodies.empty() && !p.lammps) s.directions = "xyz";
+  for (WallTable& w : p.walls)
+    if (w.k_n && !w.c_t) w.c_t = w.c_n / 2;
+  if (!p.path.start.empty() && !p.path.start_lambda) {
+    p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
+    try {
+      if (const auto stored = read_tail(p.path.start)) p.path.start_lambda = stored->load_factor;
+    } catch (const InputError&) {
+      // told where the state is read
+    }
+  }
+}
+
+/// Names inside tables that the schema does not know.
+std::vector<std::string> names_in_unknown_tables(const Document& document) {
+  std::vector<std::string> names;
+  for (const Entry& e : document.root) {
+    if (!is_tables(e.node) || has_table(e.key)) continue;
+    for (const Node& element : std::get<List>(e.node.value))
+      if (const Node* name = find(std::get<Entries>(element.value), "name"))
+        if (const auto* text = std::get_if<std::string>(&name->value)) names.push_back(*text);
+  }
+  return names;
+}
+
+/// Whether there is a table that is meant to be a structure and was refused.
+bool structure_refused(const Document& document) {
+  return std::any_of(document.root.begin(), document.root.end(), [](const Entry& e) {
+    const bool is_table = std::holds_alternative<Entries>(e.node.value) || is_tables(e.node);
+    const bool structure = e.key == "beam" || e.key == "loop" || e.key == "sheet" || e.key == "grains" ||
+                           e.key == "body";
+    return (structure && !is_tables(e.node)) || (is_table && !has_table(e.key));
+  });
+}
+
+}  // namespace
+
+ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
+  ProblemFile file;
+  const std::string folder = std::filesystem::path(document.file).parent_path().string();
+  Reader reader(document.root, {}, "", "", folder, mistakes);
+  describe(reader, file);
+  reader.finish();
+  file.problem.file = document.file;
+  file.problem.sha256 = document.sha256;
+  complete(file.problem);
+  const Problem& p = file.problem;
+  const bool empty =
+      !p.lammps && p.beams.empty() && p.loops.empty() && p.sheets.empty() && p.grains.empty() && p.bodies.empty();
+  if (empty && !structure_refused(document))
+    mistakes.add("holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
+  check_problem(file.problem, names_in_unknown_tables(document), mistakes);
+  return file;
+}
+
+Problem read_problem(const std::string& file, const std::vector<Setting>& settings) {
+  Document document = read_document(file);
+  Mistakes mistakes(file);
+  for (const Setting& setting : settings) apply(setting, document, mistakes);
+  Problem problem = read_tables(document, mistakes).problem;
+  if (mistakes.any()) {
+    // What is whole may hold more mistakes, and all are told at once.
+    check_model(problem, !structure_refused(document), mistakes);
+    mistakes.raise();
+  }
+  return problem;
+}
+
+}  // namespace elamin

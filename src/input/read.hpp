@@ -1,0 +1,16 @@
+#pragma once
+// From a problem file to plain structs.
+#include "input/problem.hpp"
+#include "input/settings.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// Reads a problem file, changed by `settings` first, with every default in it. Its names and relations are checked;
+/// its geometry is by build_model. Throws InputError with all mistakes, each with its place, and those that build_model
+/// finds in what is whole.
+Problem read_problem(const std::string& file, const std::vector<Setting>& settings = {});
+
+}  // namespace elamin

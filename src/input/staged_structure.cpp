@@ -1,0 +1,165 @@
+#include "input/staged_structure.hpp"
+
+#include "model/connect.hpp"
+#include "input/build_contacts.hpp"
+#include "core/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace elamin {
+namespace {
+
+const Group* group_named(const Model& model, const std::string& name) {
+  const auto found = std::find_if(model.groups.begin(), model.groups.end(), [&](const Group& g) { return g.name == name; });
+  return found == model.groups.end() ? nullptr : &*found;
+}
+
+std::vector<bool> members_of(const Model& model, const std::string& name) {
+  std::vector<bool> of(model.particles());
+  if (const Group* group = group_named(model, name))
+    for (const int p : group->particles) of[p] = true;
+  return of;
+}
+
+/// Calls with every table of structures.
+template <class P, class Call> void for_structures(P& problem, const Call& call) {
+  const auto all = [&](auto& tables) {
+    for (auto& t : tables) call(t);
+  };
+  all(problem.beams), all(problem.loops), all(problem.sheets), all(problem.grains);
+}
+
+/// The particles that are not there.
+std::vector<bool> absent_in(const Problem& problem, int stage, const Model& model) {
+  std::vector<bool> absent(model.particles());
+  const auto mark = [&](const std::string& group) {
+    const std::vector<bool> of = members_of(model, group);
+    for (std::size_t p = 0; p < of.size(); ++p) absent[p] = absent[p] || of[p];
+  };
+  for_structures(problem, [&](const auto& t) {
+    if (stage_number(problem, t.from_stage) > stage) mark(t.name);
+  });
+  for (const RemoveTable& r : problem.removals)
+    if (r.what == RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) mark(r.group);
+  return absent;
+}
+
+template <class Element> bool any_of(const Element& element, const std::vector<bool>& marked) {
+  return std::any_of(element.particles.begin(), element.particles.end(), [&](int p) { return marked[p]; });
+}
+template <class Element> bool all_of(const Element& element, const std::vector<bool>& marked) {
+  return std::all_of(element.particles.begin(), element.particles.end(), [&](int p) { return marked[p]; });
+}
+
+void remove_glue(const RemoveTable& r, Model& model) {
+  const std::vector<bool> of = members_of(model, r.group);
+  std::erase_if(model.angles, [&](const Angle& a) {
+    const bool over_bond = (of[a.particles[0]] && of[a.particles[1]]) || (of[a.particles[1]] && of[a.particles[2]]);
+    return r.what == RemoveTable::What::angles ? all_of(a, of) : over_bond;
+  });
+  if (r.what == RemoveTable::What::bonds) std::erase_if(model.bonds, [&](const Bond& b) { return all_of(b, of); });
+}
+
+void hold_absent(const std::vector<bool>& absent, Model& model, const State& now) {
+  const auto gone = [&](int p) { return absent[p]; };
+  std::erase_if(model.bonds, [&](const Bond& b) { return any_of(b, absent); });
+  std::erase_if(model.angles, [&](const Angle& a) { return any_of(a, absent); });
+  for (PairContact& c : model.contacts)
+    for (auto& side : c.particles) std::erase_if(side, gone);
+  std::erase_if(model.contacts, [](const PairContact& c) { return c.particles[0].empty() || c.particles[1].empty(); });
+  for (RoundedPair& r : model.rounded)
+    for (auto& side : r.particles) std::erase_if(side, gone);
+  for (Wall& w : model.walls) std::erase_if(w.particles, gone);
+  for (Gravity& g : model.gravity) std::erase_if(g.particles, gone);
+  for (Change& c : model.changes) std::erase_if(c.particles, gone);
+  std::erase_if(model.pressures, [&](const Pressure& p) { return any_of(p, absent); });
+  for (Load& l : model.loads) {
+    const Load whole = l;
+    std::vector<Eigen::Index> kept;
+    l.particles.clear();
+    for (std::size_t k = 0; k < whole.particles.size(); ++k)
+      if (!absent[whole.particles[k]]) l.particles.push_back(whole.particles[k]), kept.push_back(static_cast<Eigen::Index>(k));
+    if (whole.own.size()) l.own = whole.own(Eigen::all, kept);
+  }
+  for (Support& s : model.supports) {
+    const Support whole = s;
+    s.particles.clear(), s.reference.clear();
+    for (std::size_t k = 0; k < whole.particles.size(); ++k) {
+      if (absent[whole.particles[k]]) continue;
+      s.particles.push_back(whole.particles[k]);
+      if (!whole.reference.empty()) s.reference.push_back(whole.reference[k]);
+    }
+  }
+  Support still;
+  still.scaling = Scaling(0, 0);
+  for (int p = 0; p < model.particles(); ++p)
+    if (absent[p]) still.particles.push_back(p), still.reference.push_back(now.at(p));
+  model.supports.push_back(std::move(still));
+}
+
+}  // namespace
+
+int stage_number(const Problem& problem, const std::string& name) {
+  for (std::size_t k = 0; k < problem.stages.size(); ++k)
+    if (problem.stages[k].name == name) return static_cast<int>(k);
+  return 0;
+}
+
+bool connects_before(const Problem& problem, int stage) {
+  return std::any_of(problem.connections.begin(), problem.connections.end(), [&](const ConnectTable& c) {
+    const int from = stage_number(problem, c.from_stage);
+    return from > 0 && from <= stage;
+  });
+}
+
+std::string connect_in(const Problem& problem, int stage, Model& all, const State& now) {
+  std::string none;
+  if (stage == 0) return none;                           // made as the model was built
+  const State built = std::exchange(all.start, now);
+  for (std::size_t k = 0; k < problem.connections.size(); ++k) {
+    const ConnectTable& t = problem.connections[k];
+    if (stage_number(problem, t.from_stage) != stage) continue;
+    Connection c = connection_of(t);
+    const std::vector<bool> absent = absent_in(problem, stage, all);
+    for (const auto& [side, name] : {std::pair(&c.first, t.between[0]), {&c.second, t.between[1]}})
+      if (const Group* group = group_named(all, name))
+        std::copy_if(group->particles.begin(), group->particles.end(), std::back_inserter(*side), [&](int p) { return !absent[p]; });
+    if (connect(all, c) <= 0 && none.empty())
+      none = fmt::format("connect.{} makes no bond: no particle of \"{}\" is within {} of one of \"{}\" that it is not bonded to already", k + 1,
+                         t.between[1], t.within, t.between[0]);
+  }
+  all.start = built;
+  return none;
+}
+
+void leave_out(const Problem& problem, int stage, Model& model, const State& now) {
+  for (const RemoveTable& r : problem.removals)
+    if (r.what != RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) remove_glue(r, model);
+  const std::vector<bool> absent = absent_in(problem, stage, model);
+  if (std::find(absent.begin(), absent.end(), true) != absent.end()) hold_absent(absent, model, now);
+}
+
+void check_from_stage(const Problem& problem, TablePlace& place, const std::string& from, Mistakes& mistakes) {
+  std::vector<std::string> names;
+  for (const StageTable& s : problem.stages) names.push_back(s.name);
+  if (from.empty() || std::find(names.begin(), names.end(), from) != names.end()) return;
+  mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
+                                        did_you_mean(from, names));
+}
+
+void check_staged_structure(Problem& problem, Mistakes& mistakes) {
+  const auto check = [&](TablePlace& place, const std::string& from) { check_from_stage(problem, place, from, mistakes); };
+  for_structures(problem, [&](auto& t) { check(t.place, t.from_stage); });
+  for (ConnectTable& c : problem.connections) check(c.place, c.from_stage);
+  for (RemoveTable& r : problem.removals) {
+    check(r.place, r.from_stage);
+    if (!problem.stages.empty() && r.from_stage == problem.stages.front().name)
+      mistakes.add(r.place, "from_stage", "is the first stage; what is never there is best left out");
+  }
+}
+
+}  // namespace elamin

@@ -1,0 +1,12 @@
+#pragma once
+// From a document to structs, with the defaults that follow from other keys, and checked.
+#include "input/document.hpp"
+#include "input/mistakes.hpp"
+#include "input/schema.hpp"
+
+namespace elamin {
+
+/// Reads all tables of a document; what is wrong goes to the mistakes, and its tables are marked as broken.
+ProblemFile read_tables(const Document& document, Mistakes& mistakes);
+
+}  // namespace elamin

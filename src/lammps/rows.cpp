@@ -1,0 +1,289 @@
+#include "lammps/rows.hpp"
+
+#include "lammps/coefficients.hpp"
+#include "core/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace elamin {
+namespace {
+
+/// The section whose number of lines is a count of the header.
+const std::map<std::string, std::string> counted{
+    {"Atoms", "atoms"},           {"Velocities", "atoms"},       {"Masses", "atom types"},        {"Bonds", "bonds"},
+    {"Angles", "angles"},         {"Bond Coeffs", "bond types"}, {"Angle Coeffs", "angle types"}, {"Bodies", "bodies"}};
+const std::set<std::string> absent{"dihedrals", "impropers", "ellipsoids", "lines", "triangles"};
+const std::set<std::string> unused{"dihedral types",        "improper types",           "extra bond per atom",
+                                   "extra angle per atom",  "extra dihedral per atom",  "extra improper per atom",
+                                   "extra special per atom"};
+
+/// A section's name is made of words only; a row has numbers.
+bool is_keyword(const DataLine& line) {
+  return std::all_of(line.words.begin(), line.words.end(),
+                     [](const auto& w) { return is_word(w.text) && w.text != "nan" && w.text != "inf"; });
+}
+
+class RowReader {
+ public:
+  RowReader(LammpsLines& lines, std::string atom_style) : lines_(lines), style_(std::move(atom_style)), bodies_(lines) {}
+
+  LammpsRows read() {
+    DataLine line;
+    while (lines_.next(line)) {
+      if (is_keyword(line)) begin_section(line);
+      else if (section_.empty()) header(line);
+      else row(line);
+    }
+    end_section();
+    check_counts();
+    return std::move(rows_);
+  }
+
+ private:
+  void header(const DataLine& line) {
+    const std::string one = joined(line, 1), two = joined(line, 2), three = joined(line, 3);
+    const auto is_count = [&](const auto& entry) { return entry.second == one; };
+    if (std::any_of(counted.begin(), counted.end(), is_count)) {
+      if (const auto n = lines_.integer(line, 0, one, 0, largest_integer)) {
+        if (!rows_.counts.emplace(one, *n).second) lines_.mistake(line, 0, one, "stands twice in the header");
+      } else {
+        rows_.counts.emplace(one, -1);
+      }
+    } else if (absent.count(one)) {
+      const auto n = lines_.integer(line, 0, one, 0, largest_integer);
+      if (n.value_or(0) > 0)
+        lines_.mistake(line, 0, one, fmt::format("{} are not available in this version; 0 is allowed", one));
+    } else if (unused.count(one)) {
+      lines_.integer(line, 0, one, 0, largest_integer);
+    } else if (two == "xlo xhi" || two == "ylo yhi" || two == "zlo zhi") {
+      const auto lo = lines_.number(line, 0, two), hi = lines_.number(line, 1, two);
+      if (lo && hi && !(*lo < *hi)) lines_.mistake(line, 0, two, "the lower bound is not below the upper one");
+      rows_.lo[two[0] - 'x'] = lo.value_or(0), rows_.hi[two[0] - 'x'] = hi.value_or(0);
+    } else if (three == "xy xz yz") {
+      for (int i = 0; i < 3; ++i) rows_.tilt[i] = lines_.number(line, i, three).value_or(0);
+    } else {
+      lines_.mistake(
+          line, 0, "header",
+          in_quotes(joined(line)) +
+              " is not known; known are counts such as \"12 atoms\" (of "
+              "atoms, bodies, bonds, angles and their types), \"xlo xhi\", \"ylo yhi\", \"zlo zhi\" and \"xy xz yz\"");
+    }
+  }
+
+  void end_section() {
+    if (section_ != "Bodies" || !known_) return;
+    if (!skip_) bodies_.end();
+    rows_.bodies = std::move(bodies_.rows);
+    rows_.sections[section_].rows = skip_ ? rows_.count("bodies") : bodies_.begun();   // skipped: not known
+    rows_.sections[section_].sound = bodies_.sound();
+  }
+
+  void begin_section(const DataLine& line) {
+    end_section();
+    section_ = joined(line);
+    known_ = counted.count(section_) > 0;
+    skip_ = false;
+    if (!known_) {
+      const bool pair = section_.rfind("Pair", 0) == 0;
+      lines_.mistake(
+          line, 0, in_quotes(section_),
+          std::string(pair ? "coefficients of pairs are not taken from a data file; contacts are given in the "
+                             "problem file"
+                           : "this section is not available in this version") +
+              "; supported are Atoms, Velocities, Masses, Bodies, Bonds, Angles, Bond Coeffs and Angle Coeffs");
+      return;
+    }
+    const auto [it, fresh] = rows_.sections.emplace(section_, LammpsRows::Section{line.number});
+    if (!fresh) {
+      lines_.mistake(line, 0, section_, fmt::format("stands twice; the first is on line {}", it->second.line));
+      known_ = false;
+    } else if (section_ == "Atoms") {
+      begin_atoms(line);
+    } else if (section_ == "Bond Coeffs") {
+      begin_coefficients(line, "bond");
+    } else if (section_ == "Angle Coeffs") {
+      begin_coefficients(line, "angle");
+    }
+  }
+
+  void begin_atoms(const DataLine& line) {
+    if (style_.empty()) style_ = line.comment;
+    if (style_.empty() && rows_.count("bodies") > 0) style_ = "body";
+    if (style_ == "hybrid") return;                       // the first row tells
+    std::string why = "the atom style is not given; write it behind the section's name, as in \"Atoms # hybrid sphere "
+                      "angle\", or as atom_style";
+    if (!style_.empty()) columns_ = atom_columns(style_, &why);
+    if (!columns_) refuse_section(line, why);
+  }
+
+  void begin_coefficients(const DataLine& line, const std::string& kind) {
+    coefficient_style_ = std::string(line.comment);
+    if (const std::string why = refused_style(kind, coefficient_style_); !why.empty()) refuse_section(line, why);
+  }
+
+  /// One mistake for the whole section: its rows are counted only.
+  void refuse_section(const DataLine& line, const std::string& why) {
+    lines_.mistake(line, 0, section_, why);
+    rows_.sections[section_].sound = false;
+    skip_ = true;
+  }
+
+  void row(const DataLine& line) {
+    if (!known_) return;
+    LammpsRows::Section& section = rows_.sections[section_];
+    ++section.rows;
+    if (!skip_ && !good_row(line)) section.sound = false;
+  }
+
+  bool good_row(const DataLine& line) {
+    if (section_ == "Atoms") return atom(line);
+    if (section_ == "Velocities") return velocity(line);
+    if (section_ == "Masses") return mass(line);
+    if (section_ == "Bodies") return skip_ = !bodies_.take(line), true;   // whether it is sound is told at its end
+    if (section_ == "Bonds") return topology(line, 2, "bond types", rows_.bonds);
+    if (section_ == "Angles") return topology(line, 3, "angle types", rows_.angles);
+    if (section_ == "Bond Coeffs") return coefficients(line, "bond", rows_.bond_coefficients);
+    return coefficients(line, "angle", rows_.angle_coefficients);
+  }
+
+  bool has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& meaning) {
+    return lines_.has_size(line, sizes, section_, meaning);
+  }
+
+  int most_types(const std::string& count) const {
+    const bool known = rows_.counts.count(count) > 0 && rows_.count(count) >= 0;   // else that is the mistake to tell
+    return known ? rows_.count(count) : largest_integer;
+  }
+
+  std::optional<int> type(const DataLine& line, std::size_t i, const std::string& count) {
+    return lines_.integer(line, i, section_ + ": type", 1, most_types(count));
+  }
+
+  std::optional<double> amount(const DataLine& line, std::size_t i, const std::string& what) {
+    return lines_.amount(line, i, section_ + ": " + what);
+  }
+
+  bool atom(const DataLine& line) {
+    if (!columns_ && line.size() != 8 && line.size() != 11) {
+      refuse_section(line,
+                     fmt::format("\"hybrid\" alone does not say what these {} columns are; write the styles behind "
+                                 "it, as in \"Atoms # hybrid sphere angle\", or as atom_style",
+                                 line.size()));
+      return false;
+    }
+    std::string why;
+    if (!columns_) columns_ = atom_columns(style_ = "hybrid sphere angle", &why);
+    const std::size_t n = columns_->size();
+    if (!has_size(line, {n, n + 3}, fmt::format("atom style {}, with or without three image flags", style_))) {
+      skip_ = rows_.sections[section_].rows == 1;         // the style is wrong rather than every row
+      return false;
+    }
+    AtomRow a{line.number, 0, 0, 0, 0, 0, Vec3::Zero()};
+    bool good = true;
+    const auto take = [&](auto value, auto& target) { value ? void(target = *value) : void(good = false); };
+    for (std::size_t i = 0; i < n; ++i) switch ((*columns_)[i]) {
+      case AtomColumn::id: take(lines_.integer(line, i, "Atoms: id", 1, largest_integer), a.id); break;
+      case AtomColumn::type: take(type(line, i, "atom types"), a.type); break;
+      case AtomColumn::molecule: take(lines_.integer(line, i, "Atoms: molecule", 0, largest_integer), a.molecule); break;
+      case AtomColumn::diameter: take(amount(line, i, "diameter"), a.diameter); break;
+      case AtomColumn::density: take(amount(line, i, "density"), a.density); break;
+      case AtomColumn::bodyflag: take(body_flag(lines_, line, i), a.is_body); break;
+      case AtomColumn::mass: take(body_mass(lines_, line, i), a.mass); break;
+      case AtomColumn::charge: {
+        double unused_charge;
+        take(lines_.number(line, i, "Atoms: charge"), unused_charge);
+      } break;
+      case AtomColumn::x: take(lines_.number(line, i, "Atoms: x"), a.position[0]); break;
+      case AtomColumn::y: take(lines_.number(line, i, "Atoms: y"), a.position[1]); break;
+      case AtomColumn::z: take(lines_.number(line, i, "Atoms: z"), a.position[2]); break;
+    }
+    std::array<int, 3> image{0, 0, 0};
+    for (std::size_t c = 0; line.size() > n && c < 3; ++c)
+      take(lines_.integer(line, n + c, "Atoms: image flag", -largest_integer, largest_integer), image[c]);
+    if (good) rows_.atoms.push_back(a), rows_.images.push_back(image);
+    return good;
+  }
+
+  bool velocity(const DataLine& line) {
+    if (!has_size(line, {4, 7}, "id, velocity, and of spheres the angular velocity, of bodies the angular momentum")) return false;
+    VelocityRow v{line.number, 0, Vec3::Zero(), Vec3::Zero(), line.size() == 7};
+    const auto id = lines_.integer(line, 0, "Velocities: id", 1, largest_integer);
+    bool good = id.has_value();
+    for (std::size_t c = 1; c < line.size(); ++c) {
+      const auto value = lines_.number(line, c, c < 4 ? "Velocities: velocity" : "Velocities: angular velocity");
+      good = good && value;
+      if (good) (c < 4 ? v.velocity : v.spin)[static_cast<int>(c - 1) % 3] = *value;
+    }
+    if (good) v.id = *id, rows_.velocities.push_back(v);
+    return good;
+  }
+
+  bool mass(const DataLine& line) {
+    if (!has_size(line, {2}, "type and mass")) return false;
+    const auto t = type(line, 0, "atom types");
+    const auto m = amount(line, 1, "mass");
+    if (t && m) rows_.masses.push_back({line.number, *t, *m});
+    return t && m;
+  }
+
+  bool topology(const DataLine& line, std::size_t n, const std::string& count, std::vector<TopologyRow>& rows) {
+    if (!has_size(line, {n + 2}, fmt::format("number, type and the ids of {} atoms", n))) return false;
+    TopologyRow r{line.number, 0, {}, {}};
+    const auto t = type(line, 1, count);
+    bool good = lines_.integer(line, 0, section_ + ": number", 0, largest_integer) && t;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto id = lines_.integer(line, i + 2, section_ + ": id", 1, largest_integer);
+      if (id) r.id[i] = *id, r.column[i] = line.words[i + 2].column;
+      good = good && id;
+    }
+    if (good) r.type = *t, rows.push_back(r);
+    return good;
+  }
+
+  bool coefficients(const DataLine& line, const std::string& kind, std::vector<CoefficientRow>& rows) {
+    const auto row = coefficient_row(lines_, line, kind, coefficient_style_, most_types(kind + " types"));
+    if (row) rows.push_back(*row);
+    return row.has_value();
+  }
+
+  void check_counts() {
+    const int end = lines_.last_line();
+    for (const char* needed : {"atoms", "atom types"})
+      if (!rows_.counts.count(needed))
+        lines_.mistake(end, 1, "header", fmt::format("does not say how many {} there are", needed));
+    for (const auto& [name, what] : counted) {
+      const auto it = rows_.sections.find(name);
+      const int expected = rows_.count(what);
+      if (it != rows_.sections.end() && it->second.rows != expected) {
+        it->second.sound = false;
+        if (expected >= 0)                                // else that count is a mistake already
+          lines_.mistake(it->second.line, 1, name,
+                         fmt::format("{} {}, but the header announces {} {}", it->second.rows, name == "Bodies" ? "bodies" : "lines",
+                                     expected, what));
+      } else if (it == rows_.sections.end() && expected > 0 &&
+                 (name == "Atoms" || name == "Bodies" || name == "Bonds" || name == "Angles")) {
+        lines_.mistake(end, 1, name,
+                       fmt::format("the file ends without this section; its header announces {} {}", expected, what));
+      }
+    }
+  }
+
+  LammpsLines& lines_;
+  std::string style_, section_, coefficient_style_;
+  bool known_ = false, skip_ = false;   // a section that is read; whose rows are only counted
+  std::optional<std::vector<AtomColumn>> columns_;
+  LammpsBodiesSection bodies_;
+  LammpsRows rows_;
+};
+
+}  // namespace
+
+LammpsRows read_lammps_rows(LammpsLines& lines, const std::string& atom_style) {
+  return RowReader(lines, atom_style).read();
+}
+
+}  // namespace elamin

@@ -1,0 +1,54 @@
+#pragma once
+// The sections of a LAMMPS data file as rows, before they are held against each other.
+#include "core/types.hpp"
+#include "lammps/bodies_section.hpp"
+#include "lammps/lines.hpp"
+#include "lammps/style.hpp"
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+struct AtomRow {
+  int line, id, type, molecule;
+  double diameter, density;
+  Vec3 position;
+  bool is_body = false;
+  double mass = 0;                                                 // of a body
+};
+struct VelocityRow { int line, id; Vec3 velocity, spin; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
+struct CoefficientRow { int line, type; double stiffness, rest; };   // rest length, or rest angle [rad]
+struct MassRow { int line, type; double mass; };
+struct TopologyRow { int line, type; std::array<int, 3> id, column; };   // of a bond the third is not used
+
+/// Everything a file says, line by line; each row's numbers are finite and within the ranges of the header.
+struct LammpsRows {
+  struct Section { int line = 0, rows = 0; bool sound = true; };   // line of its keyword; sound: all rows could be read
+  std::map<std::string, int> counts;                               // "atoms", "bond types", …
+  std::map<std::string, Section> sections;
+  Vec3 lo = Vec3::Constant(-0.5), hi = Vec3::Constant(0.5), tilt = Vec3::Zero();
+  std::vector<AtomRow> atoms;
+  std::vector<std::array<int, 3>> images;                          // of every atom row
+  std::vector<VelocityRow> velocities;
+  std::vector<CoefficientRow> bond_coefficients, angle_coefficients;
+  std::vector<MassRow> masses;
+  std::vector<TopologyRow> bonds, angles;
+  std::vector<BodyRow> bodies;
+
+  int count(const std::string& what) const {
+    const auto it = counts.find(what);
+    return it == counts.end() ? 0 : it->second;
+  }
+  bool sound(const std::string& section) const {
+    const auto it = sections.find(section);
+    return it != sections.end() && it->second.sound;
+  }
+};
+
+/// Reads all lines; mistakes are noted there.
+LammpsRows read_lammps_rows(LammpsLines& lines, const std::string& atom_style);
+
+}  // namespace elamin

@@ -1,0 +1,23 @@
+#pragma once
+// States as LAMMPS data files.
+#include "model/model.hpp"
+
+#include <string>
+
+namespace elamin {
+
+/// LABEL.bodies.data of LABEL.data: the bodies of a model that has particles too.
+std::string bodies_file(const std::string& data_file);
+
+/// Writes the state as a LAMMPS data file, atom style "hybrid sphere angle": positions with 17 digits (their tails are
+/// left out), bonds and angles with coefficients (angles as cosine; where one is not straight at rest all of them as
+/// cosine/shift, 2B and the rest angle in degrees), velocities if the model has them, a box around everything.
+/// read_lammps_data reads the same positions back to the last bit; LAMMPS and OVITO open it. LAMMPS wants densities
+/// above zero: a density or mass that is not given is written as 1, and the title says so.
+///
+/// Bodies are written in atom style body (rounded/polyhedron): vertices and inertia in the axes of space, faces of more than
+/// four corners cut into such of four and three, velocities with angular momentum. Of a model with particles they go to a
+/// second file, bodies_file(file). Throws InputError if a file cannot be written.
+void write_state(const std::string& file, const Model& model, const State& state, const std::string& title);
+
+}  // namespace elamin

@@ -1,0 +1,39 @@
+#pragma once
+// Many runs from one file.
+#include "model/model.hpp"
+#include "study/bisection.hpp"
+#include "input/problem.hpp"
+#include "input/settings.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+/// The settings of every run that the [[sweep]] tables of a file ask for, after `settings` have changed it: all
+/// combinations, the last sweep fastest; those with the same `zip` go in step. One empty list if there is no sweep; of a
+/// bisection its two ends. Throws InputError with all mistakes of the sweeps, and those of the problem beside them.
+std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std::vector<Setting>& settings = {});
+
+/// One run, ready to go.
+struct PreparedRun {
+  std::vector<Setting> swept;          // what the sweeps set
+  Problem problem;                     // with the expectations about this run alone
+  Model model;
+  std::vector<ExpectTable> together;   // expectations about all runs together
+};
+
+/// One run of a file. Throws InputError.
+PreparedRun prepare_run(const std::string& file, const std::vector<Setting>& settings, const std::vector<Setting>& swept);
+
+struct PreparedRuns {
+  std::vector<PreparedRun> runs;
+  std::optional<Bisection> bisection;  // then `runs` are its two ends
+};
+
+/// Every run of a file read and built, so that nothing runs before everything is right: one if there is no sweep.
+/// Throws InputError: a mistake of all runs is told once, one of some names the first of them.
+PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings = {});
+
+}  // namespace elamin

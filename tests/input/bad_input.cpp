@@ -1,0 +1,152 @@
+// Wrong files and what is said of them. Each file of bad/ begins with the sentences it must get, all of them and no
+// other, as comments `# expect: SENTENCE`, without the name of the file; a '*' at the end stands for words of the TOML
+// library.
+#include "catch.hpp"
+
+#include "core/error.hpp"
+#include "study/prepare.hpp"
+#include "scratch_directory.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace std::string_literals;
+
+namespace {
+
+/// Everything that is looked at before a run; returns what is said, a sentence a line.
+std::string mistakes_of(const std::string& file, const std::vector<elamin::Setting>& settings = {}) {
+  try {
+    elamin::prepare_runs(file, settings);
+  } catch (const elamin::InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+bool agrees(const std::string& said, const std::string& expected) {
+  if (expected.empty() || expected.back() != '*') return said == expected;
+  return said.compare(0, expected.size() - 1, expected, 0, expected.size() - 1) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("Every wrong file gets its sentences") {
+  int files = 0;
+  const std::string folder = ELAMIN_ROOT "/tests/input/bad/";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    const std::string file = entry.path().string(), mark = "# expect: ";
+    std::vector<std::string> expected;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line) && line.compare(0, mark.size(), mark) == 0;) {
+      const std::string sentence = line.substr(mark.size());
+      // Either a place follows the name of the file, or a space.
+      expected.push_back(file + (sentence[0] >= '0' && sentence[0] <= '9' ? ":" : ": ") + sentence);
+    }
+    const std::vector<std::string> said = lines_of(mistakes_of(file));
+    INFO(file << "\nsaid:\n" << mistakes_of(file));
+    CHECK_FALSE(expected.empty());
+    REQUIRE(said.size() == expected.size());
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      INFO("expected: " << expected[i]);
+      CHECK(agrees(said[i], expected[i]));
+    }
+  }
+  CHECK(files >= 45);
+}
+
+TEST_CASE("Files that are no text at all") {
+  const std::string none = ELAMIN_ROOT "/tests/input/bad/none.toml";
+  CHECK(mistakes_of(none) == none + ": there is no such file");
+  CHECK(mistakes_of("") == "there is no such file");
+  CHECK(mistakes_of(ELAMIN_ROOT "/tests") == ELAMIN_ROOT "/tests: is a folder, not a file");
+  CHECK(mistakes_of("/dev/zero") == "/dev/zero:1:1: is not a text in UTF-8 from here on");
+  const ScratchDirectory scratch;
+  const auto said = [&](const std::string& bytes) { return mistakes_of(scratch.file("bad.toml", bytes)); };
+  const std::string file = scratch / "bad.toml";
+  CHECK(said("") ==
+        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
+  CHECK(said("\n \n# nothing\n") ==
+        file + ": holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
+  CHECK(said("\x7f" "ELF\2\1\1\0\0"s) == file + ":1:8: is not a text in UTF-8 from here on");
+  CHECK(said("title = \"column\"\ntitle = \"S\xe4ule\"\n") == file + ":2:11: is not a text in UTF-8 from here on");
+  CHECK(said("# \xc0\xaf\n") == file + ":1:3: is not a text in UTF-8 from here on");
+  CHECK(said("# \xed\xa0\x80\n") == file + ":1:3: is not a text in UTF-8 from here on");
+  CHECK(said("title = \"Säule\" # Säule\nSäule = 1") ==
+        file + ":2:2: not TOML: outside of quotes there are only ASCII characters");
+  CHECK(said("title = \"a\\u0000b\"\n[[beam]]").find(file + ":1:9: title: must not hold the character 0\n") == 0);
+}
+
+TEST_CASE("What would exhaust the parser or the memory is refused") {
+  const ScratchDirectory scratch;
+  const auto said = [&](const std::string& text) { return mistakes_of(scratch.file("bad.toml", text)); };
+  const std::string file = scratch / "bad.toml";
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += ".a";
+  CHECK(said("x = 1\na" + deep + " = 1\n") == file + ":2:32: a dotted key has more than 16 parts; no key has so many");
+  CHECK(said("x = \"..................\" # ..................\n[\"a\".'b'" + deep + "]\n") ==
+        file + ":2:37: a dotted key has more than 16 parts; no key has so many");
+  CHECK(said("x = '''\n'....................''' \ny.z.a" + deep + "=1") ==
+        file + ":3:32: a dotted key has more than 16 parts; no key has so many");
+  CHECK_THAT(said("x = " + std::string(200000, '[')), Catch::Contains(file + ":1:") && Catch::Contains("not TOML: "));
+  std::string tables = "x = ";
+  for (int i = 0; i < 100000; ++i) tables += "{a=";
+  CHECK_THAT(said(tables), Catch::Contains(file + ":1:") && Catch::Contains("not TOML: "));
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += "[[beam]]\nnam = 1\n";
+  const auto lines = lines_of(said(many));
+  CHECK(lines.size() == 201);
+  CHECK(lines.front() == file + ": has 5800 more mistakes than are told here");
+}
+
+TEST_CASE("Settings that address nothing, or set nonsense") {
+  const std::string file = ELAMIN_ROOT "/tests/input/good/column.toml";
+  const auto said = [&](const std::string& key, const std::string& value) { return mistakes_of(file, {{key, value}}); };
+  CHECK(mistakes_of(file) == "");
+  CHECK(said("beam.column.particels", "3") ==
+        "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, from_stage, section, particles, from, to, "
+        "rise, angle, toward, profile, through, clamped, center, axis, "
+        "spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, angle_stiffness, rest_length, rest, "
+        "axial_stiffness, bending_stiffness; "
+        "did you mean \"particles\"?");
+  CHECK(said("beam.colum.particles", "3") ==
+        "--set: \"beam.colum.particles\": no [[beam]] is \"colum\"; there are: column; did you mean \"column\"?");
+  CHECK(said("beam.2.particles", "3") == "--set: \"beam.2.particles\": no [[beam]] is \"2\"; there are: column");
+  CHECK(said("beam.column", "3") ==
+        "--set: \"beam.column\": is a table; name one of its keys: name, from_stage, section, particles, from, to, "
+        "rise, angle, toward, profile, through, clamped, center, axis, spacing, diameter, thickness, youngs_modulus, "
+        "density, bond_stiffness, angle_stiffness, rest_length, rest, axial_stiffness, bending_stiffness");
+  CHECK(said("load.1.force", "[0, 0, 1]") == "--set: \"load.1.force\": there is no [[load]] in this file");
+  CHECK(said("support.2.displacement.4", "1") == "--set: \"support.2.displacement.4\": has components 1 to 3");
+  CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
+  CHECK(
+      said("", "1") ==
+      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, body, group, connect, remove, glue, support, "
+      "load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, observe, event, "
+      "expect, sweep");
+  CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");
+  CHECK(said("path.parameter", "support.9") ==
+        "--set: path.parameter: \"support.9\" names no table that a load factor scales; there are: support.1, support.2; "
+        "did you mean \"support.1\"?");
+  CHECK(said("path.steps", "many") ==
+        "--set: path.steps: must be an integer from 1 to 1000000, is the string \"many\"");
+  CHECK(said("path.steps", "1\nto = 2") ==
+        "--set: path.steps: must be an integer from 1 to 1000000, is the string \"1?to = 2\"");
+  CHECK(said("beam.column.diameter", "nan") == "--set: beam.column.diameter: must be a positive number, is nan");
+  CHECK(said("title", "\xff") == "--set: title: is not a text in UTF-8");
+  CHECK(said("path.from", "1") ==
+        file + ":23:6: path.to: is the same load factor as from, 1; a path leads from one to another");
+  CHECK_THROWS_WITH(elamin::parse_setting("path.steps"),
+                    "--set: \"path.steps\": must be KEY=VALUE, such as path.steps=50");
+  CHECK_THROWS_WITH(elamin::parse_setting("=5"), "--set: \"=5\": must be KEY=VALUE, such as path.steps=50");
+}
