@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "lammps/data.hpp"
+#include "lammps/state.hpp"
 #include "input/state_tail.hpp"
 #include "core/text.hpp"
 
