@@ -1,7 +1,7 @@
-// A law of one's own: a bond that stiffens, U = K (r − r₀)² + Q (r − r₀)⁴, in a chain of three particles pulled at its
-// end. Formula, derivatives and a group are all it takes; assembly and everything above it know laws by their concept
-// only.
-#include "energy/law_group.hpp"
+// A law of one's own: a bond that stiffens, U = K (r − r₀)² + Q (r − r₀)⁴, in a chain of three particles that a force pulls at its end. The
+// formula and its derivatives are all it takes: Newton's method finds the equilibrium, a path would follow it.
+#include "energy/energy.hpp"
+#include "solve/newton.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -18,29 +18,31 @@ struct StiffeningBond {
   }
   Local<2> derivatives(const Points<2>& x) const {
     const Vec3 d = x.edge(0, 1).hi;
-    const double r = d.norm(), e = r - r0;
-    const Vec3 n = d / r;
-    const double f1 = 2 * K * e + 4 * Q * e * e * e, f2 = 2 * K + 12 * Q * e * e;      // f′, f″ of f(r)
-    Local<2> u;
-    u.value = value(x);
-    u.force_part(1) = f1 * n;
-    u.force_part(0) = -f1 * n;
-    const Mat3 nn = n * n.transpose();
-    const Mat3 h = f2 * nn + f1 / r * (Mat3::Identity() - nn);
-    u.block(0, 0) = u.block(1, 1) = h;
-    u.block(0, 1) = u.block(1, 0) = -h;
-    return u;
+    const double e = d.norm() - r0;
+    return radial(d, value(x), 2 * K * e + 4 * Q * e * e * e, 2 * K + 12 * Q * e * e);      // U, f′ and f″ of f(r)
   }
 };
 
 int main() {
-  const LawGroup<StiffeningBond> group({{1.0, 5.0, 1.0}}, {0, 0}, {{0, 1}, {1, 2}});
+  const double K = 1, Q = 5, pull = 0.8;
+  Model model;
   Field x = Field::Zero(3, 3);
-  x.row(0) << 0, 1.1, 2.3;
-  double values[2], gradients[12];
-  group.derivatives(State(x), {}, values, gradients, nullptr);
-  std::printf("energies %.15g %.15g, force on the last particle %.15g\n", values[0], values[1], -gradients[9]);
-  const double e = 0.2;                                   // stretch of the second bond
-  const bool right = std::abs(gradients[9] - (2 * e + 20 * e * e * e)) < 1e-14;
-  return right ? EXIT_SUCCESS : EXIT_FAILURE;
+  x.row(0) << 0, 1, 2;
+  model.start = State(x);
+  model.diameter.assign(3, 1.0), model.density.assign(3, 1.0);
+  Support first;
+  first.particles = {0};
+  Load last;
+  last.particles = {2}, last.force = Vec3(pull, 0, 0), last.scaling = Scaling::constant();
+  model.supports = {first}, model.loads = {last};
+
+  Energy energy(model);
+  energy.add("stiffening", std::make_unique<LawGroup<StiffeningBond>>(std::vector{StiffeningBond{K, Q, 1.0}}, std::vector{0, 0},
+                                                                       std::vector<std::array<int, 2>>{{0, 1}, {1, 2}}));
+  State state = model.start;
+  const Report report = Newton(energy).minimise(state);
+  const double e = (state.at(2) - state.at(1)).hi.norm() - 1;
+  std::printf("stretch %.15g, pull %.15g of %g\n", e, 2 * K * e + 4 * Q * e * e * e, pull);
+  energy.terms(state).for_each([](const auto& name, double value) { std::printf("%s %.15g\n", std::string(name).c_str(), value); });
+  return report.converged() && std::abs(2 * K * e + 4 * Q * e * e * e - pull) < 1e-12 * pull ? EXIT_SUCCESS : EXIT_FAILURE;
 }

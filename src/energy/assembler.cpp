@@ -216,7 +216,7 @@ void relative_motion(const Field& v, std::span<const int> stencil, bool anchored
     for (int c = 0; c < 3; ++c) out[3 * i + c] = stencil[i] < 0 ? 0.0 : v(c, stencil[i]) - (anchored ? 0.0 : v(c, stencil[0]));
 }
 
-constexpr int most_local = 27;                     // three sites, carried by three bodies
+constexpr int most_local = 3 * Assembler::most_sites;
 
 // y = H_e v from the packed lower triangle.
 void packed_product(const double* h, const double* v, int n, double* y) {

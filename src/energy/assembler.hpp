@@ -18,6 +18,7 @@ struct GatherList {
 class Assembler {
  public:
   using Groups = std::vector<std::unique_ptr<ElementGroup>>;
+  static constexpr int most_sites = 12;              // of an element: four sites, each with a body's place and rotation
   Assembler(const Kinematics& kinematics, const Groups& groups);
 
   /// Energy of each group, summed in stored order with compensation; +inf where a law is outside its domain.

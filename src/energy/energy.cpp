@@ -6,6 +6,7 @@
 #include "energy/touches.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace elamin {
 
@@ -14,6 +15,12 @@ namespace {
 // In the list of groups; each with glued particles, and then the same without.
 enum Place { bonds, angles = 2, contacts = 4, cohesion = 6, walls = 8, body_particles = 10, body_pairs = 12, body_walls, body_loads,
              pressures, hard_pairs, hard_walls, places };
+
+// The term of each place.
+constexpr double EnergyTerms::*term_at[places]{
+    &EnergyTerms::bond,     &EnergyTerms::bond,     &EnergyTerms::angle, &EnergyTerms::angle, &EnergyTerms::contact, &EnergyTerms::contact,
+    &EnergyTerms::cohesion, &EnergyTerms::cohesion, &EnergyTerms::wall,  &EnergyTerms::wall,  &EnergyTerms::body,    &EnergyTerms::body,
+    &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external};
 
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, turn or overlap of order one.
 double stiffest(const Model& model) {
@@ -38,6 +45,23 @@ double stiffest(const Model& model) {
   for (const Wall& w : model.walls) rounded(w.kernel, w.bodies);
   for (const PairContact& c : model.contacts)
     if (c.law == PairContact::Law::lj) most = std::max(most, c.epsilon / c.sigma);
+  return most;
+}
+
+// Of a group the largest entry of an element's Hessian times the distance of its sites, or 1 where that is none.
+double stiffest(const ElementGroup& group, const State& state) {
+  std::vector<double> value(group.elements()), gradient(std::size_t(group.elements()) * group.gradient_size()),
+      hessian(std::size_t(group.elements()) * group.hessian_size());
+  group.derivatives(state, {}, value.data(), gradient.data(), hessian.data());
+  double most = 0;
+  for (int e = 0; e < group.elements(); ++e) {
+    double extent = 0, largest = 0;
+    for (const int a : group.stencil(e))
+      for (const int b : group.stencil(e))
+        if (a >= 0 && b >= 0 && std::max(a, b) < state.particles()) extent = std::max(extent, (state.at(b) - state.at(a)).hi.norm());
+    for (int k = 0; k < group.hessian_size(); ++k) largest = std::max(largest, std::abs(hessian[std::size_t(e) * group.hessian_size() + k]));
+    if (std::isfinite(largest)) most = std::max(most, largest * (extent > 0 ? extent : 1.0));
+  }
   return most;
 }
 
@@ -104,6 +128,23 @@ Energy::Energy(const Model& model)
   assemble_groups();
 }
 
+void Energy::add(const std::string& term, std::unique_ptr<ElementGroup> group) {
+  const auto taken = [&](const auto& known) { return known.first == term; };
+  if (constexpr auto known = EnergyTerms::known(); std::any_of(known.begin(), known.end(), taken) || std::count(own_.begin(), own_.end(), term))
+    throw std::invalid_argument("Energy::add: there is a term " + term + " already");
+  if (group->sites() > Assembler::most_sites) throw std::invalid_argument("Energy::add: an element has too many sites");
+  std::vector<bool> held(kinematics_.sites());
+  for (int e = 0; e < group->elements(); ++e)
+    for (const int site : group->stencil(e)) {
+      if (site >= kinematics_.sites()) throw std::invalid_argument("Energy::add: an element has a site that is not in the model");
+      if (site >= 0) held[site] = true;
+    }
+  std::erase_if(loose_, [&](int d) { return held[kinematics_.site_of(d)]; });
+  force_floor_ = std::max(force_floor_, epsilon * stiffest(*group, model_.start));
+  own_.push_back(term), groups_.push_back(std::move(group));
+  assemble_groups();
+}
+
 void Energy::put(int place, Parts parts) {
   groups_[place] = std::move(parts.carried), groups_[place + 1] = std::move(parts.free);
 }
@@ -126,10 +167,11 @@ void Energy::cover(const State& state) {
 }
 
 EnergyTerms Energy::terms_of(const std::vector<double>& sums, const State& state) const {
-  const auto both = [&](int place) { return sums[place] + sums[place + 1]; };
-  return {.bond = both(bonds), .angle = both(angles), .contact = both(contacts), .wall = both(walls) + sums[body_walls],
-          .cohesion = both(cohesion), .body = both(body_particles) + sums[body_pairs],
-          .external = external(state) + sums[pressures] + sums[body_loads]};
+  EnergyTerms terms;
+  terms.external = external(state);
+  for (int k = 0; k < places; ++k) terms.*term_at[k] += sums[k];
+  for (std::size_t k = 0; k < own_.size(); ++k) terms.own.emplace_back(own_[k], sums[places + k]);
+  return terms;
 }
 
 double Energy::external(const State& state) const {

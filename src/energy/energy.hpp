@@ -14,7 +14,7 @@
 namespace elamin {
 
 /// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_body + Σ U_wall(λ) + Σ p(λ) A − Σ F(λ)·x − Σ τ(λ)·φ,
-/// F(λ) = F₀ + λ F₁ (dead loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. Rounded
+/// and what a program adds; F(λ) = F₀ + λ F₁ (dead loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. Rounded
 /// bodies that follow LAMMPS's rules feel nothing here. The topology is taken once from the model, which must outlive this; the candidates of contact are looked for
 /// anew whenever a state is evaluated that the last list does not cover, so that no contact is ever missed. Not for use by
 /// several threads at once; inside, every evaluation is shared over the cores with the same bits for any number of them.
@@ -25,6 +25,11 @@ class Energy {
   explicit Energy(const Model& model);
   Energy(const Energy&) = delete;
   Energy& operator=(const Energy&) = delete;
+
+  /// Adds the elements of a law that the model does not know (see LawGroup), with their energy as the term of that name. Their sites count as
+  /// held by them, as by bonds. What moves in time does not feel them. Throws std::invalid_argument where the name is a term that there is, a
+  /// site is none of the model's or an element has more than 12 sites.
+  void add(const std::string& term, std::unique_ptr<ElementGroup> group);
 
   const Model& model() const { return model_; }
   const Kinematics& kinematics() const { return kinematics_; }
@@ -128,6 +133,7 @@ class Energy {
   static constexpr double nothing = 1e-7;                     // of the floor: well above what residuals leave, 1e-10 of it
   double force_scale_ = 0, force_floor_ = 0;
   std::vector<int> loose_, idle_;                             // free dofs of single particles and bodies; those without stiffness
+  std::vector<std::string> own_;                              // terms of the groups behind those of the model
 };
 
 }  // namespace elamin

@@ -31,11 +31,9 @@ struct Cohesion {
   double value(const Points<2>& x) const { return value(squared(x.edge(0, 1))); }
 
   Local<2> derivatives(const Points<2>& x) const {
-    Local<2> u;
     const ExactVector d = x.edge(0, 1);
     const Exact q2 = squared(d);
-    if (!acts(q2)) return u;
-    u.value = value(q2);
+    if (!acts(q2)) return {};
     const double q = q2.value(), s = sixth_power(q);
     double first = -12 * epsilon * s * (2 * s - 1) / q, second = 24 * epsilon * s * (7 * s - 2) / q / q;
     if (in_shell(q)) {
@@ -43,15 +41,9 @@ struct Cohesion {
       const double r = std::sqrt(q), w = to_cutoff(q2), force = w * w * (t.a + t.b * w);
       first = -force / (2 * r), second = (force / r + w * (2 * t.a + 3 * t.b * w)) / (4 * q);
     }
-    if (!std::isfinite(u.value) || !std::isfinite(second)) return u;
-    u.force_part(1) = 2 * first * d.hi;
-    u.force_part(0) = -u.force_part(1);
-    Mat3 h = d.hi * d.hi.transpose();
-    h *= 4 * second;
-    h.diagonal().array() += 2 * first;
-    u.block(0, 0) = u.block(1, 1) = h;
-    u.block(0, 1) = u.block(1, 0) = -h;
-    return u;
+    const double energy = value(q2);
+    if (!std::isfinite(energy) || !std::isfinite(second)) return {.value = energy};
+    return of_difference(energy, 2 * first * d.hi, d.hi, 4 * second, 2 * first);
   }
 
   /// −2 ∂U/∂q within the cutoff: times d the force on site 1, with ε = depth and σ = size, in the plain

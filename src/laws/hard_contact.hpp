@@ -17,22 +17,7 @@ struct HardContact {
 
   double value(const Points<2>& x) const { return -force * gap(x); }
 
-  Local<2> derivatives(const Points<2>& x) const {
-    Local<2> u;
-    u.value = value(x);
-    const Vec3 d = x.edge(0, 1).hi;
-    const double r = d.norm();
-    if (!(r > 0)) return u;
-    const Vec3 n = d / r;
-    u.force_part(1) = -force * n;
-    u.force_part(0) = force * n;
-    Mat3 h = n * n.transpose();
-    h *= force / r;
-    h.diagonal().array() -= force / r;
-    u.block(0, 0) = u.block(1, 1) = h;
-    u.block(0, 1) = u.block(1, 0) = -h;
-    return u;
-  }
+  Local<2> derivatives(const Points<2>& x) const { return radial(x.edge(0, 1).hi, value(x), -force, 0); }
 
   /// c = r − ρ [length]
   double gap(const Points<2>& x) const {

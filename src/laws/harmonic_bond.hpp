@@ -74,22 +74,8 @@ struct HarmonicBond {
 
  private:
   Local<2> derivatives(const ExactVector& d, double transverse_stretch) const {
-    const double r = d.hi.norm(), e = stretch(d);
-    Local<2> u;
-    u.value = K * e * e;
-    Mat3 h = 2 * K * Mat3::Identity();
-    if (r > 0) {
-      const Vec3 n = d.hi / r;
-      u.force_part(1) = 2 * K * e * n;
-      u.force_part(0) = -u.force_part(1);
-      const double transverse = 2 * K * transverse_stretch / r;      // 2K (1 − r₀/r)
-      h = n * n.transpose();
-      h *= 2 * K - transverse;
-      h.diagonal().array() += transverse;
-    }
-    u.block(0, 0) = u.block(1, 1) = h;
-    u.block(0, 1) = u.block(1, 0) = -h;
-    return u;
+    const double e = stretch(d);
+    return radial(d.hi, K * e * e, 2 * K * e, 2 * K, 2 * K * transverse_stretch / d.hi.norm());      // 2K (1 − r₀/r)
   }
 
   double linearised(const Points<2>& x, const Points<2>& from) const {

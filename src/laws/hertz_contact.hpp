@@ -41,25 +41,12 @@ struct HertzContact {
 
  private:
   Local<2> derivatives(const Points<2>& x, double turning) const {
-    Local<2> u;
     const ExactVector d = x.edge(0, 1);
-    if (clear(d)) return u;
+    if (clear(d)) return {};
     const double overlap = -gap(d);
-    if (!(overlap > 0)) return u;
-    u.value = energy(overlap);
-    const double r = d.hi.norm(), f = force(-overlap), along = 1.5 * stiffness * std::sqrt(overlap);   // f = k δ^{3/2}
-    Mat3 h = along * Mat3::Identity();
-    if (r > 0) {
-      const Vec3 n = d.hi / r;
-      u.force_part(1) = -f * n;
-      u.force_part(0) = f * n;
-      h = n * n.transpose();
-      h *= along + turning * f / r;                                  // along n nᵀ − f/r (I − n nᵀ)
-      h.diagonal().array() -= turning * f / r;
-    }
-    u.block(0, 0) = u.block(1, 1) = h;
-    u.block(0, 1) = u.block(1, 0) = -h;
-    return u;
+    if (!(overlap > 0)) return {};
+    const double f = force(-overlap);                                // k δ^{3/2}
+    return radial(d.hi, energy(overlap), -f, 1.5 * stiffness * std::sqrt(overlap), -turning * f / d.hi.norm());
   }
 
   /// Farther apart than rounding could hide: most candidates are.

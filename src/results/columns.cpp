@@ -13,20 +13,20 @@ Cell known(int index) { return index < 0 ? Cell{} : Cell(index); }
 
 /// What path.csv and events.csv have in common behind their first columns.
 void append_rest(Row& row, const PathPoint& p, const std::vector<double>& observables) {
-  row.insert(row.end(), {p.energy.total(), p.energy.bond, p.energy.angle, p.energy.contact, p.energy.wall, p.energy.cohesion, p.energy.body,
-                         p.energy.external, p.report.residual, p.report.iterations, p.stability.negative,
-                         p.stability.stable});
+  row.emplace_back(p.energy.total());
+  for (const auto& [name, term] : EnergyTerms::known()) row.emplace_back(p.energy.*term);
+  row.insert(row.end(), {p.report.residual, p.report.iterations, p.stability.negative, p.stability.stable});
   row.insert(row.end(), observables.begin(), observables.end());
   row.insert(row.end(), {p.parent, known(p.stability.negative_rigid)});
 }
 
-const std::vector<std::string> rest{"energy",   "bond",     "angle",      "contact",  "wall",  "cohesion", "body",
-                                    "external", "residual", "iterations", "negative", "stable"};
+const std::vector<std::string> rest{"residual", "iterations", "negative", "stable"};
 const std::vector<std::string> last_columns{"parent", "negative_rigid"}, last_of_event{"negative_before", "negative_after", "what"};
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<std::string> with_rest(std::vector<std::string> columns, const std::vector<std::string>& observables) {
+  append(columns, energy_columns());
   for (const auto* more : {&rest, &observables, &last_columns}) append(columns, *more);
   return columns;
 }

@@ -5,17 +5,17 @@
 namespace elamin {
 
 std::vector<std::string> trajectory_columns(const std::vector<std::string>& observables) {
-  std::vector<std::string> columns{"step", "label",    "time",     "energy",  "bond", "angle",       "contact",
-                                   "wall", "cohesion", "body",     "external", "kinetic", "work", "dissipation", "balance"};
-  columns.insert(columns.end(), observables.begin(), observables.end());
+  std::vector<std::string> columns{"step", "label", "time"};
+  for (const auto& more : {energy_columns(), {"kinetic", "work", "dissipation", "balance"}, observables})
+    columns.insert(columns.end(), more.begin(), more.end());
   return columns;
 }
 
 Row trajectory_row(const Moment& m, const std::vector<double>& observables) {
   const double energy = m.energy.total();
-  Row row{static_cast<int>(m.motion.step), m.label, m.motion.time, energy, m.energy.bond, m.energy.angle, m.energy.contact, m.energy.wall,
-          m.energy.cohesion, m.energy.body, m.energy.external, m.kinetic, m.motion.work, m.motion.dissipation,
-          energy + m.kinetic + m.motion.dissipation - m.motion.work};
+  Row row{static_cast<int>(m.motion.step), m.label, m.motion.time, energy};
+  for (const auto& [name, term] : EnergyTerms::known()) row.emplace_back(m.energy.*term);
+  row.insert(row.end(), {m.kinetic, m.motion.work, m.motion.dissipation, energy + m.kinetic + m.motion.dissipation - m.motion.work});
   row.insert(row.end(), observables.begin(), observables.end());
   return row;
 }

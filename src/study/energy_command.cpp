@@ -99,12 +99,10 @@ int energy_command(const EnergyOptions& options) {
   };
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:24.17g}", v) : fmt::format("{:>24}", "not finite"); };
   const auto finite = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); };
-  const std::pair<const char*, double> all[]{{"bond", terms.bond},         {"angle", terms.angle}, {"contact", terms.contact}, {"wall", terms.wall},
-                                             {"cohesion", terms.cohesion}, {"body", terms.body},   {"external", terms.external}};
   if (options.json) {
     nlohmann::ordered_json out;
     out["energy"]["total"] = finite(terms.total());
-    for (const auto& [name, value] : all) out["energy"][name] = finite(value);
+    terms.for_each([&](const auto& name, double value) { out["energy"][name] = finite(value); });
     out["max_force"] = finite(max_force);
     out["particles"] = model.particles(), out["bodies"] = model.bodies.size(), out["dofs"] = energy.dofs();
     fmt::print("{}\n", out.dump());
@@ -112,7 +110,7 @@ int energy_command(const EnergyOptions& options) {
   }
   fmt::print("load factor {:.17g}\n", state.load_factor);
   fmt::print("energy      {}\n", number(terms.total()));
-  for (const auto& [name, value] : all) fmt::print("  {:<10}{}\n", name, number(value));
+  terms.for_each([&](const auto& name, double value) { fmt::print("  {:<10}{}\n", name, number(value)); });
   if (!std::isfinite(max_force)) return status();
   if (model.bodies.empty())
     fmt::print("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
