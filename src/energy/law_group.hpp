@@ -22,7 +22,7 @@ Points<n> points(const State& state, const std::array<int, n>& sites) {
 }
 
 /// Which Hessian is asked for. With `from`, the state that a step came from: the one whose forces are predicted there, where the law does that
-/// (PredictingLaw). `convex`, in [0, 1]: the part of what compression takes away that is left out, where the law knows that (ConvexLaw); with
+/// (PredictingLaw). `convex`, in [0, 1]: the part of what compression, or a cohesion that gives way, takes away that is left out, where the law knows that (ConvexLaw); with
 /// all of it left out an element's Hessian is positive semidefinite.
 struct Tangent {
   const State* from = nullptr;

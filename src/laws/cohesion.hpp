@@ -30,21 +30,10 @@ struct Cohesion {
 
   double value(const Points<2>& x) const { return value(squared(x.edge(0, 1))); }
 
-  Local<2> derivatives(const Points<2>& x) const {
-    const ExactVector d = x.edge(0, 1);
-    const Exact q2 = squared(d);
-    if (!acts(q2)) return {};
-    const double q = q2.value(), s = sixth_power(q);
-    double first = -12 * epsilon * s * (2 * s - 1) / q, second = 24 * epsilon * s * (7 * s - 2) / q / q;
-    if (in_shell(q)) {
-      const Shell t = shell();
-      const double r = std::sqrt(q), w = to_cutoff(q2), force = w * w * (t.a + t.b * w);
-      first = -force / (2 * r), second = (force / r + w * (2 * t.a + 3 * t.b * w)) / (4 * q);
-    }
-    const double energy = value(q2);
-    if (!std::isfinite(energy) || !std::isfinite(second)) return {.value = energy};
-    return of_difference(energy, 2 * first * d.hi, d.hi, 4 * second, 2 * first);
-  }
+  Local<2> derivatives(const Points<2>& x) const { return derivatives(x, 1); }
+
+  /// The same without a part of what is negative of the Hessian's eigenvalues, ∂²U/∂r² along d and ∂U/∂r / r across it.
+  Local<2> convex(const Points<2>& x, double part) const { return derivatives(x, 1 - part); }
 
   /// −2 ∂U/∂q within the cutoff: times d the force on site 1, with ε = depth and σ = size, in the plain
   /// arithmetic of the scalar T.
@@ -62,6 +51,28 @@ struct Cohesion {
   }
 
  private:
+  // `kept`: the part of negative eigenvalues that stays in the Hessian.
+  Local<2> derivatives(const Points<2>& x, double kept) const {
+    const ExactVector d = x.edge(0, 1);
+    const Exact q2 = squared(d);
+    if (!acts(q2)) return {};
+    const double q = q2.value(), s = sixth_power(q);
+    double first = -12 * epsilon * s * (2 * s - 1) / q, second = 24 * epsilon * s * (7 * s - 2) / q / q;
+    if (in_shell(q)) {
+      const Shell t = shell();
+      const double r = std::sqrt(q), w = to_cutoff(q2), force = w * w * (t.a + t.b * w);
+      first = -force / (2 * r), second = (force / r + w * (2 * t.a + 3 * t.b * w)) / (4 * q);
+    }
+    const double energy = value(q2);
+    if (!std::isfinite(energy) || !std::isfinite(second)) return {.value = energy};
+    double across = 2 * first, along = 4 * second;                  // along d dᵀ + across I
+    if (kept < 1) {
+      const auto eased = [kept](double eigenvalue) { return eigenvalue < 0 ? kept * eigenvalue : eigenvalue; };
+      along = (eased(along * q + across) - eased(across)) / q, across = eased(across);
+    }
+    return of_difference(energy, 2 * first * d.hi, d.hi, along, across);
+  }
+
   static Exact squared(const ExactVector& d) { return dot(d, d); }   // q = r²
 
   bool acts(Exact q) const { return epsilon != 0 && sigma != 0 && (q - two_product(cutoff, cutoff)).hi < 0; }

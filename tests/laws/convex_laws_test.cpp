@@ -1,6 +1,7 @@
 // Hessians without what compression takes from them.
 #include "catch.hpp"
 #include "laws/check_law.hpp"
+#include "laws/cohesion.hpp"
 #include "laws/cosine_angle.hpp"
 #include "laws/harmonic_bond.hpp"
 #include "laws/hertz_contact.hpp"
@@ -48,6 +49,11 @@ TEST_CASE("Hessians without compression are positive semidefinite and near to th
       }
       const HertzContact contact{2, 1.2 * r};
       check_convex<2>(contact.derivatives(pair), [&](double part) { return contact.convex(pair, part); });
+      for (const CutoffStyle style : {CutoffStyle::cut, CutoffStyle::shifted, CutoffStyle::smooth})
+        for (const double sigma : {1.0, 0.85, 0.75, 0.4}) {              // pushed, pulled, and less so with the distance
+          const Cohesion cohesion{0.3, sigma * r, 1.5 * r, style, 0.9 * r};
+          check_convex<2>(cohesion.derivatives(pair), [&](double part) { return cohesion.convex(pair, part); });
+        }
       const Points<3> triple = random_points<3>(random, size);
       for (const double rest : {pi, 2.0}) {
         const CosineAngle angle{0.7, rest};
