@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     common(command);
     command->add_option("-o,--output", options.directory, "directory of the results (default: the file's name without .toml)");
     command->add_option("--threads", options.threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+    command->add_flag("--force", options.force, "write to a directory that holds something else than results, too");
     command->add_flag("--quiet", options.quiet, "print nothing but errors");
   };
   app.add_option("problem", file, "the problem file")->type_name("FILE");

@@ -25,19 +25,13 @@ namespace fs = std::filesystem;
 
 constexpr double at_touch = 1e-9;   // of the size: a gap that an event has located, whichever sign rounding gave it
 
-std::string place(const std::string& directory, const std::string& name) {
-  return (fs::path(directory) / name).string();
+void append(Row& row, const Eigen::Ref<const Eigen::VectorXd>& numbers) {
+  for (const double x : numbers) row.emplace_back(x);
 }
 
-using Files = std::set<fs::path>;
+}  // namespace
 
-fs::path located(const fs::path& file) {
-  std::error_code error;
-  return fs::weakly_canonical(file, error);
-}
-
-/// What the problem reads that lies in the directory.
-Files inputs_in(const std::string& directory, const Problem& problem) {
+ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& problem) {
   std::vector<std::string> all;
   const auto add = [&](const std::string& data) {
     if (data.empty()) return;
@@ -47,7 +41,7 @@ Files inputs_in(const std::string& directory, const Problem& problem) {
   if (problem.lammps) add(problem.lammps->data), add(problem.lammps->bodies);
   for (const GrainsTable& t : problem.grains) all.push_back(t.file);
   for (const BodyTable& t : problem.bodies) all.push_back(t.molecule);
-  Files inside;
+  ResultsDirectory::Files inside;
   const fs::path top = located(directory);
   for (const std::string& file : all) {
     if (file.empty() || !fs::exists(file)) continue;
@@ -57,55 +51,19 @@ Files inputs_in(const std::string& directory, const Problem& problem) {
   return inside;
 }
 
-void remove_all_with(const char* extension, const std::string& directory, const Files& kept) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == extension && !kept.count(located(entry.path()))) files.push_back(entry.path());
-  for (const fs::path& file : files) fs::remove(file, error);
-}
-
-void create(const std::string& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
-}
-
-/// Creates the directory, or empties one of an earlier run of its results.
-std::string prepared(const std::string& directory, const std::string& resolved_toml, const Files& kept) {
-  const std::string states = place(directory, "states");
-  create(directory), create(states);
-  if (fs::exists(place(directory, "resolved.toml"))) {
-    std::error_code error;
-    for (const char* file : {"summary.json", "modes.csv", "path.csv", "events.csv", "trajectory.csv"}) fs::remove(place(directory, file), error);
-    for (const char* extension : {".data", ".json", ".csv", ".vtk"}) remove_all_with(extension, states, kept);
-    for (const char* folder : {"modes", "frames"}) {
-      remove_all_with(".csv", place(directory, folder), kept);
-      fs::remove(place(directory, folder), error);                 // where nothing else is in it
-    }
-  }
-  write_text(place(directory, "resolved.toml"), resolved_toml);
-  return directory;
-}
-
-void append(Row& row, const Eigen::Ref<const Eigen::VectorXd>& numbers) {
-  for (const double x : numbers) row.emplace_back(x);
-}
-
-}  // namespace
-
 RunDirectory::RunDirectory(std::string directory, const Problem& problem, const Model& model,
-                           const std::string& resolved_toml)
+                           const std::string& resolved_toml, bool force)
     : inputs_(inputs_in(directory, problem)),
       record_(problem, model),
       model_(model),
-      directory_(prepared(directory, resolved_toml, inputs_)),
+      results_(std::move(directory), force, inputs_),
       title_(problem.title),
-      log_(place(directory_, "log.txt"), std::ios::binary),
-      path_(place(directory_, problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns),
-      contacts_(place(directory_, "contacts.csv"),
+      log_(results_.file("log.txt"), std::ios::binary),
+      path_(results_.file(problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns),
+      contacts_(results_.file("contacts.csv"),
                 {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {
-  if (!problem.in_time()) events_.emplace(place(directory_, "events.csv"), record_.events().columns);
+  write_text(results_.file("resolved.toml"), resolved_toml);
+  if (!problem.in_time()) events_.emplace(results_.file("events.csv"), record_.events().columns);
   for (const fs::path& file : inputs_) log(file.string() + " is read by this run and stays as it is");
 }
 
@@ -126,11 +84,11 @@ void RunDirectory::add(const PathPoint& point, const Field& forces, const std::v
 
 void RunDirectory::add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches) {
   const State& state = point.state;
-  write_state(state_file(label), model_, state,
-              fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
+  add_state_file(label, model_, state,
+                 fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
   StateTail stored{state.load_factor, state.tail, stage_, {}, stored_poses(state)};
   if (point.resume) stored.path = StoredPath{varied_, rising_, *point.resume};
-  write_text(state_file(label, ".json"), tail_text(stored));
+  write_text(results_.file(state_name(label, ".json")), tail_text(stored));
   add_picture(label, state);
   add_contacts(label, state, touches);
 }
@@ -143,17 +101,16 @@ void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) 
   Model moving = model_;
   moving.velocity = moment.motion.velocity, moving.spin = moment.motion.spin;
   moving.body_velocity = moment.motion.body_velocity, moving.angular_momentum = moment.motion.angular_momentum;
-  write_state(state_file(moment.label), moving, state,
-              fmt::format("{}; {}; time {:.17g}", title_.empty() ? "elamin" : title_, moment.label, moment.motion.time));
-  write_text(state_file(moment.label, ".json"), tail_text({state.load_factor, state.tail, {}, {}, stored_poses(state)}));
+  add_state_file(moment.label, moving, state,
+                 fmt::format("{}; {}; time {:.17g}", title_.empty() ? "elamin" : title_, moment.label, moment.motion.time));
+  write_text(results_.file(state_name(moment.label, ".json")), tail_text({state.load_factor, state.tail, {}, {}, stored_poses(state)}));
   add_picture(moment.label, state);
   add_contacts(moment.label, state, touches);
 }
 
 void RunDirectory::add_frame(const Motion& motion) {
-  const std::string frames = place(directory_, "frames");
-  create(frames);
-  write_frame(place(frames, fmt::format("{}.csv", motion.step)), model_, motion);
+  if (!model_.bodies.empty()) results_.file(fmt::format("frames/{}.bodies.csv", motion.step));
+  write_frame(results_.file(fmt::format("frames/{}.csv", motion.step)), model_, motion);
 }
 
 void RunDirectory::add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches) {
@@ -166,7 +123,14 @@ void RunDirectory::add_contacts(const std::string& label, const State& state, co
 }
 
 void RunDirectory::add_picture(const std::string& label, const State& state) {
-  if (!model_.bodies.empty()) write_picture(state_file(label, ".vtk"), model_, state, (title_.empty() ? "elamin" : title_) + "; " + label);
+  if (!model_.bodies.empty())
+    write_picture(results_.file(state_name(label, ".vtk")), model_, state, (title_.empty() ? "elamin" : title_) + "; " + label);
+}
+
+void RunDirectory::add_state_file(const std::string& label, const Model& model, const State& state, const std::string& title) {
+  const std::string file = results_.file(state_name(label, ".data"));
+  if (model.particles() > 0 && !model.bodies.empty()) results_.file(bodies_file(state_name(label, ".data")));
+  write_state(file, model, state, title);
 }
 
 void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
@@ -178,7 +142,7 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
   };
   std::vector<std::string> names{"id"};
   for (const std::string& c : columns("u")) names.push_back(c);
-  CsvFile file(state_file(label, ".modes.csv"), names);
+  CsvFile file(results_.file(state_name(label, ".modes.csv")), names);
   for (int i = 0; i < model_.particles(); ++i) {
     Row row{model_.id[i]};
     for (const Field& v : vectors)
@@ -187,7 +151,7 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
   }
   if (model_.bodies.empty()) return;
   for (const std::string& c : columns("t")) names.push_back(c);
-  CsvFile bodies(state_file(label, ".bodies.modes.csv"), names);
+  CsvFile bodies(results_.file(state_name(label, ".bodies.modes.csv")), names);
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     Row row{model_.bodies[b].id};
     for (const Field& v : vectors) append(row, body_motion(model_, v, b).head<3>());
@@ -197,18 +161,15 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
 }
 
 void RunDirectory::add_mode(const Mode& mode, const State& state) {
-  const std::string name = fmt::format("mode-{}", ++mode_), directory = place(directory_, "modes");
-  if (!modes_) {
-    create(directory);
-    modes_.emplace(place(directory_, "modes.csv"), std::vector<std::string>{"mode", "eigenvalue", "zero_mode"});
-  }
+  const std::string name = fmt::format("mode-{}", ++mode_);
+  if (!modes_) modes_.emplace(results_.file("modes.csv"), std::vector<std::string>{"mode", "eigenvalue", "zero_mode"});
   modes_->add({mode_, mode.eigenvalue, mode.zero_mode.empty() ? Cell{} : Cell(mode.zero_mode)});
-  CsvFile shape(place(directory, name + ".csv"), {"id", "ux", "uy", "uz"});
+  CsvFile shape(results_.file("modes/" + name + ".csv"), {"id", "ux", "uy", "uz"});
   for (int i = 0; i < model_.particles(); ++i)
     shape.add({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
   const State moved = moved_along(mode, model_, state);
   if (!model_.bodies.empty()) {
-    CsvFile bodies(place(directory, name + ".bodies.csv"), {"id", "ux", "uy", "uz", "tx", "ty", "tz"});
+    CsvFile bodies(results_.file("modes/" + name + ".bodies.csv"), {"id", "ux", "uy", "uz", "tx", "ty", "tz"});
     for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
       Row row{model_.bodies[b].id};
       append(row, body_motion(model_, mode.shape, b));
@@ -216,9 +177,9 @@ void RunDirectory::add_mode(const Mode& mode, const State& state) {
     }
   }
   add_picture(name, moved);
-  write_state(state_file(name), model_, moved,
-              fmt::format("{}; {}, eigenvalue {:.17g}; load factor {:.17g}", title_.empty() ? "elamin" : title_, name,
-                          mode.eigenvalue, state.load_factor));
+  add_state_file(name, model_, moved,
+                 fmt::format("{}; {}, eigenvalue {:.17g}; load factor {:.17g}", title_.empty() ? "elamin" : title_, name,
+                             mode.eigenvalue, state.load_factor));
 }
 
 void RunDirectory::log(const std::string& line) {
@@ -227,19 +188,24 @@ void RunDirectory::log(const std::string& line) {
   localtime_r(&now, &local);
   log_ << fmt::format("{:%Y-%m-%d %H:%M:%S} {}\n", local, line) << std::flush;
   if (!log_)
-    throw InputError(fmt::format("{}: cannot be written: {}", place(directory_, "log.txt"), std::strerror(errno)));
+    throw InputError(fmt::format("{}/log.txt: cannot be written: {}", directory(), std::strerror(errno)));
 }
 
 void RunDirectory::finish(const Summary& summary) {
-  write_summary(place(directory_, "summary.json"), summary, record_.path(), record_.events());
+  write_summary(results_.file("summary.json"), summary, record_.path(), record_.events());
 }
 
-std::string RunDirectory::state_file(const std::string& label, const std::string& extension) const {
+std::string RunDirectory::state_name(const std::string& label, const std::string& extension) const {
   std::string name = label;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
-  while (inputs_.count(located(place(place(directory_, "states"), name + ".data")))) name += "-again";
-  return place(place(directory_, "states"), name + extension);
+  name = "states/" + name;
+  while (results_.has_foreign(name + ".data") || inputs_.count(located(fs::path(directory()) / (name + ".data")))) name += "-again";
+  return name + extension;
+}
+
+std::string RunDirectory::state_file(const std::string& label) const {
+  return (fs::path(directory()) / state_name(label, ".data")).string();
 }
 
 }  // namespace elamin

@@ -2,24 +2,27 @@
 // The directory that a run leaves behind.
 #include "results/mode.hpp"
 #include "results/record.hpp"
+#include "results/results_directory.hpp"
 #include "results/summary.hpp"
 
-#include <filesystem>
 #include <fstream>
-#include <set>
 #include <string>
 
 namespace elamin {
 
+/// The files that the problem reads and that lie in the directory.
+ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& problem);
+
 /// path.csv, events.csv, contacts.csv, states/, log.txt, resolved.toml and summary.json of one run, modes.csv and modes/ of
-/// a study of modes; of dynamics trajectory.csv instead of the first two, and frames/. Every row, state and line is on the disk as soon as it is added, so that an interrupted run keeps
-/// what it has.
+/// a study of modes; of dynamics trajectory.csv instead of the first two, and frames/. Every row, state and line is on the disk
+/// as soon as it is added, so that an interrupted run keeps what it has.
 class RunDirectory {
  public:
-  /// Creates the directory and writes resolved.toml. Results of an earlier run in it are removed (a directory is one if
-  /// it holds a resolved.toml), but for files that the problem reads: these stay as they are, and a state of the same label is
-  /// written to states/LABEL-again.data. problem and model must outlive this. Throws InputError if something cannot be written.
-  RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml);
+  /// Creates the directory and writes resolved.toml. Results of an earlier run in it are removed (see ResultsDirectory), but
+  /// for files that the problem reads: these stay as they are, and a state of the same label is written to states/LABEL-again.data.
+  /// problem and model must outlive this. Throws InputError if something cannot be written, or if without `force` the directory has something
+  /// in it and is not results of elamin.
+  RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml, bool force = false);
 
   /// See Record::enter.
   void enter(const Stage& stage, const Model& model);
@@ -57,22 +60,25 @@ class RunDirectory {
   void finish(const Summary& summary);
 
   const Record& record() const { return record_; }
-  const std::string& directory() const { return directory_; }
+  const std::string& directory() const { return results_.path(); }
 
-  /// The file of a label's state: "branch:1" → DIR/states/branch-1.data, unless that is an input.
-  std::string state_file(const std::string& label, const std::string& extension = ".data") const;
+  /// The file of a label's state: "branch:1" → DIR/states/branch-1.data, unless that is an input or not of elamin.
+  std::string state_file(const std::string& label) const;
 
  private:
+  std::string state_name(const std::string& label, const std::string& extension) const;    // "states/branch-1.data"
+  void add_state_file(const std::string& label, const Model& model, const State& state, const std::string& title);
   void add_picture(const std::string& label, const State& state);
   void add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches);
 
-  std::set<std::filesystem::path> inputs_;            // that lie in the directory
+  ResultsDirectory::Files inputs_;                    // that lie in the directory
   Record record_;
   const Model& model_;
   std::optional<StoredStage> stage_;                  // of a path in stages
   std::vector<std::string> varied_;                   // what the load factor scales …
   bool rising_ = true;                                // … upwards
-  std::string directory_, title_;
+  ResultsDirectory results_;
+  std::string title_;
   std::ofstream log_;
   CsvFile path_, contacts_;
   std::optional<CsvFile> events_;                     // of equilibria

@@ -1,6 +1,7 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
+#include "results/run_directory.hpp"
 #include "results/summary.hpp"
 #include "core/text_file.hpp"
 #include "study/single.hpp"
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 namespace elamin {
@@ -27,11 +27,12 @@ const char* name_of(Side side) {
 class Halving {
  public:
   Halving(const PreparedRuns& prepared, const RunOptions& options)
-      : b_(*prepared.bisection), first_(prepared.runs.front()), options_(options) {}
+      : b_(*prepared.bisection), first_(prepared.runs.front()), options_(options),
+        directory_(options.directory, options.force, inputs_in(options.directory, first_.problem)) {}
 
   Side run(const PreparedRun& prepared, double value) {
     const std::string name = run_name(++count_, 10, prepared.swept);
-    const SingleResult r = run_single(prepared.problem, prepared.model, options_.directory + "/" + name, Progress::Style::silent);
+    const SingleResult r = run_single(prepared.problem, prepared.model, options_.directory + "/" + name, options_.force, Progress::Style::silent);
     rows_[value] = sweep_row(swept_values(prepared), status_name(r.status), r.path, r.events, first_.problem);
     status_ = std::max(status_, exit_status(r));
     verdicts_.insert(verdicts_.end(), r.verdicts.begin(), r.verdicts.end());
@@ -51,17 +52,19 @@ class Halving {
   int count() const { return count_; }
   int status() const { return status_; }
   std::vector<Verdict>& verdicts() { return verdicts_; }
+  ResultsDirectory& directory() { return directory_; }
 
  private:
   // All rows anew: they stand in the order of the key.
-  void write_table() const {
-    CsvFile table(options_.directory + "/sweep.csv", sweep_columns(swept_keys(first_), first_.problem));
+  void write_table() {
+    CsvFile table(directory_.file("sweep.csv"), sweep_columns(swept_keys(first_), first_.problem));
     for (const auto& [value, row] : rows_) table.add(row);
   }
 
   const Bisection& b_;
   const PreparedRun& first_;
   const RunOptions& options_;
+  ResultsDirectory directory_;
   int count_ = 0, status_ = exit_done;
   std::map<double, Row> rows_;
   std::vector<Verdict> verdicts_;
@@ -71,7 +74,6 @@ class Halving {
 
 RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options) {
   const Stopwatch watch;
-  std::filesystem::create_directories(options.directory);
   Bisection b = *prepared.bisection;
   Halving runs(prepared, options);
   const Side at_lo = runs.run(prepared.runs[0], b.lo);
@@ -111,7 +113,7 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
   all["times"] = {{"total", watch.seconds()}};
   all["version"] = version();
   all["input"] = options.file, all["input_sha256"] = prepared.runs.front().problem.sha256;
-  write_text(options.directory + "/summary.json", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(runs.directory().file("summary.json"), all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   if (!options.quiet)
     fmt::print("{}\n{} runs in {:.2f} s\nwritten: {}/sweep.csv\n", message, runs.count(), watch.seconds(), options.directory);
   else if (!changes) fmt::print(stderr, "{}\n", message);

@@ -23,7 +23,7 @@ std::string default_directory(const std::string& file) {
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
-  const SingleResult result = run_single(run.problem, run.model, options.directory, Progress::style_for(stdout, options.quiet));
+  const SingleResult result = run_single(run.problem, run.model, options.directory, options.force, Progress::style_for(stdout, options.quiet));
   if (!options.quiet) {
     if (!run.problem.in_time()) fmt::print("{}", closing_table(result.events));
     for (const std::string& name : result.zero_modes) fmt::print("free at the end: {}\n", name);

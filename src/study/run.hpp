@@ -17,6 +17,7 @@ struct RunOptions {
   std::vector<Setting> settings;       // --set KEY=VALUE
   std::string directory;               // "": the problem file's name without .toml
   int threads = 0;                     // 0: all cores
+  bool force = false;                  // write to a directory that is not results of elamin, too
   bool quiet = false;
 };
 

@@ -38,11 +38,11 @@ std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics
 
 }  // namespace
 
-SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, Progress::Style style) {
+SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, bool force, Progress::Style style) {
   const Stopwatch total;
   std::optional<StateTail> stored;                             // it may be in the directory that is emptied now
   if (!problem.path.start.empty()) stored = read_tail(problem.path.start);
-  RunDirectory results(directory, problem, model, resolved_toml(problem));
+  RunDirectory results(directory, problem, model, resolved_toml(problem), force);
   results.log(fmt::format("elamin {}: {}", version(), problem.file));
   Energy* energy = nullptr;                                    // of the stage
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage

@@ -17,8 +17,8 @@ struct SingleResult {
 };
 
 /// Traces the study of a problem and writes everything it leaves to `directory` as it goes. What does not converge is in
-/// the result, not thrown; InputError if the directory cannot be written.
-SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, Progress::Style style);
+/// the result, not thrown; InputError if the directory cannot be written, or is not for results unless `force` is given.
+SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, bool force, Progress::Style style);
 
 /// 0, 2 if not converged, 130 if interrupted.
 int exit_status(const SingleResult& result);

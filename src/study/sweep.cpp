@@ -4,6 +4,7 @@
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
+#include "results/run_directory.hpp"
 #include "results/summary.hpp"
 #include "results/sweep_table.hpp"
 #include "study/single.hpp"
@@ -13,7 +14,6 @@
 #include <atomic>
 #include <cctype>
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 
 namespace elamin {
@@ -51,8 +51,11 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   const Stopwatch watch;
   const std::vector<PreparedRun>& runs = prepared.runs;
   const Problem& first = runs.front().problem;
-  std::filesystem::create_directories(options.directory);
-  SweepTable table(options.directory + "/sweep.csv", sweep_columns(swept_keys(runs.front()), first));
+  const auto name_of = [&](std::size_t k) { return run_name(k + 1, runs.size(), runs[k].swept); };
+  if (!options.force)
+    for (std::size_t k = 0; k < runs.size(); ++k) require_results(options.directory + "/" + name_of(k));
+  ResultsDirectory directory(options.directory, options.force, inputs_in(options.directory, first));
+  SweepTable table(directory.file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first));
 
   std::vector<SingleResult> results(runs.size());
   std::vector<std::exception_ptr> failures(runs.size());
@@ -61,9 +64,9 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   const auto work = [&] {
     set_threads(1);
     for (std::size_t k; (k = next++) < runs.size() && !interrupted();) {
-      const std::string name = run_name(k + 1, runs.size(), runs[k].swept);
+      const std::string name = name_of(k);
       try {
-        results[k] = run_single(runs[k].problem, runs[k].model, options.directory + "/" + name, Progress::Style::silent);
+        results[k] = run_single(runs[k].problem, runs[k].model, options.directory + "/" + name, options.force, Progress::Style::silent);
         table.add(static_cast<int>(k), sweep_row(swept_values(runs[k]), status_name(results[k].status), results[k].path,
                                                  results[k].events, first));
         const std::lock_guard lock(printing);

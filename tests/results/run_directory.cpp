@@ -2,8 +2,9 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
-#include "lammps/data.hpp"
 #include "input/state_tail.hpp"
+#include "lammps/data.hpp"
+#include "results/files.hpp"
 #include "results/sample.hpp"
 #include "scratch_directory.hpp"
 
@@ -251,21 +252,55 @@ TEST_CASE("a second run in the same directory leaves nothing of the first, and n
   ScratchDirectory scratch;
   const Model m = sample_model();
   const Problem problem = sample_problem();
-  std::filesystem::create_directories(scratch / "run/states");
-  scratch.file("run/states/mine.data", "not of a run");
   {
     RunDirectory run(scratch / "run", problem, m, "");
-    CHECK(std::filesystem::exists(scratch / "run/states/mine.data"));
     run.add(sample_point(m, 0, 0, "limit:1"), Field::Zero(3, 5), {});
     run.finish({});
   }
-  scratch.file("run/notes.txt", "mine");
+  const std::set<std::string> own = files_in(scratch / "run");
+  CHECK(own.size() == 10);
+  CHECK(listed_in(scratch / "run") == own);
+  CHECK(text_of(scratch / "run/.gitignore") == "*\n");
+  const std::vector<std::string> mine{"notes.txt", "states/mine.data", "states/mine.csv", "states/mine.json", "modes/mode-1.csv", "states/jump-1.data"};
+  std::filesystem::create_directories(scratch / "run/modes");
+  for (const std::string& name : mine) scratch.file("run/" + name, "mine");
+  std::ofstream(scratch / "run/.elamin", std::ios::app) << "../outside.txt\n" << scratch / "outside.txt" << "\nstates\n\n";
+  scratch.file("outside.txt", "mine");
   RunDirectory run(scratch / "run", problem, m, "");
   CHECK(!std::filesystem::exists(scratch / "run/states/limit-1.data"));
   CHECK(!std::filesystem::exists(scratch / "run/summary.json"));
   CHECK(lines_of(scratch / "run/path.csv") == 1);
   CHECK(lines_of(scratch / "run/events.csv") == 1);
-  CHECK(text_of(scratch / "run/notes.txt") == "mine");
+  run.add(sample_point(m, 0, 0, "jump:1"), Field::Zero(3, 5), {});
+  CHECK(std::filesystem::exists(scratch / "run/states/jump-1-again.data"));
+  for (const std::string& name : mine) CHECK(text_of(scratch / ("run/" + name)) == "mine");
+  CHECK(text_of(scratch / "outside.txt") == "mine");
+}
+
+TEST_CASE("a directory that holds something else is no place for results, unless forced", "[run_directory]") {
+  ScratchDirectory scratch;
+  const Model m = sample_model();
+  const Problem problem = sample_problem();
+  const std::string run = scratch / "run";
+  std::filesystem::create_directories(run + "/states");
+  scratch.file("run/resolved.toml", "mine"), scratch.file("run/states/mine.csv", "mine"), scratch.file("run/.elamin", "mine\n");
+  const auto refused = [&] {
+    const std::set<std::string> before = files_in(run);
+    CHECK_THROWS_WITH(RunDirectory(run, problem, m, ""),
+                      run + ": is not empty and not the results of a run: it holds .elamin, resolved.toml, states; choose another directory by -o, "
+                            "or --force to write there all the same, over files of the same names");
+    CHECK(files_in(run) == before);
+  };
+  refused();
+  std::filesystem::remove(run + "/.elamin"), std::filesystem::create_directory(run + "/.elamin");
+  refused();
+  std::filesystem::remove(run + "/.elamin");
+  { RunDirectory(run, problem, m, "", true); }
+  CHECK(text_of(run + "/resolved.toml").empty());
+  CHECK(text_of(run + "/states/mine.csv") == "mine");
+  CHECK_NOTHROW(RunDirectory(run, problem, m, ""));                         // results by now, as an empty directory becomes
+  std::filesystem::create_directory(scratch / "empty");
+  CHECK_NOTHROW(RunDirectory(scratch / "empty", problem, m, ""));
 }
 
 TEST_CASE("a directory that cannot be made is a sentence, and a wrong observable makes none", "[run_directory]") {

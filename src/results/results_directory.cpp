@@ -1,0 +1,103 @@
+#include "results/results_directory.hpp"
+
+#include "core/error.hpp"
+#include "core/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+namespace elamin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* list_name = ".elamin";
+constexpr const char* first_line = "# elamin has written these files. The next run into this directory removes them, and nothing else.";
+
+std::string place(const std::string& directory, const std::string& name) { return (fs::path(directory) / name).string(); }
+
+/// What the directory's list has; nothing where there is no list. Names that lead out of the directory count for nothing.
+std::optional<std::vector<std::string>> listed_in(const std::string& directory) {
+  std::ifstream in(place(directory, list_name));
+  std::string line;
+  if (!std::getline(in, line) || line != first_line) return std::nullopt;
+  std::vector<std::string> names;
+  while (std::getline(in, line)) {
+    const fs::path name = fs::path(line).lexically_normal();
+    if (!line.empty() && name.is_relative() && *name.begin() != "..") names.push_back(line);
+  }
+  return names;
+}
+
+void create(const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
+}
+
+}  // namespace
+
+fs::path located(const fs::path& file) {
+  std::error_code error;
+  return fs::weakly_canonical(file, error);
+}
+
+void require_results(const std::string& directory) {
+  constexpr std::ptrdiff_t most_shown = 3;
+  std::error_code error;
+  if (!fs::is_directory(directory, error) || listed_in(directory)) return;
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(directory, error)) found.push_back(entry.path().filename().string());
+  if (found.empty()) return;
+  std::sort(found.begin(), found.end());
+  const auto shown = std::min<std::ptrdiff_t>(most_shown, std::ssize(found));
+  throw InputError(fmt::format("{}: is not empty and not the results of a run: it holds {}{}; choose another directory by -o, "
+                               "or --force to write there all the same, over files of the same names",
+                               directory, fmt::join(found.begin(), found.begin() + shown, ", "), std::ssize(found) > shown ? ", …" : ""));
+}
+
+ResultsDirectory::ResultsDirectory(std::string directory, bool force, const Files& kept) : directory_(std::move(directory)) {
+  if (!force) require_results(directory_);
+  create(directory_);
+  std::error_code error;
+  Files folders;
+  for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) {
+    const fs::path file = place(directory_, name);
+    if (fs::is_directory(fs::symlink_status(file, error))) continue;
+    if (kept.count(located(file)) && fs::exists(file, error)) listed_.insert(name);
+    else fs::remove(file, error), folders.insert(file.parent_path());
+  }
+  for (const fs::path& folder : folders)
+    if (folder != fs::path(directory_)) fs::remove(folder, error);           // where nothing else is in it
+  std::string text = std::string(first_line) + "\n";
+  for (const std::string& name : listed_) text += name + "\n";
+  write_text(place(directory_, list_name), text);
+  if (fs::exists(place(directory_, ".gitignore"), error)) return;
+  write_text(file(".gitignore"), "*\n");
+}
+
+void ResultsDirectory::list(const std::string& name) {
+  if (!listed_.insert(name).second) return;
+  std::ofstream out(place(directory_, list_name), std::ios::binary | std::ios::app);
+  out << name << '\n' << std::flush;
+  if (!out) throw InputError(fmt::format("{}: cannot be written", place(directory_, list_name)));
+}
+
+std::string ResultsDirectory::file(const std::string& name) {
+  list(name);
+  const fs::path path = fs::path(directory_) / name;
+  create(path.parent_path().string());
+  return path.string();
+}
+
+bool ResultsDirectory::has_foreign(const std::string& name) const {
+  std::error_code error;
+  return !listed_.count(name) && fs::exists(place(directory_, name), error);
+}
+
+}  // namespace elamin

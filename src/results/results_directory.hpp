@@ -1,0 +1,41 @@
+#pragma once
+// A directory of results, and what in it was written by elamin.
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace elamin {
+
+/// The path of a file, absolute and without links.
+std::filesystem::path located(const std::filesystem::path& file);
+
+/// Throws InputError where something lies at this place that is neither an empty directory nor results of elamin. A directory
+/// is such results if it holds a .elamin, see below.
+void require_results(const std::string& directory);
+
+/// The files that runs have written into a directory stand in its .elamin, a line each, before they are made. Nothing else in it
+/// is ever removed. The files are kept from git by a .gitignore of the directory's own.
+class ResultsDirectory {
+ public:
+  using Files = std::set<std::filesystem::path>;
+
+  /// Creates the directory, or removes from it what .elamin lists, but for the files `kept` (see located) and folders that are not empty
+  /// then. Throws InputError if something cannot be written, and what require_results throws unless `force` is given.
+  ResultsDirectory(std::string directory, bool force, const Files& kept = {});
+
+  /// The path of a file that is going to be written, and its folder made: "states/final.data" → DIR/states/final.data.
+  std::string file(const std::string& name);
+
+  /// Whether a file is there that was not written by elamin.
+  bool has_foreign(const std::string& name) const;
+
+  const std::string& path() const { return directory_; }
+
+ private:
+  void list(const std::string& name);
+
+  std::string directory_;
+  std::set<std::string> listed_;
+};
+
+}  // namespace elamin
