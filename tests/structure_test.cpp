@@ -40,7 +40,7 @@ TEST_CASE("no include runs upward", "[structure]") {
   REQUIRE(all.size() > 100);
   for (const Include& i : all) {
     INFO(i.from << " includes " << i.to);
-    if (i.from == "main.cpp") continue;
+    if (i.from == "main.cpp" || i.from == "elamin.hpp") continue;
     CHECK(stage(folder(i.from)) < stages.size());
     CHECK(stage(folder(i.to)) <= stage(folder(i.from)));
   }

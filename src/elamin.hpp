@@ -1,0 +1,16 @@
+#pragma once
+// The whole of elamin for other programs: structures, energies, solvers, paths, problem files, runs.
+#include "energy/energy.hpp"
+#include "energy/law_group.hpp"
+#include "input/build.hpp"
+#include "input/read.hpp"
+#include "laws/section.hpp"
+#include "model/beam.hpp"
+#include "model/connect.hpp"
+#include "model/grains.hpp"
+#include "model/loop.hpp"
+#include "model/rigid_body.hpp"
+#include "model/sheet.hpp"
+#include "path/path.hpp"
+#include "solve/method.hpp"
+#include "study/run.hpp"
