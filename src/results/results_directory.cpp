@@ -73,7 +73,7 @@ ResultsDirectory::ResultsDirectory(std::string directory, bool force, const File
     else fs::remove(file, error), folders.insert(file.parent_path());
   }
   for (const fs::path& folder : folders)
-    if (folder != fs::path(directory_)) fs::remove(folder, error);           // where nothing else is in it
+    if (fs::is_directory(fs::symlink_status(folder, error))) fs::remove(folder, error);      // where nothing else is in it
   std::string text = std::string(first_line) + "\n";
   for (const std::string& name : listed_) text += name + "\n";
   write_text(place(directory_, list_name), text);
