@@ -4,6 +4,7 @@
 #include "energy/body_passage.hpp"
 #include "energy/groups.hpp"
 #include "energy/touches.hpp"
+#include "model/entities.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -188,6 +189,28 @@ double Energy::external(const State& state) const {
 EnergyTerms Energy::terms(const State& state) {
   cover(state);
   return terms_of(assembler_->values(state), state);
+}
+
+Vector Energy::shares(const State& state) {
+  cover(state);
+  Vector share = Vector::Zero(entities(model_));
+  std::vector<double> value;
+  std::vector<int> between;
+  for (int place = bonds; place < body_loads; ++place) {
+    const ElementGroup& group = *groups_[place];
+    value.resize(group.elements());
+    group.values(state, value.data());
+    for (int e = 0; e < group.elements(); ++e) {
+      between.clear();
+      for (const int site : group.between(e)) {
+        if (site < 0) continue;
+        const int entity = site < model_.particles() ? site : model_.particles() + (site - model_.particles()) / 2;
+        if (std::find(between.begin(), between.end(), entity) == between.end()) between.push_back(entity);
+      }
+      for (const int entity : between) share[entity] += value[e] / static_cast<double>(between.size());
+    }
+  }
+  return share;
 }
 
 void Energy::evaluate(const State& state, bool with_hessian, const Tangent& tangent) {

@@ -39,6 +39,10 @@ class Energy {
   EnergyTerms terms(const State& state);
   double value(const State& state) { return terms(state).total(); }
 
+  /// The energy of all laws, but not of loads and pressures, by particles and bodies (see model/entities.hpp): that of an element in
+  /// equal parts on all that it is between [energy].
+  Vector shares(const State& state);
+
   /// Evaluates energy and derivatives at the state; the results below hold until the next call. With `from`, the state
   /// that a step came from, the Hessian takes the forces predicted there for its geometric part (see HarmonicBond): the
   /// same at an equilibrium, far better than the exact one after a long step of a slender structure.

@@ -6,9 +6,7 @@
 #include "energy/hard_group.hpp"
 #include "energy/wall_group.hpp"
 #include "laws/cohesion.hpp"
-#include "laws/cosine_angle.hpp"
 #include "laws/edge_pressure.hpp"
-#include "laws/harmonic_bond.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -49,58 +47,81 @@ Parts pair_groups(const Model& model, const Kinematics& kinematics, const std::v
   return law_groups<L>(model, kinematics, laws, kind, stencils);
 }
 
+// One law a kind; where nothing changes it, it stays as it is for every load factor.
+Course<HarmonicBond> bond_course(const Model& model, const Kinds& kinds, double load_factor) {
+  Course<HarmonicBond> now;
+  for (std::size_t k = 0; k < kinds.type.size(); ++k) {
+    const BondType& t = model.bond_types[kinds.type[k]];
+    const auto factor = [&](double Change::*part) { return change_factor(model, kinds.changes[k], part, load_factor); };
+    const auto rate = [&](double Change::*part) { return change_rate(model, kinds.changes[k], part); };
+    const Exact r0 = Exact{t.rest_length} * factor(&Change::rest_length);
+    now.laws.push_back({t.stiffness * factor(&Change::bond_stiffness).value(), r0.hi, r0.lo});
+    now.rates.push_back({t.stiffness * rate(&Change::bond_stiffness), t.rest_length * rate(&Change::rest_length)});
+  }
+  return now;
+}
+
+Course<CosineAngle> angle_course(const Model& model, const Kinds& kinds, double load_factor) {
+  Course<CosineAngle> now;
+  for (std::size_t k = 0; k < kinds.type.size(); ++k) {
+    const AngleType& t = model.angle_types[kinds.type[k]];
+    CosineAngle law(t.stiffness, t.rest, model.plane_normal.value_or(-1)), rate = law;
+    law.B *= change_factor(model, kinds.changes[k], &Change::angle_stiffness, load_factor).value();
+    rate.B *= change_rate(model, kinds.changes[k], &Change::angle_stiffness);
+    now.laws.push_back(law), now.rates.push_back(rate);
+  }
+  return now;
+}
+
+// The group of a course that is asked only where something changes.
+template <class L, class CourseOf>
+Parts glue_groups(const Model& model, const Kinematics& kinematics, const Kinds& kinds, const std::vector<std::array<int, L::sites>>& stencils,
+                  const CourseOf& course_of) {
+  if (!kinds.changed()) return law_groups<L>(model, kinematics, course_of(model, kinds, 0.0).laws, kinds.of, stencils);
+  const auto course = [&model, kinds, course_of](const State& state) { return course_of(model, kinds, state.load_factor); };
+  return law_groups<L>(model, kinematics, typename LawGroup<L>::CourseAt(course), kinds.of, stencils);
+}
+
+template <class L>
+std::vector<L> laws_of(const Course<L>& course, const Kinds& kinds) {
+  std::vector<L> laws;
+  laws.reserve(kinds.of.size());
+  for (const int kind : kinds.of) laws.push_back(course.laws[kind]);
+  return laws;
+}
+
+}  // namespace
+
 // In a plane a turn has a sign (see CosineAngle): the sites in the order in which they turn about the axis across the
 // plane as built, or as they are where they are in line.
-std::array<int, 3> in_its_sense(const Model& model, const std::array<int, 3>& sites) {
+std::array<int, 3> angle_sites(const Model& model, const Angle& angle) {
+  const std::array<int, 3>& sites = angle.particles;
   if (!model.plane_normal) return sites;
   const auto edge = [&](int i, int j) { return model.start.at(sites[j]) - model.start.at(sites[i]); };
   const bool against = cross(edge(0, 1), edge(1, 2))[*model.plane_normal].value() < 0;
   return against ? std::array{sites[2], sites[1], sites[0]} : sites;
 }
 
-}  // namespace
-
 Parts bond_group(const Model& model, const Kinematics& kinematics) {
-  std::vector<HarmonicBond> laws;
-  for (const BondType& t : model.bond_types) laws.push_back({t.stiffness, t.rest_length});
   std::vector<std::array<int, 2>> stencils;
   for (const Bond& b : model.bonds) stencils.push_back(b.particles);
-  Kinds kinds = bond_kinds(model);
-  if (!kinds.changed()) return law_groups<HarmonicBond>(model, kinematics, laws, kinds.of, stencils);
-  const auto course = [&model, laws, kinds](const State& state) {
-    Course<HarmonicBond> now;
-    for (std::size_t k = 0; k < kinds.type.size(); ++k) {
-      const HarmonicBond& law = laws[kinds.type[k]];
-      const auto factor = [&](double Change::*part) { return change_factor(model, kinds.changes[k], part, state.load_factor); };
-      const auto rate = [&](double Change::*part) { return change_rate(model, kinds.changes[k], part); };
-      const Exact r0 = Exact{law.r0} * factor(&Change::rest_length);
-      now.laws.push_back({law.K * factor(&Change::bond_stiffness).value(), r0.hi, r0.lo});
-      now.rates.push_back({law.K * rate(&Change::bond_stiffness), law.r0 * rate(&Change::rest_length)});
-    }
-    return now;
-  };
-  return law_groups<HarmonicBond>(model, kinematics, LawGroup<HarmonicBond>::CourseAt(course), kinds.of, stencils);
+  return glue_groups<HarmonicBond>(model, kinematics, bond_kinds(model), stencils, bond_course);
 }
 
 Parts angle_group(const Model& model, const Kinematics& kinematics) {
-  std::vector<CosineAngle> laws;
-  const int kept = model.plane_normal.value_or(-1);
-  for (const AngleType& t : model.angle_types) laws.push_back(CosineAngle{t.stiffness, t.rest, kept});
   std::vector<std::array<int, 3>> stencils;
-  for (const Angle& a : model.angles) stencils.push_back(in_its_sense(model, a.particles));
-  Kinds kinds = angle_kinds(model);
-  if (!kinds.changed()) return law_groups<CosineAngle>(model, kinematics, laws, kinds.of, stencils);
-  const auto course = [&model, laws, kinds](const State& state) {
-    Course<CosineAngle> now;
-    for (std::size_t k = 0; k < kinds.type.size(); ++k) {
-      CosineAngle law = laws[kinds.type[k]], rate = law;
-      law.B *= change_factor(model, kinds.changes[k], &Change::angle_stiffness, state.load_factor).value();
-      rate.B *= change_rate(model, kinds.changes[k], &Change::angle_stiffness);
-      now.laws.push_back(law), now.rates.push_back(rate);
-    }
-    return now;
-  };
-  return law_groups<CosineAngle>(model, kinematics, LawGroup<CosineAngle>::CourseAt(course), kinds.of, stencils);
+  for (const Angle& a : model.angles) stencils.push_back(angle_sites(model, a));
+  return glue_groups<CosineAngle>(model, kinematics, angle_kinds(model), stencils, angle_course);
+}
+
+std::vector<HarmonicBond> bond_laws(const Model& model, double load_factor) {
+  const Kinds kinds = bond_kinds(model);
+  return laws_of(bond_course(model, kinds, load_factor), kinds);
+}
+
+std::vector<CosineAngle> angle_laws(const Model& model, double load_factor) {
+  const Kinds kinds = angle_kinds(model);
+  return laws_of(angle_course(model, kinds, load_factor), kinds);
 }
 
 std::unique_ptr<ElementGroup> pressure_group(const Model& model) {

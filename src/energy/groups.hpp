@@ -4,6 +4,8 @@
 #include "energy/kinematics.hpp"
 #include "energy/law_group.hpp"
 #include "energy/neighbours.hpp"
+#include "laws/cosine_angle.hpp"
+#include "laws/harmonic_bond.hpp"
 #include "laws/hertz_contact.hpp"
 
 #include <memory>
@@ -18,6 +20,11 @@ struct Parts {
 /// One kind a type; where there are changes, one more for every type and choice of changes that act on it.
 Parts bond_group(const Model& model, const Kinematics& kinematics);
 Parts angle_group(const Model& model, const Kinematics& kinematics);
+/// The law of every bond and of every angle at a load factor, with what the changes make of it.
+std::vector<HarmonicBond> bond_laws(const Model& model, double load_factor);
+std::vector<CosineAngle> angle_laws(const Model& model, double load_factor);
+/// The particles of an angle in the order in which its law sees them: in a plane so that they turn about the axis across it as built.
+std::array<int, 3> angle_sites(const Model& model, const Angle& angle);
 /// Edges of the loops under pressure, one kind a loop.
 std::unique_ptr<ElementGroup> pressure_group(const Model& model);
 /// Hertz contacts of the candidate pairs, one law a pair: E_eff of its table, radii of its particles.

@@ -37,6 +37,8 @@ class ElementGroup {
   virtual int sites() const = 0;
   /// The element's sites; −1: none, whose derivatives are left out.
   virtual std::span<const int> stencil(int element) const = 0;
+  /// The sites between which the element's energy is, where they are not those of its derivatives.
+  virtual std::span<const int> between(int element) const { return stencil(element); }
   /// Energy of every element.
   virtual void values(const State& state, double* value) const = 0;
   /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element.

@@ -124,6 +124,25 @@ struct CosineAngle {
     return U;
   }
 
+  /// How the sites bend: the turn φ [rad], in a plane with its sign; the curvature φ/ℓ, ℓ = (|u| + |w|)/2 [1/length]; the moment
+  /// M = ∂U/∂φ = B sin(φ − φ₀) [force·length]; m, the unit vector about which φ grows. 0 where two sites meet, and, not straight at rest,
+  /// where all are in line: no direction to turn in.
+  struct Bending {
+    double turn = 0, curvature = 0, moment = 0;
+    Vec3 axis = Vec3::Zero();
+  };
+  Bending bending(const Points<3>& x) const {
+    const Turn t(x, *this);
+    Bending b;
+    if (!t.defined) return b;
+    const double sine = straight_ ? t.n.norm() : t.sine;
+    b.turn = std::atan2(sine, t.cosine), b.curvature = 2 * b.turn / (t.length_u + t.length_w);
+    if (kept_ >= 0) b.axis = Vec3::Unit(kept_);
+    else if (sine > 0) b.axis = t.n / sine;
+    if (straight_ || t.inclined) b.moment = B * (straight_ ? sine : t.S);
+    return b;
+  }
+
   /// ∂(∇U)/∂λ where B changes with a parameter λ: as ∇U, with ∂B/∂λ instead of B.
   Eigen::Matrix<double, 9, 1> gradient_rate(const Points<3>& x, const CosineAngle& rate) const {
     return rate.derivatives(x).gradient;

@@ -20,6 +20,10 @@ struct HarmonicBond {
     return K * e * e;
   }
 
+  /// N = ∂U/∂r = 2K (r − r₀), the tension [force], and (r − r₀)/r₀, the strain.
+  double tension(const Points<2>& x) const { return pull(stretch(x.edge(0, 1)), K, 0.0); }
+  double strain(const Points<2>& x) const { return stretch(x.edge(0, 1)) / r0; }
+
   /// ∂U/∂r = 2K (r − r₀), the pull along the bond, in the plain arithmetic of the scalar T.
   template <class T>
   static T pull(const T& r, const T& K, const T& r0) { return T(2.0) * K * (r - r0); }

@@ -133,6 +133,10 @@ void RunDirectory::add_state_file(const std::string& label, const Model& model, 
   write_state(file, model, state, title);
 }
 
+void RunDirectory::add_fields(const std::string& label, const Model& model, const State& state, const Fields& fields) {
+  for (const auto& [end, table] : field_tables(model, state, fields)) write_csv(results_.file(state_name(label, end)), table);
+}
+
 void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
   const auto columns = [&](const char* of) {
     std::vector<std::string> all;

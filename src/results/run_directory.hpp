@@ -1,5 +1,6 @@
 #pragma once
 // The directory that a run leaves behind.
+#include "results/fields.hpp"
 #include "results/mode.hpp"
 #include "results/record.hpp"
 #include "results/results_directory.hpp"
@@ -43,6 +44,10 @@ class RunDirectory {
   /// particle or body), second (id of the other one, or the wall's name), gap, force (its magnitude), fx, fy, fz (on the first), x, y, z (of contact). The label stands for the
   /// point's own.
   void add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches);
+
+  /// The fields of a labelled state as states/LABEL.particles.csv, .bonds.csv, .angles.csv and .walls.csv, see field_tables; model: that
+  /// in force.
+  void add_fields(const std::string& label, const Model& model, const State& state, const Fields& fields);
 
   /// states/LABEL.modes.csv of an event: id, then ux1, uy1, uz1, ux2, … of every null vector (3 × sites each); of bodies
   /// LABEL.bodies.modes.csv, behind these tx1, …: turns [rad].

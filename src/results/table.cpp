@@ -1,6 +1,7 @@
 #include "results/table.hpp"
 
 #include "core/error.hpp"
+#include "core/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,12 @@ std::string csv_quoted(const std::string& text) {
   std::string all = "\"";
   for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
   return all + "\"";
+}
+
+std::string csv_line(const Row& row) {
+  std::string line;
+  for (std::size_t i = 0; i < row.size(); ++i) (line += i > 0 ? "," : "") += csv_text(row[i]);
+  return line += '\n';
 }
 
 }  // namespace
@@ -41,6 +48,12 @@ std::string csv_text(const Cell& cell) {
   return "";
 }
 
+void write_csv(const std::string& file, const Table& table) {
+  std::string text = csv_line(Row(table.columns.begin(), table.columns.end()));
+  for (const Row& row : table.rows) text += csv_line(row);
+  write_text(file, text);
+}
+
 CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns)
     : file_(std::move(file)), columns_(columns.size()), out_(file_, std::ios::binary) {
   if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
@@ -50,9 +63,7 @@ CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns)
 void CsvFile::add(const Row& row) {
   if (row.size() != columns_)
     throw std::logic_error(fmt::format("{}: a row of {} entries for {} columns", file_, row.size(), columns_));
-  std::string line;
-  for (std::size_t i = 0; i < row.size(); ++i) (line += i > 0 ? "," : "") += csv_text(row[i]);
-  out_ << line << '\n' << std::flush;
+  out_ << csv_line(row) << std::flush;
   if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
 }
 

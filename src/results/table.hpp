@@ -26,6 +26,9 @@ std::optional<double> as_number(const Cell& cell);
 /// A cell as it stands in a CSV file (RFC 4180): %.17g, true/false, text in quotes where it needs them; empty if empty.
 std::string csv_text(const Cell& cell);
 
+/// Writes a whole table as a CSV file. Throws InputError if it cannot be written.
+void write_csv(const std::string& file, const Table& table);
+
 /// A CSV file with a header; every row is on the disk before add returns.
 class CsvFile {
  public:

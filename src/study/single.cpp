@@ -72,6 +72,11 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     results.add(point, energy->forces(point.state), touches, eigenvalues);
     if (point.modes.cols() > 0) results.add_null_vectors(point.label, null_vectors(point, energy->kinematics()));
     if (last && point.label != "final") results.add_state("final", point, touches);
+    if (!point.label.empty()) {
+      const Fields fields = fields_at(*energy, point.state, touches);
+      for (const std::string& label : std::set<std::string>{point.label, last ? "final" : point.label})
+        results.add_fields(label, energy->model(), point.state, fields);
+    }
     progress.show(point);
     at = point.state.load_factor, after = fmt::format("what comes after step {}, load factor {:.7g},", point.step, at);
     since_point = since_line = Stopwatch();
@@ -103,7 +108,9 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
       .note = [&](const std::string& note) { results.log(note); },
       .moment = [&](const Moment& moment, bool frame) {
         const Motion& m = moment.motion;
-        results.add(moment, observed_touches(*energy, m.state, results.record().observables()));
+        const std::vector<Touch> touches = observed_touches(*energy, m.state, results.record().observables());
+        results.add(moment, touches);
+        if (!moment.label.empty()) results.add_fields(moment.label, energy->model(), m.state, fields_at(*energy, m.state, touches));
         if (frame) results.add_frame(m);
       },
       .progress = [&](const std::string& line, double step) { progress.show(line, step, false); }};

@@ -64,6 +64,22 @@ Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower)
 
 }  // namespace
 
+TEST_CASE("the shares of particles and bodies add up to the energy of all laws; a glued particle has its own", "[energy][bodies]") {
+  const Model model = crowd(RoundedFormulation::multi);
+  Energy energy(model);
+  const State state = bent(energy, 0.7, 0.03);
+  const EnergyTerms terms = energy.terms(state);
+  const Vector shares = energy.shares(state);
+  REQUIRE(shares.size() == 7 + 4);
+  CHECK(shares.sum() == Approx(terms.total() - terms.external).epsilon(1e-13));
+  Model alone = model;
+  alone.rounded.clear(), alone.walls.clear();
+  const Vector of_chain = Energy(alone).shares(state);
+  CHECK(of_chain[0] > 0);
+  CHECK(of_chain.tail(4).isZero(0));
+  CHECK(of_chain.sum() == Approx(terms.bond + terms.angle).epsilon(1e-13));
+}
+
 TEST_CASE("with bodies the assembled energy agrees with its differences", "[energy][bodies]") {
   const RoundedFormulation formulation = GENERATE(RoundedFormulation::multi, RoundedFormulation::closest);
   const Model model = crowd(formulation);
