@@ -1,6 +1,7 @@
 // The command line: which command, on which file. Everything else is in study/.
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "report/report.hpp"
 #include "results/summary.hpp"
 #include "study/check_command.hpp"
 #include "study/compare.hpp"
@@ -42,7 +43,8 @@ const char* const description =
     "  elamin energy problem.toml     energies and forces of the starting state, nothing solved\n"
     "  elamin check problem.toml      every mistake in the file, or what was understood of it\n"
     "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
-    "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n";
+    "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n"
+    "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
     "130 interrupted (Ctrl-C; a second one ends at once).\n"
@@ -74,6 +76,8 @@ int main(int argc, char** argv) {
   };
   app.add_option("problem", file, "the problem file")->type_name("FILE");
   running(&app);
+  bool and_report = false;
+  app.add_flag("--report", and_report, "then write report.html, a page to look at in a browser, into the directory of the results");
   CLI::App* energy_app = app.add_subcommand("energy", "energies and forces of the file's starting state, nothing solved");
   energy_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   energy_app->add_flag("--json", energy.json, "print JSON");
@@ -94,6 +98,11 @@ int main(int argc, char** argv) {
   compare_app->add_option("--threads", comparison.threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
   compare_app->add_flag("--json", comparison.json, "print JSON");
   common(compare_app);
+  ReportOptions report;
+  CLI::App* report_app = app.add_subcommand("report", "one self-contained HTML page of the results of runs and sweeps");
+  report_app->add_option("directories", report.directories, "directories of results")->type_name("DIR")->required();
+  report_app->add_option("-o,--output", report.file, "the page (default: report.html in the directory; of several directories, here)")->type_name("FILE");
+  report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
   app.require_subcommand(0, 1);
 
   try {
@@ -106,8 +115,11 @@ int main(int argc, char** argv) {
     if (*check_app) return check_command(file, settings), exit_done;
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);
+    if (*report_app) return report_command(report), exit_done;
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
-    return run(options).exit_status;
+    const RunResult result = run(options);
+    if (and_report) report_command({{result.directory}, "", options.quiet});
+    return result.exit_status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_wrong_input;
   } catch (const InputError& error) {

@@ -61,6 +61,12 @@ void require_results(const std::string& directory) {
                                directory, fmt::join(found.begin(), found.begin() + shown, ", "), std::ssize(found) > shown ? ", …" : ""));
 }
 
+void list_also(const std::string& directory, const std::string& name) {
+  const auto listed = listed_in(directory);
+  if (!listed || std::count(listed->begin(), listed->end(), name)) return;
+  std::ofstream(place(directory, list_name), std::ios::binary | std::ios::app) << name << '\n';
+}
+
 ResultsDirectory::ResultsDirectory(std::string directory, bool force, const Files& kept) : directory_(std::move(directory)) {
   if (!force) require_results(directory_);
   create(directory_);

@@ -13,6 +13,9 @@ std::filesystem::path located(const std::filesystem::path& file);
 /// is such results if it holds a .elamin, see below.
 void require_results(const std::string& directory);
 
+/// Adds a file that is written into results afterwards to their list, so that the next run removes it. Where there is no list nothing happens.
+void list_also(const std::string& directory, const std::string& name);
+
 /// The files that runs have written into a directory stand in its .elamin, a line each, before they are made. Nothing else in it
 /// is ever removed. The files are kept from git by a .gitignore of the directory's own.
 class ResultsDirectory {

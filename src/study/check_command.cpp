@@ -11,8 +11,9 @@ namespace elamin {
 namespace {
 
 // Of each stage: from where to where, and what the load factor moves.
-void describe_stages(const Problem& problem) {
-  if (problem.stages.empty()) return;
+std::string describe_stages(const Problem& problem) {
+  if (problem.stages.empty()) return "";
+  std::string text;
   const std::vector<Condition> conditions = conditions_of(problem);
   Stages stages(problem);
   for (int k = 0; k < stages.count(); ++k) {
@@ -23,39 +24,40 @@ void describe_stages(const Problem& problem) {
       if (!stage.in_force[i]) add(off);
       else if (stage.scaling[i].rate != 0 && moves(problem, conditions[i])) add(moved);
     }
-    fmt::print("stage '{}': load factor {:.10g} to {:.10g}; it moves {}{}{}\n", stage.name, stage.path.from, stage.path.to,
-               moved.empty() ? "nothing" : moved, off.empty() ? "" : "; not in force: ", off);
+    text += fmt::format("stage '{}': load factor {:.10g} to {:.10g}; it moves {}{}{}\n", stage.name, stage.path.from, stage.path.to,
+                        moved.empty() ? "nothing" : moved, off.empty() ? "" : "; not in force: ", off);
     stages.leave(stage.path.to);
   }
-}
-
-void print_model(const Problem& problem, const Model& model) {
-  Energy energy(model);
-  fmt::print("{}: {}\n", problem.file, problem.title.empty() ? "(no title)" : problem.title);
-  fmt::print("{} particles, {}{} bonds, {} angles, {} free dofs{}\n", model.particles(),
-             model.bodies.empty() ? "" : fmt::format("{} bodies, ", model.bodies.size()), model.bonds.size(), model.angles.size(), energy.dofs(),
-             problem.plane.empty() ? "" : ", plane " + problem.plane);
-  fmt::print("{}", describe_structures(problem, model, energy.kinematics()));
-  fmt::print("{}", describe_conditions(problem, model));
-  // An equilibrium is sought from the state as built; supports and walls move from there.
-  const bool built = problem.study == StudyType::equilibrium && !model.restart;
-  const State start = built ? model.start : starting_state(problem, energy);
-  fmt::print("{}", describe_contacts(model, energy, start));
-  for (const std::string& warning : doubts(model)) fmt::print("{}\n", warning);
-  for (const std::string& warning : core_overlaps(model, energy, start)) fmt::print("{}\n", warning);
-  for (const Group& g : model.groups)
-    fmt::print("group '{}': {} particles{}\n", g.name, g.particles.size(), g.bodies.empty() ? "" : fmt::format(", {} bodies", g.bodies.size()));
-  fmt::print("{}", describe_motions(model));
-  if (problem.in_time()) fmt::print("{}", describe_timestep(energy, starting_state(problem, energy), *problem.dynamics.timestep));
-  describe_stages(problem);
+  return text;
 }
 
 }  // namespace
 
+std::string describe(const Problem& problem, const Model& model) {
+  Energy energy(model);
+  std::string text = fmt::format("{} particles, {}{} bonds, {} angles, {} free dofs{}\n", model.particles(),
+                                 model.bodies.empty() ? "" : fmt::format("{} bodies, ", model.bodies.size()), model.bonds.size(),
+                                 model.angles.size(), energy.dofs(), problem.plane.empty() ? "" : ", plane " + problem.plane);
+  text += describe_structures(problem, model, energy.kinematics());
+  text += describe_conditions(problem, model);
+  // An equilibrium is sought from the state as built; supports and walls move from there.
+  const bool built = problem.study == StudyType::equilibrium && !model.restart;
+  const State start = built ? model.start : starting_state(problem, energy);
+  text += describe_contacts(model, energy, start);
+  for (const std::string& warning : doubts(model)) text += warning + "\n";
+  for (const std::string& warning : core_overlaps(model, energy, start)) text += warning + "\n";
+  for (const Group& g : model.groups)
+    text += fmt::format("group '{}': {} particles{}\n", g.name, g.particles.size(), g.bodies.empty() ? "" : fmt::format(", {} bodies", g.bodies.size()));
+  text += describe_motions(model);
+  if (problem.in_time()) text += describe_timestep(energy, starting_state(problem, energy), *problem.dynamics.timestep);
+  return text + describe_stages(problem);
+}
+
 void check_command(const std::string& file, const std::vector<Setting>& settings) {
   const PreparedRuns prepared = prepare_runs(file, settings);
   const std::vector<PreparedRun>& runs = prepared.runs;
-  print_model(runs.front().problem, runs.front().model);
+  const Problem& problem = runs.front().problem;
+  fmt::print("{}: {}\n{}", problem.file, problem.title.empty() ? "(no title)" : problem.title, describe(problem, runs.front().model));
   if (prepared.bisection) fmt::print("a sweep that halves; its first run is shown\n");
   else if (runs.size() > 1) fmt::print("a sweep of {} runs; the first one is shown\n", runs.size());
 }

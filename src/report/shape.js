@@ -1,0 +1,280 @@
+'use strict';
+// The structure at a stored state, in three dimensions.
+
+const up = new THREE.Vector3(0, 1, 0);
+const vector = (a) => new THREE.Vector3(a[0], a[1], a[2]);
+
+/// Many copies of a form, each with its own place, turn, size and colour.
+class Copies {
+  constructor(geometry, count, material = {}) {
+    this.colours = new THREE.InstancedBufferAttribute(new Float32Array(3 * count).fill(1), 3);
+    geometry.setAttribute('color', this.colours);
+    this.mesh = new THREE.InstancedMesh(geometry, new THREE.MeshLambertMaterial({vertexColors: THREE.VertexColors, ...material}), count);
+    this.mesh.frustumCulled = false;
+    this.matrix = new THREE.Matrix4();
+  }
+  put(k, place, turn, size) { this.mesh.setMatrixAt(k, this.matrix.compose(place, turn, size)); }
+  tint(k, colour) { this.colours.setXYZ(k, colour.r, colour.g, colour.b); }
+  done() { this.mesh.instanceMatrix.needsUpdate = true; this.colours.needsUpdate = true; }
+}
+
+class ShapeView {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio || 1, 2));
+    this.camera = new THREE.PerspectiveCamera(30, 1, 0.01, 100);
+    this.lamp = new THREE.DirectionalLight(0xffffff, 0.65);
+    new ResizeObserver(() => this.render()).observe(canvas);
+  }
+
+  /// Builds what a run's states have in common.
+  open(run) {
+    this.run = run;
+    this.close();
+    this.scene = new THREE.Scene();
+    this.scene.add(new THREE.AmbientLight(0xffffff, 0.55), this.lamp, this.lamp.target);
+    const s = run.shape, n = s.radius.length, ball = n > 2000 ? new THREE.IcosahedronBufferGeometry(1, 1) : new THREE.SphereBufferGeometry(1, n > 500 ? 14 : 24, n > 500 ? 10 : 16);
+    this.measure();
+    const least = 0.004 * this.extent;                          // what is smaller would not be seen
+    this.radius = Array.from(s.radius, (r) => Math.max(r, least));
+    this.enlarged = s.radius.some((r) => r < least);
+    const middle = d3.median(this.radius);
+    this.thick = Math.max(0.22 * middle, Math.min(middle, 0.0025 * this.extent));
+    this.balls = new Copies(ball, n);
+    this.rods = new Copies(new THREE.CylinderBufferGeometry(1, 1, 1, 8, 1, true), s.bonds.length / 2);
+    this.ghostBalls = new Copies(ball.clone(), n, {transparent: true, opacity: 0.28, depthWrite: false});
+    const held = s.supports.flatMap((p) => (p.held.length > 1 ? p.particles : []));
+    this.held = [...new Set(held)];
+    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.length, {transparent: true, opacity: 0.3, depthWrite: false});
+    this.bodies = this.solids(1), this.ghostBodies = this.solids(0.28);
+    this.walls = s.walls.map((w) => this.wall(w));
+    this.arrows = new THREE.Group();
+    this.scene.add(this.balls.mesh, this.rods.mesh, this.ghostBalls.mesh, this.blocks.mesh, this.arrows, ...this.bodies, ...this.ghostBodies, ...this.walls);
+    this.look('');
+  }
+  close() {
+    if (this.scene) this.scene.traverse((o) => { if (o.geometry) o.geometry.dispose(); if (o.material) o.material.dispose(); });
+  }
+
+  /// The box around every stored state, the largest contact force, and how far the values of each field reach.
+  measure() {
+    this.box = new THREE.Box3(), this.most = 0, this.reach = {};
+    const reach = new Map(this.run.shape.bodies.map((b, k) => [k, Math.max(...Array.from(this.run.shape.surfaces[b.shape].points, Math.abs))]));
+    for (const state of this.run.states) {
+      const a = arrays(state);
+      for (let k = 0; k < a.x.length; k += 3) this.box.expandByPoint(vector(a.x.subarray(k, k + 3)));
+      for (let k = 0; k < a.poses.length; k += 7) {
+        const p = vector(a.poses.subarray(k, k + 3)), r = reach.get(k / 7);
+        this.box.expandByPoint(p.clone().addScalar(r)).expandByPoint(p.clone().addScalar(-r));
+      }
+      for (const c of a.contacts) this.most = Math.max(this.most, c.size);
+      for (const [name, values] of Object.entries(a.fields))
+        for (const v of values) this.reach[name] = Math.max(this.reach[name] || 0, Math.abs(v));
+    }
+    const largest = Array.from(this.run.shape.radius).reduce((m, r) => Math.max(m, r), 0);
+    this.box.expandByScalar(largest);
+    if (this.box.isEmpty()) this.box.expandByPoint(new THREE.Vector3());
+    this.extent = Math.max(this.box.getSize(new THREE.Vector3()).length(), 1e-30);
+  }
+
+  solids(opacity) {
+    const t = theme(), forms = this.run.shape.surfaces.map((f) => {
+      const flat = new THREE.BufferGeometry();
+      flat.setAttribute('position', new THREE.BufferAttribute(f.points, 3));
+      flat.setIndex(new THREE.BufferAttribute(new Uint32Array(f.triangles), 1));
+      const g = flat.toNonIndexed();
+      g.computeVertexNormals();
+      return g;
+    });
+    return this.run.shape.bodies.map((b, k) => new THREE.Mesh(forms[b.shape], new THREE.MeshLambertMaterial({color: seriesColour(t, this.structureOfBody(k)),
+      transparent: opacity < 1, opacity, depthWrite: opacity === 1})));
+  }
+  structureOf(k) { return this.run.shape.structures.findIndex((s) => k >= s.first && k < s.first + s.count); }
+  structureOfBody(b) {
+    const k = this.run.shape.structures.findIndex((s) => b >= s.first_body && b < s.first_body + s.bodies);
+    return this.run.shape.structures.length > 1 ? k : b;
+  }
+
+  wall(w) {
+    const size = this.extent, centre = this.box.getCenter(new THREE.Vector3()), group = new THREE.Group();
+    let g, place = new THREE.Vector3();
+    if (w.shape === 'plane') {
+      const n = vector(w.normal);
+      g = new THREE.PlaneBufferGeometry(1.3 * size, 1.3 * size).applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), n)));
+      place = centre.sub(n.clone().multiplyScalar(n.dot(centre.clone().sub(vector(w.center)))));
+    } else if (w.shape === 'block') {
+      const [lo, hi] = [w.lo, w.hi].map((end, side) => vector(end.map((v, c) => (Number.isFinite(v) && v !== null ? v : centre.getComponent(c) + (side - 0.5) * 1.6 * size))));
+      g = new THREE.BoxBufferGeometry(...hi.clone().sub(lo).toArray());
+      place = lo.add(hi).multiplyScalar(0.5);
+    } else if (w.shape === 'sphere') {
+      g = new THREE.SphereBufferGeometry(w.radius, 32, 20);
+      place = vector(w.center);
+    } else {
+      const middle = centre.getComponent(w.axis), lo = w.lo === null ? middle - 0.7 * size : w.lo, hi = w.hi === null ? middle + 0.7 * size : w.hi;
+      const axis = new THREE.Vector3().setComponent(w.axis, 1);
+      g = new THREE.CylinderBufferGeometry(w.radius_hi, w.radius_lo, hi - lo, 40, 1, true).applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(up, axis)));
+      place = vector(w.center).setComponent(w.axis, (lo + hi) / 2);
+    }
+    const t = theme();
+    group.add(new THREE.Mesh(g, new THREE.MeshBasicMaterial({color: t.quiet, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false})));
+    group.add(new THREE.LineSegments(new THREE.EdgesGeometry(g, 20), new THREE.LineBasicMaterial({color: t.quiet, transparent: true, opacity: 0.7})));
+    group.userData = {place, radius: w.radius || w.radius_lo || 0, axis: w.axis};
+    return group;
+  }
+
+  /// Shows a state; `ghost`: another one behind it; `mode` and `amplitude`: moved along a mode, of the extent.
+  show(state, {ghost = null, mode = null, amplitude = 0, field = '', size = 1} = {}) {
+    this.shown = {state, ghost, mode, amplitude, field, size};
+    if (!this.run.shape || !state) return;
+    const a = arrays(state), s = this.run.shape, one = new THREE.Quaternion(), t = theme();
+    const x = this.positions = Float32Array.from(a.x);
+    let scale = 0;
+    if (mode) {
+      let most = 0;
+      for (let k = 0; k < mode.u.length; k += 3) most = Math.max(most, Math.hypot(mode.u[k], mode.u[k + 1], mode.u[k + 2]));
+      for (let k = 0; k < mode.v.length; k += 6) most = Math.max(most, Math.hypot(mode.v[k], mode.v[k + 1], mode.v[k + 2]));
+      scale = most > 0 ? 0.15 * amplitude * this.extent / most : 0;
+      for (let k = 0; k < x.length; ++k) x[k] += scale * mode.u[k];
+    }
+    const tints = this.tints(a, field, t);
+    for (let k = 0; k < this.radius.length; ++k) {
+      this.balls.put(k, vector(x.subarray(3 * k, 3 * k + 3)), one, new THREE.Vector3().setScalar(size * this.radius[k]));
+      this.balls.tint(k, tints.particles[k]);
+    }
+    this.balls.done();
+    for (let b = 0; 2 * b < s.bonds.length; ++b) {
+      const [p, q] = [s.bonds[2 * b], s.bonds[2 * b + 1]].map((k) => vector(x.subarray(3 * k, 3 * k + 3)));
+      const along = q.clone().sub(p), length = along.length();
+      this.rods.put(b, p.add(q).multiplyScalar(0.5), new THREE.Quaternion().setFromUnitVectors(up, along.divideScalar(length || 1)), new THREE.Vector3(this.thick, length, this.thick));
+      this.rods.tint(b, tints.bonds[b]);
+    }
+    this.rods.done();
+    const grey = new THREE.Color(t.quiet);
+    this.held.forEach((p, k) => { this.blocks.put(k, vector(x.subarray(3 * p, 3 * p + 3)), one, new THREE.Vector3().setScalar(this.radius[p])); this.blocks.tint(k, grey); });
+    this.blocks.done();
+    this.pose(this.bodies, a.poses, mode, scale);
+    this.behind(ghost, grey);
+    this.walls.forEach((w, k) => {
+      const [dx, dy, dz, growth] = state.walls[k], radius = w.userData.radius, f = radius > 0 ? (radius + growth) / radius : 1;
+      w.position.copy(w.userData.place).add(new THREE.Vector3(dx, dy, dz));
+      w.scale.set(...[0, 1, 2].map((c) => (c === w.userData.axis ? 1 : f)));
+    });
+    this.draw(state, a, x);
+    this.render();
+  }
+  behind(ghost, colour) {
+    this.ghostBalls.mesh.visible = !!ghost;
+    for (const b of this.ghostBodies) b.visible = !!ghost;
+    if (!ghost) return;
+    const a = arrays(ghost), one = new THREE.Quaternion();
+    for (let k = 0; k < this.radius.length; ++k) {
+      this.ghostBalls.put(k, vector(a.x.subarray(3 * k, 3 * k + 3)), one, new THREE.Vector3().setScalar(this.radius[k]));
+      this.ghostBalls.tint(k, colour);
+    }
+    this.ghostBalls.done();
+    this.pose(this.ghostBodies, a.poses, null, 0);
+  }
+  pose(meshes, poses, mode, scale) {
+    meshes.forEach((m, b) => {
+      const p = poses.subarray(7 * b, 7 * b + 7), v = mode ? mode.v.subarray(6 * b, 6 * b + 6).map((c) => scale * c) : [0, 0, 0, 0, 0, 0];
+      m.position.set(p[0] + v[0], p[1] + v[1], p[2] + v[2]);
+      m.quaternion.set(p[3], p[4], p[5], p[6]);
+      const angle = Math.hypot(v[3], v[4], v[5]);
+      if (angle > 0) m.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(v[3] / angle, v[4] / angle, v[5] / angle), angle));
+    });
+  }
+
+  /// Colours of particles and bonds: by structure, or by a field of bonds, of which a particle has the mean of its own.
+  tints(a, field, t) {
+    const s = this.run.shape, n = this.radius.length, plain = s.structures.map((_, k) => new THREE.Color(seriesColour(t, k)));
+    const own = Array.from({length: n}, (_, k) => plain[this.structureOf(k)] || new THREE.Color(t.quiet));
+    if (!field || !a.fields[field]) return {particles: own, bonds: Array.from({length: s.bonds.length / 2}, (_, b) => own[s.bonds[2 * b]])};
+    const most = this.reach[field] || 1, values = a.fields[field], of = s.fields.find((f) => f.key === field).of;
+    const colour = (v) => new THREE.Color(d3.interpolateRdBu(0.5 - 0.5 * v / most));
+    if (of === 'particle') {
+      const particles = Array.from(values, colour);
+      return {particles, bonds: Array.from({length: s.bonds.length / 2}, (_, b) => particles[s.bonds[2 * b]])};
+    }
+    const sum = new Float64Array(n), count = new Float64Array(n);
+    values.forEach((v, b) => { for (const p of [s.bonds[2 * b], s.bonds[2 * b + 1]]) { sum[p] += v; ++count[p]; } });
+    return {particles: own.map((c, k) => (count[k] ? colour(sum[k] / count[k]) : new THREE.Color(t.rule))), bonds: Array.from(values, colour)};
+  }
+
+  /// Arrows: contact forces in their proportion to the largest of the run, and loads.
+  draw(state, a, x) {
+    const t = theme(), add = (from, force, length, colour) => {
+      const arrow = new THREE.ArrowHelper(vector(force).normalize(), vector(from), length, colour, 0.35 * length, 0.2 * length);
+      for (const part of [arrow.line, arrow.cone]) Object.assign(part.material, {depthTest: false, transparent: true});
+      arrow.renderOrder = 1;
+      this.arrows.add(arrow);
+    };
+    for (const old of this.arrows.children) { old.line.material.dispose(); old.cone.material.dispose(); }
+    this.arrows.remove(...this.arrows.children);
+    const strongest = [...a.contacts].sort((c, d) => d.size - c.size).slice(0, 150);
+    for (const c of strongest)
+      if (c.size > 1e-3 * this.most) {
+        add(c.point, c.force, 0.02 * this.extent + 0.12 * this.extent * c.size / this.most, t.index[0]);
+        if (c.second >= 0) add(c.point, c.force.map((f) => -f), 0.02 * this.extent + 0.12 * this.extent * c.size / this.most, t.index[0]);
+      }
+    this.run.shape.loads.forEach((load, k) => {
+      const acts = state.loads[k], forces = load.forces ||= decoded(load.force, Float32Array), every = Math.ceil(load.particles.length / 40);
+      if (!acts) return;
+      for (let p = 0; p < load.particles.length; p += every) {
+        const f = forces.subarray(3 * p, 3 * p + 3).map((v) => acts * v);
+        if (Math.hypot(...f) > 0) add(x.subarray(3 * load.particles[p], 3 * load.particles[p] + 3), f, 0.09 * this.extent, t.series[2]);
+      }
+      for (const b of load.bodies)
+        if (Math.hypot(...load.on_body) > 0) add(this.bodies[b].localToWorld(vector(load.point)).toArray(), load.on_body.map((v) => acts * v), 0.12 * this.extent, t.series[2]);
+    });
+  }
+
+  /// Looks along an axis; "": across what is flat or slender, else from a corner.
+  look(axis) {
+    const size = this.box.getSize(new THREE.Vector3()).toArray(), sorted = [1, 0, 2].sort((a, b) => size[a] - size[b]), most = size[sorted[2]];
+    const slender = size[sorted[0]] < 0.02 * most || size[sorted[1]] < 0.15 * most;
+    const along = axis ? 'xyz'.indexOf(axis) : this.run.shape.flat ?? (slender ? sorted[0] : -1);
+    const from = [[1, 0, 0], [0, -1, 0], [0, 0, 1]][along] || [0.55, -0.75, 0.4];
+    const back = vector(from).normalize(), high = new THREE.Vector3(...(along === 2 ? [0, 1, 0] : [0, 0, 1])), centre = this.box.getCenter(new THREE.Vector3());
+    this.camera.up.copy(high);
+    const right = high.clone().cross(back).normalize(), above = back.clone().cross(right);
+    const span = (v) => size.reduce((sum, s, c) => sum + s * Math.abs(v.getComponent(c)), 0);     // of the box, along v
+    const tall = Math.tan(THREE.Math.degToRad(this.camera.fov / 2)), aspect = (this.canvas.clientWidth || 1) / (this.canvas.clientHeight || 1);
+    const away = 1.1 * Math.max(span(above) / 2 / tall, span(right) / 2 / (tall * aspect)) + span(back) / 2;
+    this.camera.position.copy(centre).addScaledVector(back, Math.max(away, 1e-3 * this.extent));
+    this.camera.near = this.extent / 500, this.camera.far = 40 * this.extent;
+    if (this.controls) this.controls.dispose();
+    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+    this.controls.enableKeys = false;
+    this.controls.target.copy(centre);
+    this.controls.enableZoom = document.activeElement === this.canvas;
+    this.canvas.onfocus = () => { this.controls.enableZoom = true; };
+    this.canvas.onblur = () => { this.controls.enableZoom = false; };
+    this.canvas.onpointerdown = () => this.canvas.focus();
+    this.controls.addEventListener('change', () => this.render());
+    this.controls.update();
+    this.render();
+  }
+  /// Turns (arrow keys) or comes nearer (+, −).
+  key(name) {
+    const offset = this.camera.position.clone().sub(this.controls.target), spin = {ArrowLeft: 0.12, ArrowRight: -0.12}[name], tilt = {ArrowUp: -0.12, ArrowDown: 0.12}[name];
+    const s = new THREE.Spherical(), turn = new THREE.Quaternion().setFromUnitVectors(this.camera.up, up);
+    s.setFromVector3(offset.applyQuaternion(turn));
+    s.theta += spin || 0, s.phi = Math.min(Math.PI - 0.01, Math.max(0.01, s.phi + (tilt || 0))), s.radius *= {'+': 0.9, '-': 1.1}[name] || 1;
+    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(s).applyQuaternion(turn.inverse()));
+    this.controls.update();
+    this.render();
+  }
+
+  render() {
+    if (!this.scene) return;
+    const {clientWidth: w, clientHeight: h} = this.canvas;
+    if (!w || !h) return;
+    this.renderer.setSize(w, h, false);
+    this.camera.aspect = w / h;
+    this.camera.updateProjectionMatrix();
+    this.lamp.position.copy(this.camera.position).add(this.camera.up.clone().multiplyScalar(0.4 * this.extent));
+    this.lamp.target.position.copy(this.controls ? this.controls.target : this.camera.position);
+    this.renderer.render(this.scene, this.camera);
+  }
+}

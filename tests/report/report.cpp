@@ -1,0 +1,188 @@
+#include "report/report.hpp"
+
+#include "catch.hpp"
+#include "core/error.hpp"
+#include "lammps/data.hpp"
+#include "report/base64.hpp"
+#include "report/run_data.hpp"
+#include "results/stored_run.hpp"
+#include "scratch_directory.hpp"
+#include "study/run.hpp"
+
+#include <openssl/sha.h>
+
+#include <cstring>
+#include <regex>
+#include <set>
+
+using namespace elamin;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const std::string hostile = "</script><script>alert(1)</script><!-- & \"b\" 'c'";
+
+/// A low truss of two bars that snaps through.
+const std::string problem = R"(title = "</script><script>alert(1)</script><!-- & \"b\" 'c'"
+plane = "xz"
+[[grains]]
+name = "truss"
+positions = [[-1, 0, 0], [0, 0, 0.36], [1, 0, 0]]
+diameter = 0.1
+[[connect]]
+between = ["feet", "apex"]
+within = 1.1
+bond_stiffness = 0.47
+[[group]]
+name = "feet"
+of = "truss"
+ids = [1, 3]
+[[group]]
+name = "apex"
+of = "truss"
+ids = [2]
+[[support]]
+group = "feet"
+[[load]]
+group = "apex"
+force = [0, 0, -1]
+[path]
+method = "arc_length"
+steps = 10
+to = 0.05
+[[observe]]
+name = "height"
+group = "apex"
+quantity = "position.z"
+[[expect]]
+observable = "height"
+at = "final"
+value = 12345
+)";
+
+std::string made(const ScratchDirectory& scratch) {
+  RunOptions options;
+  options.file = scratch.file("p.toml", problem), options.directory = scratch / "run", options.threads = 1, options.quiet = true;
+  run(options);
+  return options.directory;
+}
+
+/// Contents of all elements `name`, each cut out of the page.
+std::vector<std::string> cut(std::string& page, const std::string& name) {
+  std::vector<std::string> all;
+  for (std::size_t at = 0; (at = page.find("<" + name, at)) != page.npos;) {
+    const std::size_t begin = page.find('>', at) + 1, end = page.find("</" + name + ">", begin);
+    all.push_back(page.substr(begin, end - begin));
+    page.erase(begin, end - begin), at = begin;
+  }
+  return all;
+}
+
+std::string hash_of(const std::string& text) {
+  std::vector<unsigned char> digest(SHA256_DIGEST_LENGTH);
+  SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
+  return "'sha256-" + base64(digest) + "'";
+}
+
+/// Every element that is opened is closed, the last one first.
+void check_closed(const std::string& page) {
+  const std::set<std::string> single{"meta", "input", "br", "!DOCTYPE"};
+  std::vector<std::string> open;
+  const std::regex tag("<(/?)([a-zA-Z0-9!]+)[^>]*>");
+  for (std::sregex_iterator it(page.begin(), page.end(), tag); it != std::sregex_iterator(); ++it) {
+    const std::string name = (*it)[2];
+    if (single.count(name)) continue;
+    if ((*it)[1] == "") {
+      open.push_back(name);
+      continue;
+    }
+    REQUIRE(!open.empty());
+    CHECK(open.back() == name);
+    open.pop_back();
+  }
+  CHECK(open.empty());
+}
+
+std::vector<float> floats(const std::string& text) {
+  std::vector<unsigned char> bytes(text.size());
+  EVP_DecodeBlock(bytes.data(), reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
+  std::vector<float> numbers(bytes.size() * 3 / 4 / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("a page is whole, and nothing from a file is markup or runs in it", "[report]") {
+  ScratchDirectory scratch;
+  const std::string directory = made(scratch), whole = report_page({{directory}, "", true});
+  CHECK(whole.find("alert(1)</script>") == whole.npos);
+  CHECK(whole.find("<title>&lt;/script&gt;&lt;script&gt;alert(1)") != whole.npos);
+  for (const char* name : {"{{policy}}", "{{title}}", "{{style}}", "{{data}}", "{{scripts}}", "{{licences}}", "{{version}}"})
+    CHECK(whole.find(name) == whole.npos);
+
+  std::string page = whole;
+  const std::vector<std::string> scripts = cut(page, "script"), styles = cut(page, "style");
+  REQUIRE(scripts.size() == 9);                                   // the data, three.js, its controls, d3, five of our own
+  REQUIRE(styles.size() == 1);
+  std::smatch policy;
+  REQUIRE(std::regex_search(page, policy, std::regex("Content-Security-Policy\" content=\"([^\"]*)\"")));
+  CHECK(policy[1].str().starts_with("default-src 'none';"));
+  CHECK(policy[1].str().find("unsafe") == std::string::npos);
+  for (std::size_t k = 1; k < scripts.size(); ++k) CHECK(policy[1].str().find(hash_of(scripts[k])) != std::string::npos);
+  CHECK(policy[1].str().find(hash_of(styles[0])) != std::string::npos);
+  CHECK(std::regex_search(page, std::regex("\\s(src|href|on[a-z]+|style)\\s*=|<(link|img|iframe|object|base)\\b")) == false);
+  CHECK(std::regex_search(styles[0], std::regex("url\\(|@import")) == false);
+  page.erase(page.find("<!--\n"), page.rfind("-->") + 3 - page.find("<!--\n"));    // the licences
+  check_closed(page);
+  CHECK(Json::parse(scripts[0])["runs"][0]["title"] == hostile);
+}
+
+TEST_CASE("a page holds the numbers of a run's files", "[report]") {
+  ScratchDirectory scratch;
+  const std::string directory = made(scratch);
+  const Json data = run_data(directory, 1'000'000);
+  const StoredRun run = read_run(directory);
+  REQUIRE(run.path.rows.size() > 5);
+  CHECK(data["path"]["columns"] == Json(run.path.columns));
+  for (std::size_t c = 0; c < run.path.columns.size(); ++c)
+    for (std::size_t r = 0; r < run.path.rows.size(); ++r) {
+      const Json& there = data["path"]["values"][c][r];
+      if (const auto value = as_number(run.path.rows[r][c])) CHECK((there.is_boolean() ? there == (*value != 0) : there == *value));
+    }
+  CHECK(data["events"]["values"][0].size() == run.events.rows.size());
+  CHECK(data["input"]["text"] == problem);
+  CHECK(data["status"] == "done");
+  REQUIRE(data["expected"].size() == 1);
+  CHECK(data["expected"][0]["met"] == false);
+  CHECK(data["described"].get<std::string>().find("3 particles, 2 bonds") == 0);
+
+  REQUIRE(data["states"]["list"].size() == run.states.size());
+  for (std::size_t k = 0; k < run.states.size(); ++k) {
+    const Json& state = data["states"]["list"][k];
+    CHECK(state["label"] == run.states[k].label);
+    const Field x = read_lammps_data(run.states[k].file).position;
+    const std::vector<float> shown = floats(state["x"]);
+    REQUIRE(shown.size() >= static_cast<std::size_t>(x.size()));
+    for (Eigen::Index i = 0; i < x.size(); ++i) CHECK(shown[i] == static_cast<float>(x.data()[i]));
+  }
+
+  const Json thin = run_data(directory, 1500);
+  CHECK(thin["states"]["stored"] == run.states.size());
+  CHECK(thin["states"]["kept"] == thin["states"]["list"].size());
+  CHECK(thin["states"]["kept"] < run.states.size());
+  CHECK(thin["states"]["list"].front()["label"] == "initial");
+  CHECK(thin["states"]["list"].back()["label"] == "final");
+}
+
+TEST_CASE("a page says what is missing", "[report]") {
+  ScratchDirectory scratch;
+  const std::string directory = made(scratch);
+  scratch.file("p.toml", problem + "# changed\n");
+  CHECK(run_data(directory, 1000)["input"]["text"].is_null());
+  std::filesystem::remove(directory + "/summary.json");
+  CHECK(run_data(directory, 1000)["status"] == "interrupted");
+  std::ofstream(directory + "/resolved.toml") << "nonsense = 1\n";
+  CHECK(run_data(directory, 1000)["no_shape"].get<std::string>().find("resolved.toml:1:") != std::string::npos);
+  CHECK_THROWS_AS(report_page({{scratch / "nothing"}, "", true}), InputError);
+}
