@@ -56,8 +56,11 @@ constexpr int most_polishing = 4;
 constexpr int modes_looked_at = 3;
 constexpr double alike = 0.1;
 constexpr double no_push = 1e-6;                 // of the whole gradient
-/// Packings. Loose grains that are so many are one.
-constexpr int packing = 20;
+/// Saddles that a search may end at and leave before it is given up; Newton steps that take a residual at the tolerance down to rounding.
+constexpr int most_saddles = 20, most_sharpening = 20;
+/// Packings. Loose grains that are so many are one; beside fewer Newton's method is given so many iterations first: where nothing is as rough as a
+/// packing it takes ten to thirty.
+constexpr int packing = 20, newton_alone = 50;
 /// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor: overlaps shrink to a fifth.
 constexpr double wanted_overlap = 0.01, stiffer = 10;
 /// The longest step, of the smallest diameter: less than takes a grain past another one.

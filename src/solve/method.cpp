@@ -8,13 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace elamin {
 
 namespace {
-
-constexpr int most_saddles = 20, most_finishing = 4;
-constexpr int most_by_newton = 20;             // iterations: the residual is at the tolerance already
 
 template <class... F> struct Cases : F... { using F::operator()...; };
 template <class... F> Cases(F...) -> Cases<F...>;
@@ -31,7 +29,7 @@ int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
   Energy& energy = newton.energy();
   Factors& factors = newton.factors();
   factors.try_cholesky(zero_modes ? 100 * factors.zero_level() : 0.0);
-  for (int k = 0; k < most_finishing; ++k) {
+  for (int k = 0; k < limits::most_polishing; ++k) {
     if (energy.relative(energy.gradient()) <= 4 * epsilon) return k;
     State next = state;
     energy.kinematics().retract(next, factors.cholesky().solve(energy.gradient()), -1);
@@ -41,7 +39,7 @@ int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
     if (!(energy.relative(energy.gradient()) <= report.residual / 2)) return k;
     state = next, report.residual = energy.relative(energy.gradient());
   }
-  return most_finishing;
+  return limits::most_polishing;
 }
 
 // Newton's method and, where there are loose grains that press on something, settle(): for a packing at once, for fewer where Newton's method stalls.
@@ -52,13 +50,10 @@ Report by_what_works(Newton& newton, State& state) {
   const int loose = presses && model.bodies.empty() ? loose_grains(newton.energy()) : 0;
   if (loose >= limits::packing) return settle(newton, state, limits::most_settling);
   State settled = state;
-  const Report report = newton.minimise(state);
+  const Report report = newton.minimise(state, Pace::long_steps, loose > 0 ? limits::newton_alone : std::numeric_limits<int>::max());
   if (report.status != Status::not_converged || loose == 0) return report;
   Report other = settle(newton, settled, limits::most_settling);
-  if (!other.converged()) {
-    newton.energy().evaluate(state);
-    return report;
-  }
+  if (!other.converged()) return interrupted() ? report : newton.minimise(state);
   state = std::move(settled);
   other.why = fmt::format("Newton's method stalled after {} iterations; {}", report.iterations, other.why);
   return other;
@@ -113,14 +108,14 @@ Report stable_end(Newton& newton, State& state, const std::function<Report(State
         total.why += fmt::format("; {} simplified Newton step{} took the residual from {:.1e} to {:.1e}", steps, steps > 1 ? "s" : "", before, total.residual);
       if (saddles > 0) total.why += fmt::format("; {} saddle{} left", saddles, saddles > 1 ? "s were" : " was");
     } else {
-      left = !interrupted() && saddles < most_saddles && newton.leave_saddle(state, factors.lowest(1).vectors.col(0));
+      left = !interrupted() && saddles < limits::most_saddles && newton.leave_saddle(state, factors.lowest(1).vectors.col(0));
     }
     factoring += factors.seconds() - seconds_before, total.factorizations += factors.factorizations() - factorizations_before;
     if (inertia.negative == 0) return done();
     if (left) continue;
     if (!interrupted()) {                                       // forces that are left below the tolerance may bend what hardly has a stiffness
       Newton sharp(energy, {.tolerance = 16 * epsilon});
-      add(total, sharp.minimise(state, Pace::long_steps, most_by_newton));
+      add(total, sharp.minimise(state, Pace::long_steps, limits::most_sharpening));
       energy.evaluate(state);
       total.negative = factors.inertia().negative, total.residual = energy.relative(energy.gradient());
       if (total.negative == 0 && total.residual <= newton.tolerance()) {
