@@ -4,6 +4,7 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 #include "solve/ritz.hpp"
 
 #include <fmt/format.h>
@@ -14,13 +15,6 @@
 namespace elamin {
 
 namespace {
-
-constexpr double give = 1e-10;                 // δ: of the stiffness scale
-constexpr double gap_rounding = 1e-13;         // of a diameter
-constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
-constexpr int block_chances = 3;               // changes of all at once that need not lead on: Júdice & Pires, p ≤ 10
-constexpr int pivots_at_least = 20, pivots_each = 4;
-constexpr double rounding_of_rates = 1e-9;     // of the largest
 
 const char* const too_far = "there is no equilibrium near enough";
 const char* const singular = "nothing holds what can move here: the equations are singular, with any shift";
@@ -52,7 +46,7 @@ void ContactEquilibrium::linearise(const State& state, const State* from, const 
     for (int i = 0; i < gaps_[k].sites; ++i)
       for (int c = 0; c < 3; ++c)
         if (const int d = kinematics.dof(gaps_[k].site[i], c); d >= 0) entries.emplace_back(n + k, d, scale_ * gaps_[k].gradient[3 * i + c]);
-    entries.emplace_back(n + k, n + k, -give * scale_);
+    entries.emplace_back(n + k, n + k, -limits::hard::give * scale_);
   }
   matrix_.resize(n + m, n + m);
   matrix_.setFromTriplets(entries.begin(), entries.end());
@@ -149,13 +143,13 @@ Report ContactEquilibrium::newton(State& state, double tolerance, const State* f
     worse = better ? 0 : worse + 1;
     if (least <= tolerance) {
       const bool rounding = least <= 4 * epsilon || (!better && polishing > 0);
-      if (rounding || polishing++ == most_polishing) {
+      if (rounding || polishing++ == limits::hard::most_polishing) {
         state = best;
         return end(Status::converged, fmt::format("the residual is below {:g}", tolerance));
       }
     } else if (interrupted()) {
       return end(Status::interrupted, "interrupted");
-    } else if (report.iterations == most_steps || worse > 6) {
+    } else if (report.iterations == limits::hard::most_steps || worse > 6) {
       return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", residual));
     }
     Vector gaps(static_cast<Eigen::Index>(gaps_.size())), rates(gaps.size());
@@ -197,7 +191,7 @@ Report ContactEquilibrium::slide(State& state, const State& origin, const Vector
   double least = std::numeric_limits<double>::infinity();
   const double size = energy_.kinematics().smallest_size();
   report.why = "Newton's method does not contract";
-  for (; report.iterations <= most_steps && !interrupted(); ++report.iterations) {
+  for (; report.iterations <= limits::hard::most_steps && !interrupted(); ++report.iterations) {
     linearise(state, from, borders);
     const double residual = energy_.relative(energy_.gradient());
     const double left = amount - mode.dot(energy_.kinematics().difference(origin, state));
@@ -263,7 +257,7 @@ Report ContactEquilibrium::correct(State& state, double tolerance, const State* 
     for (const HardForce& h : energy_.hard_contacts(state, 0)) {
       HardGap gap;
       const bool closed = std::any_of(before.begin(), before.end(), [&](const HardForce& b) { return key(b) == key(h); });
-      if (!closed && hard_gap(energy_.model(), h, state, gap) && gap.value < -gap_rounding * energy_.model().diameter[h.particle])
+      if (!closed && hard_gap(energy_.model(), h, state, gap) && gap.value < -limits::hard::gap_rounding * energy_.model().diameter[h.particle])
         now.push_back(h);
     }
     std::sort(now.begin(), now.end(), [](const HardForce& a, const HardForce& b) { return key(a) < key(b); });
@@ -272,7 +266,7 @@ Report ContactEquilibrium::correct(State& state, double tolerance, const State* 
       return total;
     }
     state.hard = std::move(now);
-    if (change == most_changes || interrupted()) {
+    if (change == limits::hard::most_changes || interrupted()) {
       total.status = interrupted() ? Status::interrupted : Status::not_converged;
       total.why = "which hard contacts are closed could not be told: they change without end";
       return total;
@@ -306,9 +300,9 @@ std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, co
     return std::find_if(among.begin(), among.end(), [&](const HardForce& x) { return key(x) == key(h); });
   };
   const auto before = [](const HardForce& a, const HardForce& b) { return key(a) < key(b); };
-  const int most_pivots = pivots_at_least + pivots_each * static_cast<int>(slack.size());
+  const int most_pivots = limits::hard::pivots_at_least + limits::hard::pivots_each * static_cast<int>(slack.size());
   std::size_t least = slack.size() + 1;                         // that were wrong so far
-  int chances = block_chances;
+  int chances = limits::hard::block_chances;
   for (int pivot = 0; pivot < most_pivots && !interrupted(); ++pivot) {
     linearise(state, nullptr);
     // Motions that cost nothing are as soft as can be told from that: whether contacts hold them is what is asked here.
@@ -323,8 +317,8 @@ std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, co
     std::vector<HardGap> open(slack.size());
     for (std::size_t k = 0; k < slack.size(); ++k)
       if (hard_gap(energy_.model(), slack[k], state, open[k])) speed = std::max(speed, std::abs(rate(open[k])));
-    const double no_gap = rounding_of_rates * speed;
-    const double no_force = rounding_of_rates * std::max(infinity_norm(step.force), infinity_norm(load)) + 64 * epsilon * scale_ * motion;
+    const double no_gap = limits::hard::rounding_of_rates * speed;
+    const double no_force = limits::hard::rounding_of_rates * std::max(infinity_norm(step.force), infinity_norm(load)) + 64 * epsilon * scale_ * motion;
     std::vector<const HardForce*> wrong;
     for (std::size_t k = 0; k < slack.size(); ++k) {
       const auto at = place(state.hard, slack[k]);
@@ -333,7 +327,7 @@ std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, co
       if (bad) wrong.push_back(&slack[k]);
     }
     if (wrong.empty()) return state.hard;
-    if (wrong.size() < least) least = wrong.size(), chances = block_chances;
+    if (wrong.size() < least) least = wrong.size(), chances = limits::hard::block_chances;
     else --chances;
     if (chances <= 0) wrong.resize(1);                          // in the order of `slack`
     for (const HardForce* h : wrong) {

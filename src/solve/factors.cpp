@@ -113,19 +113,18 @@ std::optional<double> Factors::make_positive_from(double shift, double growth) {
 }
 
 EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held) {
-  constexpr int least_rounds = 4, most = 12;                   // Ritz values settle to rounding before their vectors do
   const Eigen::Index block = start.cols();
   if (!factorize_holding(held)) return {Vector::Zero(block), start};
   Eigen::MatrixXd x = start;
   Vector values = Vector::Zero(block);
-  for (int k = 0; k < most && !interrupted(); ++k) {
+  for (int k = 0; k < limits::most_rounds && !interrupted(); ++k) {
     for (Eigen::Index j = 0; j < block; ++j) x.col(j) = solve_holding(x.col(j).normalized());
     x = orthonormal(x);
     const Vector before = values;
     values = rotate_to_ritz(energy_, x);
     Eigen::Index least = 0;
     values.cwiseAbs().minCoeff(&least);
-    if (k + 1 >= least_rounds && std::abs(values[least] - before[least]) <= 1e-12 * std::abs(values[least]) + zero_level() / 256) break;
+    if (k + 1 >= limits::least_rounds && std::abs(values[least] - before[least]) <= 1e-12 * std::abs(values[least]) + zero_level() / 256) break;
   }
   for (Eigen::Index j = 0; j < block; ++j) values[j] = energy_.quadratic_form(x.col(j));
   return {values, x};

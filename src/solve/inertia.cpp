@@ -68,17 +68,16 @@ class Curvature {
 // The eigenvectors to eigenvalues within ± reach, near enough to span them, by block inverse iteration with a factor near zero; none if
 // there are too many.
 std::optional<Eigen::MatrixXd> Factors::soft_modes(double reach, const Solve& solve) {
-  constexpr int most = 12, least = 4;                           // iterations
   const int n = energy_.dofs();
   for (int block = std::min(n, 6);; block = std::min(n, 2 * block)) {
     Eigen::MatrixXd x = starting_block(n, block);
     Eigen::Index inside = 0, before = -1;
     Vector values;
-    for (int k = 0; k < most && !interrupted(); ++k) {
+    for (int k = 0; k < limits::most_rounds && !interrupted(); ++k) {
       x = orthonormal(solve(x));
       values = rotate_to_ritz(energy_, x);
       inside = (values.array().abs() <= reach).count();
-      if (std::exchange(before, inside) == inside && k >= least) break;
+      if (std::exchange(before, inside) == inside && k >= limits::least_rounds) break;
     }
     if (inside < block || block == n) {
       Eigen::MatrixXd soft(n, inside);
@@ -228,9 +227,8 @@ Vector Factors::solve_resolved(const Vector& b) {
     const Vector c = solved(near_.t, x.transpose() * right - near_.r.transpose() * y);
     return y + (x - near_.w) * c;
   };
-  constexpr int most = 8;
   Vector p = once(b), before;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < limits::most_refinements; ++k) {
     const Vector correction = once(b - energy_.multiply(p));
     if (before.size() > 0 && !(correction.norm() < before.norm() / 2)) break;
     p += correction, before = correction;

@@ -4,6 +4,7 @@
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
 #include "solve/ipopt_problem.hpp"
+#include "solve/limits.hpp"
 
 #include <IpIpoptApplication.hpp>
 
@@ -75,7 +76,6 @@ std::string told(Ipopt::ApplicationReturnStatus status) {
 
 // One run after another, each where the one before had to end, to an equilibrium.
 void run(Energy& energy, ContactEquilibrium& equilibrium, State& state, const IpoptOptions& options, Report& report) {
-  constexpr int most_idle = 5;                                   // runs in a row that do not get anywhere
   IpoptMemory memory;
   for (int idle = 0;;) {
     const int before = report.iterations;
@@ -94,7 +94,7 @@ void run(Energy& energy, ContactEquilibrium& equilibrium, State& state, const Ip
       report.status = Status::interrupted, report.why = "interrupted";
       return;
     }
-    if (problem->stale() && idle < most_idle && report.iterations < options.max_iterations) continue;
+    if (problem->stale() && idle < limits::ipopt::most_idle && report.iterations < options.max_iterations) continue;
     report.status = Status::not_converged;
     report.why = problem->escaped().empty()
                      ? told(status)
@@ -110,23 +110,21 @@ bool is_equilibrium(Energy& energy, ContactEquilibrium& equilibrium, State& stat
   if (!(energy.relative(energy.gradient()) <= tolerance)) return false;
   State near = state;
   const double thinnest = energy.kinematics().smallest_size();
-  if (!equilibrium.correct(near, tolerance, nullptr, 1e-3 * thinnest).converged()) return false;
+  if (!equilibrium.correct(near, tolerance, nullptr, limits::ipopt::in_place * thinnest).converged()) return false;
   state = near;
   return true;
 }
 
 // Off a saddle, along the motion of lowest curvature that keeps the closed contacts; so far that this is not its rounding.
 void leave_saddle(Energy& energy, ContactEquilibrium& equilibrium, State& state) {
-  constexpr double turn = 1e-2, way = 1e-2;                      // of what is glued; in diameters
   const Vector v = equilibrium.lowest(state, 1).vectors.col(0);
-  const double part = std::min(turn / std::max(distortion(energy, state, v), 1e-300), way / std::max(movement(energy, v), 1e-300));
+  const double part = std::min(limits::ipopt::turn / std::max(distortion(energy, state, v), 1e-300), limits::ipopt::way / std::max(movement(energy, v), 1e-300));
   energy.kinematics().retract(state, v, part);
 }
 
 }  // namespace
 
 Report minimise_by_ipopt(Energy& energy, State& state, const IpoptOptions& options) {
-  constexpr int most_saddles = 10;
   const std::lock_guard lock(one_at_a_time());
   const Stopwatch watch;
   Report report;
@@ -140,7 +138,7 @@ Report minimise_by_ipopt(Energy& energy, State& state, const IpoptOptions& optio
     if (!report.converged() || state.hard.empty()) break;
     report.negative = equilibrium.inertia(state).negative;
     if (report.negative == 0) break;
-    if (saddles == most_saddles) {
+    if (saddles == limits::ipopt::most_saddles) {
       report.status = Status::not_converged, report.why = "a saddle could not be left along its negative curvature";
       break;
     }

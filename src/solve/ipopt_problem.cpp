@@ -16,12 +16,6 @@ namespace elamin {
 
 namespace {
 
-constexpr std::size_t most_watched = 10;       // steps that Ipopt may take back
-constexpr double unbounded = 2e19;             // for Ipopt
-constexpr int patience = 10;                   // iterations
-constexpr double near_by = 0.1;                // ℓ that Newton's method may move in the end
-constexpr double wide = 8;                     // ℓ that may be moved in one run where there are hard walls
-
 const Ipopt::Number* values(const Ipopt::Vector& v) { return dynamic_cast<const Ipopt::DenseVector&>(v).ExpandedValues(); }
 
 }  // namespace
@@ -31,7 +25,7 @@ IpoptProblem::IpoptProblem(Energy& energy, ContactEquilibrium& equilibrium, cons
     : energy_(energy), equilibrium_(equilibrium), options_(options), memory_(memory), report_(report), origin_(start), at_(start), state_(start),
       before_(start), trail_{start}, length_(energy.kinematics().mean_size()), extent_(extent(energy.model())) {
   const bool hard = any_hard(energy.model());
-  freedom_ = hard ? std::min(energy_.freedom(), wide * length_) : std::numeric_limits<double>::infinity();
+  freedom_ = hard ? std::min(energy_.freedom(), limits::ipopt::wide * length_) : std::numeric_limits<double>::infinity();
   energy_.look_around(start);
   if (hard) contacts_ = energy_.hard_contacts(start, freedom_);
   gaps_.resize(contacts_.size());
@@ -60,8 +54,8 @@ bool IpoptProblem::get_nlp_info(Index& n, Index& m, Index& jacobian, Index& hess
 }
 
 bool IpoptProblem::get_bounds_info(Index n, Number* lo, Number* hi, Index m, Number* gap_lo, Number* gap_hi) {
-  std::fill_n(lo, n, -unbounded), std::fill_n(hi, n, unbounded);
-  std::fill_n(gap_lo, m, 0.0), std::fill_n(gap_hi, m, unbounded);
+  std::fill_n(lo, n, -limits::ipopt::unbounded), std::fill_n(hi, n, limits::ipopt::unbounded);
+  std::fill_n(gap_lo, m, 0.0), std::fill_n(gap_hi, m, limits::ipopt::unbounded);
   return true;
 }
 
@@ -163,8 +157,8 @@ bool IpoptProblem::intermediate_callback(Ipopt::AlgorithmMode mode, Index iterat
 }
 
 void IpoptProblem::remember(const State& accepted) {
-  if (trail_.size() < most_watched) trail_.push_back(accepted);
-  else trail_[next_++ % most_watched] = accepted;
+  if (trail_.size() < limits::ipopt::most_watched) trail_.push_back(accepted);
+  else trail_[next_++ % limits::ipopt::most_watched] = accepted;
 }
 
 // The forces of hard contacts are large or small beside this.
@@ -192,7 +186,7 @@ void IpoptProblem::look(double moved) {
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     error = std::max(error, std::min(state_.hard[k].force / largest, std::abs(gaps_[k].value) / length_));
   // A contact that hardly bears a force is open and closed alike for long: then Newton's method decides.
-  const bool undecided = report_.residual <= options_.tolerance && ++waited_ >= patience;
+  const bool undecided = report_.residual <= options_.tolerance && ++waited_ >= limits::ipopt::patience;
   if (error > memory_.close && !undecided) return;
   waited_ = 0;
   reached_ = settle();
@@ -206,7 +200,7 @@ bool IpoptProblem::settle() {
   near.hard.clear();
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (state_.hard[k].force * length_ > gaps_[k].value * largest) near.hard.push_back(state_.hard[k]);
-  const Report found = equilibrium_.correct(near, options_.tolerance, nullptr, near_by * length_);
+  const Report found = equilibrium_.correct(near, options_.tolerance, nullptr, limits::ipopt::near_by * length_);
   report_.evaluations += found.evaluations, report_.factorizations += found.factorizations;
   differentiated_ = false;
   const bool saddle = found.converged() && !near.hard.empty() && memory_.close > 1e-8 && equilibrium_.inertia(near).negative > 0;

@@ -72,4 +72,57 @@ constexpr int most_refused = 40, most_settling = 5000;
 /// Extents of the structure: what is that far away comes back no more.
 constexpr double lost = 100;
 
+/// Inverse iteration: at least so many rounds, since Ritz values settle to rounding before their vectors do, and so many at most.
+constexpr int least_rounds = 4, most_rounds = 12;
+/// Refinements of a solution beside resolved modes, each of which halves the correction at least.
+constexpr int most_refinements = 8;
+/// Attempts of a search for a shift that grows by 1.5 or more: 1.5¹⁰⁰ = 4·10¹⁷, from the rounding of any matrix to beyond its norm.
+constexpr int most_attempts = 100;
+/// Bodies that nothing holds are held while a minimum is sought as by a spring that the largest force stretches by such a part of their size.
+constexpr double spring_of_size = 0.2;
+
+/// Equilibria with hard contacts (contact_equilibrium).
+namespace hard {
+/// −δ on the diagonal of a contact's force, of the stiffness scale: contacts that hold one thing twice keep a factor, and gaps move by δ f.
+constexpr double give = 1e-10;
+/// Rounding of a gap, of a diameter: three orders above ε for gaps between sites at coordinates of many diameters.
+constexpr double gap_rounding = 1e-13;
+/// Newton steps with one set of contacts; those that may leave the residual as it is at the end; sets that are tried.
+constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
+/// Changes of all contacts at once that need not lead on (Júdice & Pires 1994, block pivoting, p ≤ 10).
+constexpr int block_chances = 3;
+/// Single pivots: so many, and so many more for each contact without force.
+constexpr int pivots_at_least = 20, pivots_each = 4;
+/// Rounding of rates along a path, of the largest: those of a solution with a condition number of 10⁷.
+constexpr double rounding_of_rates = 1e-9;
+}  // namespace hard
+
+namespace ipopt {
+/// Runs in a row that do not get anywhere; saddles that may be left; steps that Ipopt may take back.
+constexpr int most_idle = 5, most_saddles = 10;
+constexpr std::size_t most_watched = 10;
+/// What Ipopt takes for no bound.
+constexpr double unbounded = 2e19;
+/// Iterations below the tolerance in which contacts are not decided.
+constexpr int patience = 10;
+/// Of the length scale: what Newton's method may move in the end; what one run may move where there are hard walls.
+constexpr double near_by = 0.1, wide = 8;
+/// A saddle is left so far that this is not its rounding: by such a rotation of bonds [rad], by such a part of a diameter.
+constexpr double turn = 1e-2, way = 1e-2;
+/// What Newton's method may move from a state that may be the equilibrium already, of the smallest diameter.
+constexpr double in_place = 1e-3;
+}  // namespace ipopt
+
+namespace nlopt {
+/// MLSL compares each sample with all others; entries of the history that are kept.
+constexpr int most_samples = 10'000;
+constexpr std::size_t most_entries = 4000;
+/// A change of energy is worth looking at where it is so many times its rounding: its derivative has five digits then.
+constexpr double seen = 1e5;
+/// Rounds in a row without gain.
+constexpr int most_idle = 3;
+/// Dofs up to which a column beyond buckling was found within a minute: dense matrices, simplices, models of the energy, boxes.
+constexpr int dense = 500, simplex = 10, quadratic = 60, global = 12;
+}  // namespace nlopt
+
 }  // namespace elamin::limits

@@ -2,6 +2,7 @@
 
 #include "core/timing.hpp"
 #include "model/entities.hpp"
+#include "solve/limits.hpp"
 #include "solve/nlopt_search.hpp"
 
 #include <fmt/format.h>
@@ -11,8 +12,6 @@
 namespace elamin {
 
 namespace {
-
-constexpr int most_samples = 10'000;          // MLSL compares each with all others
 
 // Half of the diagonal of what there is: a chain may fold anywhere, a truss snap through.
 double half_width(const Model& model, const State& state) {
@@ -37,7 +36,7 @@ Report minimise_by_nlopt(Newton& newton, State& state, const NloptOptions& optio
   } else {
     const double half = options.bounds.value_or(half_width(energy.model(), state));
     const int most = options.max_evaluations / 4 * 3;
-    search.global(algorithm, half, algorithm.random_starts() ? std::min(most, most_samples) : most);
+    search.global(algorithm, half, algorithm.random_starts() ? std::min(most, limits::nlopt::most_samples) : most);
     const int looked = report.evaluations;
     search.local(*nlopt_algorithm_of("LD_LBFGS"));
     report.why += fmt::format(", from the lowest of the {} states that {} saw within {:.3g} of the start", looked, algorithm.name, half);

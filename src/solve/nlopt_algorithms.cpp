@@ -1,5 +1,6 @@
 #include "solve/nlopt_algorithms.hpp"
 
+#include "solve/limits.hpp"
 #include "solve/nlopt.hpp"
 
 #include <fmt/format.h>
@@ -15,9 +16,6 @@ namespace {
 
 using Kind = NloptAlgorithm::Kind;
 
-// Dofs up to which a column beyond buckling was found within a minute: dense matrices, simplices, models of the energy, boxes.
-constexpr int dense = 500, simplex = 10, model = 60, global = 12;
-
 constexpr NloptAlgorithm algorithms[]{
     {"LD_LBFGS", NLOPT_LD_LBFGS, Kind::gradient},
     {"LD_TNEWTON", NLOPT_LD_TNEWTON, Kind::gradient},
@@ -28,20 +26,20 @@ constexpr NloptAlgorithm algorithms[]{
     {"LD_VAR2", NLOPT_LD_VAR2, Kind::gradient},
     {"LD_MMA", NLOPT_LD_MMA, Kind::gradient},
     {"LD_CCSAQ", NLOPT_LD_CCSAQ, Kind::gradient},
-    {"LD_SLSQP", NLOPT_LD_SLSQP, Kind::gradient, 1, dense},
-    {"LN_COBYLA", NLOPT_LN_COBYLA, Kind::derivative_free, 1, model},
-    {"LN_BOBYQA", NLOPT_LN_BOBYQA, Kind::derivative_free, 2, model},
-    {"LN_NEWUOA", NLOPT_LN_NEWUOA, Kind::derivative_free, 2, model},
-    {"LN_PRAXIS", NLOPT_LN_PRAXIS, Kind::derivative_free, 2, model},
-    {"LN_NELDERMEAD", NLOPT_LN_NELDERMEAD, Kind::derivative_free, 1, simplex},
-    {"LN_SBPLX", NLOPT_LN_SBPLX, Kind::derivative_free, 1, simplex},
-    {"G_MLSL", NLOPT_G_MLSL, Kind::global, 1, global},
-    {"G_MLSL_LDS", NLOPT_G_MLSL_LDS, Kind::global, 1, global},
-    {"GN_DIRECT", NLOPT_GN_DIRECT, Kind::global, 1, global},
-    {"GN_DIRECT_L", NLOPT_GN_DIRECT_L, Kind::global, 1, global},
-    {"GN_CRS2_LM", NLOPT_GN_CRS2_LM, Kind::global, 1, global},
-    {"GN_ISRES", NLOPT_GN_ISRES, Kind::global, 1, global},
-    {"GN_ESCH", NLOPT_GN_ESCH, Kind::global, 1, global},
+    {"LD_SLSQP", NLOPT_LD_SLSQP, Kind::gradient, 1, limits::nlopt::dense},
+    {"LN_COBYLA", NLOPT_LN_COBYLA, Kind::derivative_free, 1, limits::nlopt::quadratic},
+    {"LN_BOBYQA", NLOPT_LN_BOBYQA, Kind::derivative_free, 2, limits::nlopt::quadratic},
+    {"LN_NEWUOA", NLOPT_LN_NEWUOA, Kind::derivative_free, 2, limits::nlopt::quadratic},
+    {"LN_PRAXIS", NLOPT_LN_PRAXIS, Kind::derivative_free, 2, limits::nlopt::quadratic},
+    {"LN_NELDERMEAD", NLOPT_LN_NELDERMEAD, Kind::derivative_free, 1, limits::nlopt::simplex},
+    {"LN_SBPLX", NLOPT_LN_SBPLX, Kind::derivative_free, 1, limits::nlopt::simplex},
+    {"G_MLSL", NLOPT_G_MLSL, Kind::global, 1, limits::nlopt::global},
+    {"G_MLSL_LDS", NLOPT_G_MLSL_LDS, Kind::global, 1, limits::nlopt::global},
+    {"GN_DIRECT", NLOPT_GN_DIRECT, Kind::global, 1, limits::nlopt::global},
+    {"GN_DIRECT_L", NLOPT_GN_DIRECT_L, Kind::global, 1, limits::nlopt::global},
+    {"GN_CRS2_LM", NLOPT_GN_CRS2_LM, Kind::global, 1, limits::nlopt::global},
+    {"GN_ISRES", NLOPT_GN_ISRES, Kind::global, 1, limits::nlopt::global},
+    {"GN_ESCH", NLOPT_GN_ESCH, Kind::global, 1, limits::nlopt::global},
 };
 
 // Levenshtein's.

@@ -15,10 +15,6 @@ namespace elamin {
 
 namespace {
 
-constexpr std::size_t most_entries = 4000;    // of the history
-constexpr double seen = 1e5;                  // times its rounding a change of energy is worth looking at
-constexpr int most_idle = 3;                  // rounds in a row without gain
-
 struct Destroy {
   void operator()(nlopt_opt o) const { nlopt_destroy(o); }
 };
@@ -83,7 +79,7 @@ bool NloptSearch::begin_round(bool from_forces) {
   }
   if (!(unit_ > 0)) unit_ = 1;
   base_slope_ = slope(g);
-  from_forces_ = from_forces || predicted <= seen * 16 * epsilon * energy_.last_terms().size();
+  from_forces_ = from_forces || predicted <= limits::nlopt::seen * 16 * epsilon * energy_.last_terms().size();
   return true;
 }
 
@@ -92,7 +88,7 @@ void NloptSearch::keep(const State& state, double f, double residual) {
   last_gain_ = looks_;
   ++report_.iterations;
   report_.energy = energy_.last_terms().total(), report_.residual = residual;
-  if (report_.history.size() < most_entries)
+  if (report_.history.size() < limits::nlopt::most_entries)
     report_.history.push_back({report_.energy, residual, infinity_norm(energy_.kinematics().difference(base_, state)), shift_});
 }
 
@@ -184,7 +180,7 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
     if (report_.evaluations >= options_.max_evaluations)
       return end(Status::not_converged, fmt::format("{} evaluations were not enough for {}; the residual is {:.2g}", options_.max_evaluations,
                                                     algorithm.name, report_.residual));
-    if (idle >= most_idle)
+    if (idle >= limits::nlopt::most_idle)
       return end(Status::not_converged, fmt::format("{} gains nothing more; the residual stays at {:.2g}", algorithm.name, report_.residual));
     if (!begin_round(idle > 0)) {
       const std::string why = newton_.factors().why_none();

@@ -1,9 +1,10 @@
 #include "solve/steady_bodies.hpp"
 
+#include "solve/limits.hpp"
+
 namespace elamin {
 
 void steady_bodies(Energy& energy, const Vector& g) {
-  constexpr double part_of_size = 0.2;
   if (energy.model().bodies.empty() || g.size() == 0) return;
   const Kinematics& kinematics = energy.kinematics();
   SparseMatrix& h = energy.hessian();
@@ -15,7 +16,7 @@ void steady_bodies(Energy& energy, const Vector& g) {
       continue;
     }
     const int site = kinematics.site_of(d);
-    if (kinematics.body_of(site) >= 0) h.valuePtr()[h.outerIndexPtr()[d]] += force / (part_of_size * kinematics.size(site));
+    if (kinematics.body_of(site) >= 0) h.valuePtr()[h.outerIndexPtr()[d]] += force / (limits::spring_of_size * kinematics.size(site));
   }
 }
 
