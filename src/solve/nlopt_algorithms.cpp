@@ -1,13 +1,12 @@
 #include "solve/nlopt_algorithms.hpp"
 
+#include "core/suggest.hpp"
 #include "solve/limits.hpp"
 #include "solve/nlopt.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
-#include <string_view>
 #include <vector>
 
 namespace elamin {
@@ -42,23 +41,6 @@ constexpr NloptAlgorithm algorithms[]{
     {"GN_ESCH", NLOPT_GN_ESCH, Kind::global, 1, limits::nlopt::global},
 };
 
-// Levenshtein's.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j)
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
-  }
-  return row[b.size()];
-}
-
-std::string nearest(const std::string& name) {
-  const auto by_distance = [&](const auto& a, const auto& b) { return distance(name, a.name) < distance(name, b.name); };
-  return std::min_element(std::begin(algorithms), std::end(algorithms), by_distance)->name;
-}
-
 std::string names_of(Kind kind) {
   std::string names;
   for (const NloptAlgorithm& a : algorithms)
@@ -78,10 +60,14 @@ const NloptAlgorithm* nlopt_algorithm_of(const std::string& name) {
 
 std::string nlopt_refuses(const std::string& algorithm, int dofs, bool hard) {
   const NloptAlgorithm* a = nlopt_algorithm_of(algorithm);
-  if (!a)
-    return fmt::format("NLopt has no algorithm \"{}\" that is of use here; did you mean \"{}\"? There are {}; without derivatives, for "
+  if (!a) {
+    std::vector<std::string> names;
+    for (const NloptAlgorithm& known : algorithms) names.push_back(known.name);
+    const std::string meant = did_you_mean(algorithm, names);
+    return fmt::format("NLopt has no algorithm \"{}\" that is of use here{} There are {}; without derivatives, for "
                        "small problems, {}; global, for small problems, {}",
-                       algorithm, nearest(algorithm), names_of(Kind::gradient), names_of(Kind::derivative_free), names_of(Kind::global));
+                       algorithm, meant.empty() ? "." : meant, names_of(Kind::gradient), names_of(Kind::derivative_free), names_of(Kind::global));
+  }
   if (hard) return fmt::format("NLopt's {} knows no hard contacts; use \"ipopt\", or an elastic contact", a->name);
   if (dofs > 0 && dofs < a->least)
     return fmt::format("NLopt's {} needs at least {} free dofs, there {} {}; LD_LBFGS or \"newton\" can", a->name, a->least,
