@@ -1,6 +1,7 @@
 // The command line: which command, on which file. Everything else is in study/.
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "input/key_tree.hpp"
 #include "report/report.hpp"
 #include "results/summary.hpp"
 #include "study/check_command.hpp"
@@ -44,11 +45,12 @@ const char* const description =
     "  elamin check problem.toml      every mistake in the file, or what was understood of it\n"
     "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
     "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n"
-    "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n";
+    "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
+    "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
     "130 interrupted (Ctrl-C; a second one ends at once).\n"
-    "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: README.md and problems/.\n";
+    "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: docs/keys.md, and problems/.\n";
 
 }  // namespace
 
@@ -103,6 +105,9 @@ int main(int argc, char** argv) {
   report_app->add_option("directories", report.directories, "directories of results")->type_name("DIR")->required();
   report_app->add_option("-o,--output", report.file, "the page (default: report.html in the directory; of several directories, here)")->type_name("FILE");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
+  CLI::App* schema_app = app.add_subcommand("schema", "print the JSON schema of problem files, for editors");
+  bool markdown = false;
+  schema_app->add_flag("--markdown", markdown, "print the key reference instead, docs/keys.md");
   app.require_subcommand(0, 1);
 
   try {
@@ -112,6 +117,7 @@ int main(int argc, char** argv) {
     options.settings = energy.settings = comparison.settings = settings;
     options.file = energy.file = comparison.file = file;
     if (*energy_app) return energy_command(energy);
+    if (*schema_app) return fmt::print("{}", markdown ? key_reference() : json_schema()), exit_done;
     if (*check_app) return check_command(file, settings), exit_done;
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);

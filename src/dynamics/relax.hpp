@@ -7,7 +7,7 @@ namespace elamin {
 
 struct RelaxOptions {
   double tolerance = 1e-10;                     // residual, relative to the largest internal force
-  std::int64_t max_steps = 10'000'000;
+  std::int64_t max_steps = 200'000;
 };
 
 /// Falls to a minimum with FIRE (Bitzek et al. 2006, semi-implicit as Guénolé et al. 2020): velocity Verlet whose velocity is

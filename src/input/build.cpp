@@ -1,12 +1,12 @@
 #include "input/build.hpp"
 
-#include "input/build_bodies.hpp"
+#include "input/bodies.hpp"
 #include "input/build_checks.hpp"
-#include "input/build_conditions.hpp"
-#include "input/build_contacts.hpp"
-#include "input/build_groups.hpp"
+#include "input/acting.hpp"
+#include "input/interactions.hpp"
+#include "input/groups.hpp"
 #include "input/build_lammps.hpp"
-#include "input/build_structures.hpp"
+#include "input/structures.hpp"
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "dynamics/timestep.hpp"
 
-#include "input/build_structures.hpp"
+#include "input/structures.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "input/build_checks.hpp"
-#include "input/build_structures.hpp"
+#include "input/structures.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // On which side of their walls particles and bodies start.
-#include "input/build_contacts.hpp"
+#include "input/interactions.hpp"
 
 #include "energy/kinematics.hpp"
 #include "laws/frustum.hpp"
-#include "input/build_bodies.hpp"
-#include "input/build_structures.hpp"
+#include "input/bodies.hpp"
+#include "input/structures.hpp"
 
 #include <fmt/format.h>
 

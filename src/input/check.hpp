@@ -33,7 +33,4 @@ std::optional<int> step_of(const std::string& at);
 std::string wrong_observable(const Problem& problem, const std::string& observable, const std::string& at);
 std::string wrong_at(const Problem& problem, const std::string& at);
 
-/// Whether a name is "type" and a number: the groups of a LAMMPS data file.
-bool is_type_group(const std::string& name);
-
 }  // namespace elamin

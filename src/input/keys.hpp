@@ -1,68 +1,148 @@
 #pragma once
-// Which keys there are: the schema as a tree of names.
-#include "input/schema.hpp"
+// How a table says its keys, once: `void describe(Keys&, Table&)` names each with what it means and may be, and what goes
+// together. Four things go through that: the Reader (TOML → structs, every mistake), the Writer (structs → resolved.toml),
+// the KeyTree (--set, key reference, JSON schema).
+#include "core/types.hpp"
+#include "input/table.hpp"
 
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace elamin {
 
-struct KeyTree {
-  enum class Kind { value, table, tables } kind = Kind::value;
-  std::vector<std::pair<std::string, KeyTree>> keys;   // of a table, in the order of the schema
-  const KeyTree* find(const std::string& key) const {
-    for (const auto& [name, tree] : keys)
-      if (name == key) return &tree;
-    return nullptr;
-  }
-  std::vector<std::string> names() const {
-    std::vector<std::string> all;
-    for (const auto& entry : keys) all.push_back(entry.first);
-    return all;
-  }
+/// The rest angle of a structure's angles: "straight", "as_built", or degrees.
+struct Rest {
+  bool as_built = false;
+  double degrees = 180;
+  bool operator==(const Rest&) const = default;
 };
 
-/// The io of `describe` that notes the names alone.
+struct Key {
+  enum class Kind { plain, name, file, one_or_more, one_or_two, values, words, center };
+  const char *name, *means;
+  bool needed = false;
+  Range range = {};
+  Kind kind = Kind::plain;
+  std::vector<std::string> words = {};          // that may stand there
+  int axis = 0;                                 // of a centre: the coordinate that may be left out
+};
+
+/// Where the value of a key goes to or comes from.
+using KeyValue = std::variant<bool*, int*, double*, std::string*, Vec3*, Rest*, std::array<double, 2>*, std::array<std::string, 2>*, std::vector<int>*,
+                              std::vector<double>*, std::vector<Vec3>*, std::vector<std::vector<int>>*, std::vector<std::string>*>;
+
 class Keys {
  public:
-  static constexpr bool reading = false;
-  explicit Keys(KeyTree& tree) : tree_(tree) {}
-  template <class T> void may(const char* key, T&, Range = {}) { add(key); }
-  template <class T> void must(const char* key, T&, Range = {}) { add(key); }
-  template <class T> void one_or_more(const char* key, T&) { add(key); }
-  template <class T> void must_one_or_more(const char* key, T&) { add(key); }
-  void one_or_two(const char* key, std::vector<double>&, Range) { add(key); }
-  void center(const char* key, Vec3&, int) { add(key); }
-  void foreign(const char* key, const std::string&) { add(key); }
-  void name(const char* key, std::string&) { add(key); }
-  void may_name(const char* key, std::string&) { add(key); }
-  void file(const char* key, std::string&) { add(key); }
-  void may_file(const char* key, std::string&) { add(key); }
-  void raw(const char* key, std::vector<std::string>&) { add(key); }
-  template <class T, class Words> bool word(const char* key, T&, const Words&) { return add(key), true; }
-  template <class T, class Words> bool must_word(const char* key, T&, const Words&) { return add(key), true; }
-  template <class Words> void words(const char* key, std::vector<std::string>&, const Words&) { add(key); }
-  template <class T> void table(const char* key, T& value) { descend(key, KeyTree::Kind::table, value); }
-  template <class T> void table(const char* key, std::optional<T>&) {
-    T value;
-    descend(key, KeyTree::Kind::table, value);
+  using Kind = Key::Kind;
+  using Names = std::vector<const char*>;
+  virtual ~Keys() = default;
+
+  /// What the table is, in a sentence or two.
+  virtual void about(const char*) {}
+
+  /// A key that must be there, and one that may: then the value stays as it is where the key is absent.
+  template <class T> void must(const char* name, T& value, const char* means, Range range = {}) { take({name, means, true, range}, value); }
+  template <class T> void may(const char* name, T& value, const char* means, Range range = {}) { take({name, means, false, range}, value); }
+  /// A name of something new; an existing file, sought from the folder of the problem file.
+  void name(const char* key, std::string& value, const char* means) { take({key, means, true, {}, Kind::name}, value); }
+  void may_name(const char* key, std::string& value, const char* means) { this->value({key, means, false, {}, Kind::name}, &value, !value.empty()); }
+  void file(const char* key, std::string& value, const char* means) { take({key, means, true, {}, Kind::file}, value); }
+  void may_file(const char* key, std::string& value, const char* means) { this->value({key, means, false, {}, Kind::file}, &value, !value.empty()); }
+  /// A string or a list of them.
+  template <class T> void one_or_more(const char* key, T& list, const char* means) { take({key, means, false, {}, Kind::one_or_more}, list); }
+  void must_one_or_more(const char* key, std::vector<std::string>& list, const char* means) { take({key, means, true, {}, Kind::one_or_more}, list); }
+  /// A number, or a list of two for unlike materials.
+  void one_or_two(const char* key, std::vector<double>& list, const char* means, Range range) {
+    value({key, means, false, range, Kind::one_or_two}, &list, !list.empty());
   }
-  template <class T> void tables(const char* key, std::vector<T>&) {
-    T value;
-    descend(key, KeyTree::Kind::tables, value);
+  /// A list of any values, kept as TOML.
+  void values(const char* key, std::vector<std::string>& list, const char* means) { value({key, means, false, {}, Kind::values}, &list, false); }
+  /// A point, with or without its coordinate along the axis, which is not read.
+  void center(const char* key, Vec3& x, int axis, const char* means) { value({key, means, true, {}, Kind::center, {}, axis}, &x, true); }
+
+  /// One of some words. False: it was none of them, or is missing, and that was told.
+  template <class T, class W, std::size_t n> bool word(const char* key, T& value, const Word<W> (&known)[n], const char* means, bool needed = false) {
+    int at = -1;
+    for (std::size_t i = 0; i < n; ++i)
+      if (value == known[i].value) at = static_cast<int>(i);
+    if (!choose({key, means, needed, {}, Kind::plain, texts(known)}, at)) return false;
+    if (at >= 0) value = known[at].value;
+    return true;
   }
-  void skip_the_rest() {}
+  template <class T, class W, std::size_t n> bool must_word(const char* key, T& value, const Word<W> (&known)[n], const char* means) {
+    return word(key, value, known, means, true);
+  }
+  /// Some of them, each once.
+  template <std::size_t n> void words(const char* key, std::vector<std::string>& list, const Word<const char*> (&known)[n], const char* means) {
+    value({key, means, false, {}, Kind::words, texts(known)}, &list, true);
+  }
+
+  /// [key], may be absent; [[key]], any number.
+  template <class T> void table(const char* key, T& t) {
+    below(key, {false, 1, [] {}, [&](std::size_t, Keys& keys) -> TablePlace& { return describe(keys, t), t.place; }});
+  }
+  template <class T> void table(const char* key, std::optional<T>& t) {
+    below(key, {false, t.has_value(), [&] { t.emplace(); }, [&](std::size_t, Keys& keys) -> TablePlace& { return describe(keys, *t), t->place; }});
+  }
+  template <class T> void tables(const char* key, std::vector<T>& list) {
+    below(key, {true, list.size(), [&] { list.emplace_back(); },
+                [&](std::size_t i, Keys& keys) -> TablePlace& { return describe(keys, list[i]), list[i].place; }});
+  }
+
+  /// Keys that there are only with some words of the key `by`. Those of the other choices are refused, as not belonging to `what`.
+  struct Choice {
+    Names words;
+    const char* what;                           // "a circle"
+    bool chosen;
+    std::function<void()> keys;
+  };
+  virtual void either(const char* by, const std::vector<Choice>& choices) = 0;
+  /// The word that the other keys depend on could not be read: what else is there is not looked at.
+  virtual void skip_the_rest() {}
+
+  /// Of these keys one at most.
+  virtual void at_most_one(const Names&) {}
+  /// Of these keys one at least; `wanted`: what to give.
+  virtual void one_at_least(const Names&, const char* /*wanted*/) {}
+  /// Keys that are of no use without one of the `needed`, which are `what`.
+  virtual void with(const Names& /*keys*/, const Names& /*needed*/, const char* /*what*/) {}
+
+ protected:
+  /// Tables below a key: how many there are, how one is added, and what describes the i-th and tells where it stands.
+  struct Below {
+    bool many;
+    std::size_t count;
+    std::function<void()> add;
+    std::function<TablePlace&(std::size_t, Keys&)> each;
+  };
+  /// there: whether there is a value yet. True if one was put there.
+  virtual bool value(const Key& key, KeyValue value, bool there) = 0;
+  /// at: index of the word that stands there, −1 for none.
+  virtual bool choose(const Key& key, int& at) = 0;
+  virtual void below(const char* key, const Below& tables) = 0;
 
  private:
-  KeyTree& add(const char* key) { return tree_.keys.emplace_back(key, KeyTree{}).second; }
-  template <class T> void descend(const char* key, KeyTree::Kind kind, T& value) {
-    KeyTree& below = add(key);
-    below.kind = kind;
-    Keys keys(below);
-    describe(keys, value);
+  template <class T> void take(const Key& key, T& v) { value(key, &v, true); }
+  template <class T> void take(const Key& key, std::optional<T>& v) {
+    T held = blank(std::type_identity<T>());
+    if (v) held = *v;
+    if (value(key, &held, v.has_value())) v = std::move(held);
   }
-  KeyTree& tree_;
+  template <class T> static T blank(std::type_identity<T>) { return T{}; }
+  static Vec3 blank(std::type_identity<Vec3>) { return Vec3::Zero(); }
+  template <class W, std::size_t n> static std::vector<std::string> texts(const Word<W> (&known)[n]) {
+    std::vector<std::string> all;
+    for (const auto& w : known) all.push_back(w.text);
+    return all;
+  }
 };
 
 }  // namespace elamin

@@ -1,7 +1,7 @@
 #pragma once
 // Collects what is wrong with a problem file, so that everything is told in one go.
 #include "core/error.hpp"
-#include "input/problem.hpp"
+#include "input/table.hpp"
 
 #include <string>
 #include <vector>

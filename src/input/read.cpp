@@ -1,5 +1,6 @@
 #include "input/read.hpp"
 
+#include "dynamics/relax.hpp"
 #include "input/build.hpp"
 #include "input/check.hpp"
 #include "input/reader.hpp"
@@ -14,8 +15,15 @@ namespace {
 
 /// Defaults that are the values of other keys.
 void complete(Problem& p) {
-  if (!p.solver.max_iterations && p.solver.method.rfind("nlopt:", 0) != 0)
-    p.solver.max_iterations = p.solver.by_newton() ? 200 : p.solver.method == "ipopt" ? 1000 : 200'000;
+  if (!p.study_place.written("type"))
+    p.study = !p.dynamics.place.key.empty()                           ? StudyType::dynamics
+              : !p.path.place.key.empty() || !p.stages.empty() ? StudyType::path
+              : !p.modes.place.key.empty()                             ? StudyType::modes
+                                                                       : StudyType::equilibrium;
+  if (!p.solver.max_iterations) p.solver.max_iterations = standard_iterations(p.solver);
+  if (p.dynamics.relax && !p.dynamics.place.written("steps")) p.dynamics.steps = static_cast<int>(RelaxOptions{}.max_steps);
+  for (ObserveTable& o : p.observe)
+    if (!o.place.written("reduce")) o.reduce = default_reduce(o.quantity);
   const bool arc_length = p.path.method == PathMethod::arc_length;
   if (!p.path.when_unstable) p.path.when_unstable = arc_length ? WhenUnstable::follow : WhenUnstable::jump;
   if ((arc_length || p.path.branches > 0) && !p.path.points) p.path.points = 20 * p.path.steps;

@@ -1,11 +1,68 @@
 #include "input/reader.hpp"
 
+#include "core/suggest.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 namespace elamin {
+namespace {
+
+std::string wanted_integer(Range limits) {
+  const auto end = [](double x) { return static_cast<long long>(x); };
+  if (limits.hi == range::any.hi) return "an integer";
+  if (limits.hi == range::id.hi) return fmt::format("an integer of at least {}", end(limits.lo));
+  if (limits.lo == limits.hi) return std::to_string(end(limits.lo));
+  return fmt::format("an integer from {} to {}", end(limits.lo), end(limits.hi));
+}
+
+std::string wanted_number(Range limits) {
+  if (limits.lo == range::any.lo) return "a finite number";
+  if (limits.hi == range::any.hi) return limits.above ? "a positive number" : "a number that is not negative";
+  return fmt::format("a number {} {} and at most {}", limits.above ? "above" : "of at least", limits.lo, limits.hi);
+}
+
+struct Wanted {
+  const Key& key;
+  std::string operator()(bool*) const { return "true or false"; }
+  std::string operator()(int*) const { return wanted_integer(key.range); }
+  std::string operator()(double*) const { return wanted_number(key.range); }
+  std::string operator()(std::string*) const { return key.words.empty() ? "a string" : quoted_choice(key.words); }
+  std::string operator()(Vec3*) const {
+    return key.kind == Key::Kind::center ? "a list of two coordinates, without the one along the axis, or of three" : "a list of three numbers [x, y, z]";
+  }
+  std::string operator()(Rest*) const { return "\"straight\", \"as_built\" or an angle in degrees"; }
+  std::string operator()(std::array<double, 2>*) const { return "a list of two positive numbers"; }
+  std::string operator()(std::array<std::string, 2>*) const { return "a list of the names of two groups"; }
+  std::string operator()(std::vector<int>*) const { return "a list of integers, at least one"; }
+  std::string operator()(std::vector<double>*) const {
+    return key.kind == Key::Kind::one_or_two ? wanted_number(key.range) + ", or a list of two, for unlike materials" : "a list of numbers, at least one";
+  }
+  std::string operator()(std::vector<Vec3>*) const { return "a list of points [[x, y, z], …], at least one"; }
+  std::string operator()(std::vector<std::vector<int>>*) const { return "a list of lists of integers, at least one"; }
+  std::string operator()(std::vector<std::string>*) const {
+    return key.kind == Key::Kind::words    ? "a list of the words " + quoted_choice(key.words)
+           : key.kind == Key::Kind::values ? "a list of values, at least one"
+                                           : "a string or a list of strings";
+  }
+};
+
+/// Of an element of [[…]]: its name, or its number.
+std::string label(const Entries& entries, std::size_t index) {
+  const Node* node = find(entries, "name");
+  const auto* name = node ? std::get_if<std::string>(&node->value) : nullptr;
+  return name && is_name(*name) ? *name : std::to_string(index + 1);
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); }
+
+}  // namespace
+
+std::string wanted(const Key& key, KeyValue value) { return std::visit(Wanted{key}, value); }
 
 bool is_name(const std::string& word) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
@@ -13,15 +70,15 @@ bool is_name(const std::string& word) {
   return std::all_of(word.begin(), word.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
-Reader::Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder,
-               Mistakes& mistakes)
+Reader::Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder, Mistakes& mistakes)
     : entries_(entries), key_(std::move(key)), kind_(std::move(kind)), folder_(folder), mistakes_(mistakes) {
   static_cast<Place&>(place_) = place;
   place_.key = key_;
 }
 
 const Node* Reader::find(const char* key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (others_) return others_->push_back(key), nullptr;
+  if (!contains(known_, key)) known_.push_back(key);
   const Node* node = elamin::find(entries_, key);
   if (node) place_.keys[key] = node->place;
   return node;
@@ -30,13 +87,11 @@ const Node* Reader::find(const char* key) {
 TablePlace Reader::finish() {
   if (skip_) return place_;
   for (const Entry& e : entries_) {
-    if (std::find(known_.begin(), known_.end(), e.key) != known_.end()) continue;
-    const bool is_table = std::holds_alternative<Entries>(e.node.value) ||
-                          (is_tables(e.node) && !std::get<List>(e.node.value).empty());
+    if (contains(known_, e.key)) continue;
+    const bool is_table = std::holds_alternative<Entries>(e.node.value) || (is_tables(e.node) && !std::get<List>(e.node.value).empty());
     const Place at = is_table ? e.node.place : e.place;
     const std::string key = inside(is_name(e.key) ? e.key : in_quotes(e.key));
-    mistake(at, key, (is_table ? "unknown table; allowed: " : "unknown key; allowed: ") + listed(known_) +
-                         did_you_mean(e.key, known_));
+    mistake(at, key, (is_table ? "unknown table; allowed: " : "unknown key; allowed: ") + listed(known_) + did_you_mean(e.key, known_));
   }
   return place_;
 }
@@ -45,229 +100,252 @@ void Reader::mistake(Place at, const std::string& key, const std::string& what) 
   place_.broken = true;
   mistakes_.add(at, key, what);
 }
-void Reader::missing(const char* key, const std::string& wanted) {
-  mistake(place_, inside(key), "is missing; it must be " + wanted);
-}
-void Reader::wrong(const char* key, const Node& node, const std::string& wanted) {
-  mistake(node.place, inside(key), "must be " + wanted + ", is " + shown(node));
-}
-
-std::string Reader::wanted(int, Range limits) {
-  const auto end = [](double x) { return static_cast<long long>(x); };
-  if (limits.hi == range::id.hi) return fmt::format("an integer of at least {}", end(limits.lo));
-  if (limits.lo == limits.hi) return std::to_string(end(limits.lo));
-  return fmt::format("an integer from {} to {}", end(limits.lo), end(limits.hi));
-}
-std::string Reader::wanted(double, Range limits) {
-  if (limits.lo == range::any.lo) return "a finite number";
-  if (limits.hi == range::any.hi) return limits.above ? "a positive number" : "a number that is not negative";
-  return fmt::format("a number {} {} and at most {}", limits.above ? "above" : "of at least", limits.lo, limits.hi);
+void Reader::missing(const char* key, const std::string& what) { mistake(place_, inside(key), "is missing; it must be " + what); }
+bool Reader::wrong(const Key& key, const Node& node, const std::string& what) {
+  mistake(node.place, inside(key.name), "must be " + what + ", is " + shown(node));
+  return false;
 }
 
-bool Reader::read(const char* key, const Node& node, bool& value, Range limits) {
+void Reader::either(const char*, const std::vector<Choice>& choices) {
+  if (others_) {
+    for (const Choice& c : choices) c.keys();
+    return;
+  }
+  std::vector<std::string> others;
+  const std::size_t before = known_.size();
+  const char* what = "";
+  for (const Choice& c : choices)
+    if (c.chosen) what = c.what, c.keys();
+  std::string own;
+  for (std::size_t i = before; i < known_.size(); ++i) own += (i == before ? "" : i + 1 == known_.size() ? " and " : ", ") + known_[i];
+  others_ = &others;
+  for (const Choice& c : choices)
+    if (!c.chosen) c.keys();
+  others_ = nullptr;
+  for (const std::string& key : others) {
+    const Node* node = elamin::find(entries_, key);
+    if (!node || contains(known_, key)) continue;
+    find(key.c_str());
+    mistake(node->place, inside(key), fmt::format("does not belong to {}{}", what, own.empty() || std::strchr(what, ',') ? "" : ", which has " + own));
+  }
+}
+
+void Reader::at_most_one(const Names& keys) {
+  const char* first = nullptr;
+  for (const char* key : keys) {
+    if (others_ || !has(key)) continue;
+    if (first) mistake(elamin::find(entries_, key)->place, inside(key), std::string(first) + " is there too; give one of them");
+    else first = key;
+  }
+}
+
+void Reader::one_at_least(const Names& keys, const char* what) {
+  if (others_ || std::any_of(keys.begin(), keys.end(), [&](const char* key) { return has(key); })) return;
+  std::string names;
+  for (std::size_t i = 0; i < keys.size(); ++i) names += (i == 0 ? "" : i + 1 == keys.size() ? " or " : ", ") + std::string(keys[i]);
+  mistake(place_, key_, names + " is missing; " + what);
+}
+
+void Reader::with(const Names& keys, const Names& needed, const char* what) {
+  if (others_ || std::any_of(needed.begin(), needed.end(), [&](const char* key) { return has(key); })) return;
+  std::string names;
+  for (const char* key : needed) names += (names.empty() ? "" : " or ") + std::string(key);
+  for (const char* key : keys)
+    if (has(key)) mistake(elamin::find(entries_, key)->place, inside(key), fmt::format("is of no use without {}, {}", names, what));
+}
+
+void Reader::below(const char* key, const Below& tables) {
+  const Node* node = find(key);
+  if (!node) return;
+  const std::string kind = kind_.empty() ? key : kind_ + "." + key;
+  if (!tables.many) {
+    const auto* entries = std::get_if<Entries>(&node->value);
+    if (!entries) return void(wrong({key, ""}, *node, "a table [" + kind + "]"));
+    tables.add();
+    return read_table(*entries, node->place, inside(key), kind, tables, 0);
+  }
+  if (!is_tables(*node)) return void(wrong({key, ""}, *node, "tables with double brackets, [[" + kind + "]]"));
+  const List& list = std::get<List>(node->value);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto& entries = std::get<Entries>(list[i].value);
+    tables.add();
+    read_table(entries, list[i].place, inside(key) + "." + label(entries, i), kind, tables, i);
+  }
+}
+
+void Reader::read_table(const Entries& entries, Place place, const std::string& key, const std::string& kind, const Below& tables, std::size_t i) {
+  Reader reader(entries, place, key, kind, folder_, mistakes_);
+  TablePlace& where = tables.each(i, reader);
+  where = reader.finish();
+  if (where.broken) place_.broken = true;
+}
+
+bool Reader::value(const Key& key, KeyValue value, bool) {
+  const Node* node = find(key.name);
+  if (others_) return false;
+  if (!node) {
+    if (key.needed) missing(key.name, wanted(key, value));
+    return false;
+  }
+  return std::visit([&](auto* v) {
+    using T = std::remove_pointer_t<decltype(v)>;
+    if constexpr (std::is_same_v<T, std::vector<double>>)
+      if (key.kind == Kind::one_or_two) return read_one_or_two(key, *node, *v);
+    if constexpr (std::is_same_v<T, Vec3>)
+      if (key.kind == Kind::center) return read_center(key, *node, *v);
+    if constexpr (std::is_same_v<T, std::string>)
+      if (key.kind == Kind::file) return read_file(key, *node, *v);
+    return read(key, *node, *v);
+  }, value);
+}
+
+bool Reader::choose(const Key& key, int& at) {
+  const Node* node = find(key.name);
+  if (others_) return true;
+  if (node) {
+    const int i = one_of(key, *node);
+    if (i >= 0) at = i;
+    return i >= 0;
+  }
+  if (key.needed) missing(key.name, quoted_choice(key.words));
+  return !key.needed;
+}
+
+int Reader::one_of(const Key& key, const Node& node) {
+  const auto* text = std::get_if<std::string>(&node.value);
+  const auto found = text ? std::find(key.words.begin(), key.words.end(), *text) : key.words.end();
+  if (found != key.words.end()) return static_cast<int>(found - key.words.begin());
+  mistake(node.place, inside(key.name), "must be " + quoted_choice(key.words) + ", is " + shown(node) + (text ? did_you_mean(*text, key.words) : ""));
+  return -1;
+}
+
+bool Reader::read(const Key& key, const Node& node, bool& value) {
   const bool* flag = std::get_if<bool>(&node.value);
-  if (!flag) return wrong(key, node, wanted(value, limits)), false;
+  if (!flag) return wrong(key, node, wanted(key, &value));
   value = *flag;
   return true;
 }
 
-bool Reader::read(const char* key, const Node& node, int& value, Range limits) {
+bool Reader::read(const Key& key, const Node& node, int& value) {
   const auto* integer = std::get_if<std::int64_t>(&node.value);
-  if (!integer || static_cast<double>(*integer) < limits.lo || static_cast<double>(*integer) > limits.hi)
-    return wrong(key, node, wanted(value, limits)), false;
+  const bool inside_range = integer && static_cast<double>(*integer) >= std::max<double>(key.range.lo, std::numeric_limits<int>::min()) &&
+                            static_cast<double>(*integer) <= std::min<double>(key.range.hi, std::numeric_limits<int>::max());
+  if (!inside_range) return wrong(key, node, wanted(key, &value));
   value = static_cast<int>(*integer);
   return true;
 }
 
-bool Reader::read(const char* key, const Node& node, double& value, Range limits) {
+bool Reader::read(const Key& key, const Node& node, double& value) {
   const auto* integer = std::get_if<std::int64_t>(&node.value);
   const auto* real = std::get_if<double>(&node.value);
   const double x = integer ? static_cast<double>(*integer) : real ? *real : std::nan("");
-  const bool inside_range = (limits.above ? x > limits.lo : x >= limits.lo) && x <= limits.hi;   // false for nan
-  if (!inside_range) return wrong(key, node, wanted(value, limits)), false;
+  const bool inside_range = (key.range.above ? x > key.range.lo : x >= key.range.lo) && x <= key.range.hi;   // false for nan
+  if (!inside_range) return wrong(key, node, wanted_number(key.range));
   value = x;
   return true;
 }
 
-bool Reader::read(const char* key, const Node& node, std::string& value, Range limits) {
+bool Reader::read(const Key& key, const Node& node, std::string& value) {
   const auto* text = std::get_if<std::string>(&node.value);
-  if (!text) return wrong(key, node, wanted(value, limits)), false;
-  if (text->find('\0') != std::string::npos)
-    return mistake(node.place, inside(key), "must not hold the character 0"), false;
+  if (!text) return wrong(key, node, "a string");
+  if (text->find('\0') != std::string::npos) return mistake(node.place, inside(key.name), "must not hold the character 0"), false;
   value = *text;
+  if (key.kind == Kind::name && !is_name(value)) wrong(key, node, "a name of letters, digits, '_' and '-', a letter first, at most 64 of them");
   return true;
 }
 
-bool Reader::read(const char* key, const Node& node, Vec3& value, Range limits) {
+bool Reader::read(const Key& key, const Node& node, Vec3& value) {
   const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->size() != 3) return wrong(key, node, wanted(value, limits)), false;
+  if (!list || list->size() != 3) return wrong(key, node, wanted({key.name, ""}, &value));
   Vec3 v = Vec3::Zero();
   bool good = true;
-  for (int c = 0; c < 3; ++c) good = read(key, (*list)[c], v[c], limits) && good;
+  for (int c = 0; c < 3; ++c) good = read(key, (*list)[c], v[c]) && good;
   if (good) value = v;
   return good;
 }
 
-bool Reader::read(const char* key, const Node& node, std::vector<int>& value, Range limits) {
+template <class T> bool Reader::read(const Key& key, const Node& node, std::vector<T>& value) {
   const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->empty()) return wrong(key, node, "a list of integers, at least one"), false;
+  if (!list || list->empty()) return wrong(key, node, wanted({key.name, ""}, &value));
   bool good = true;
-  for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
+  for (const Node& n : *list) good = read(key, n, value.emplace_back()) && good;
   return good;
 }
 
-bool Reader::read(const char* key, const Node& node, std::vector<double>& value, Range limits) {
+template <class T> bool Reader::read(const Key& key, const Node& node, std::array<T, 2>& value) {
   const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->empty()) return wrong(key, node, "a list of numbers, at least one"), false;
-  bool good = true;
-  for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
-  return good;
-}
-
-bool Reader::read(const char* key, const Node& node, std::vector<Vec3>& value, Range limits) {
-  const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->empty()) return wrong(key, node, "a list of points [[x, y, z], …], at least one"), false;
-  bool good = true;
-  for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
-  return good;
-}
-
-bool Reader::read(const char* key, const Node& node, std::vector<std::vector<int>>& value, Range limits) {
-  const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->empty()) return wrong(key, node, "a list of lists of integers, at least one"), false;
-  bool good = true;
-  for (const Node& n : *list) good = read(key, n, value.emplace_back(), limits) && good;
-  return good;
-}
-
-bool Reader::read(const char* key, const Node& node, std::array<double, 2>& value, Range limits) {
-  const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->size() != 2) return wrong(key, node, wanted(value, limits)), false;
-  const bool first = read(key, (*list)[0], value[0], limits), second = read(key, (*list)[1], value[1], limits);
+  if (!list || list->size() != 2) return wrong(key, node, wanted(key, &value));
+  const bool first = read(key, (*list)[0], value[0]), second = read(key, (*list)[1], value[1]);
   return first && second;
 }
 
-bool Reader::read(const char* key, const Node& node, std::array<std::string, 2>& value, Range limits) {
-  const auto* list = std::get_if<List>(&node.value);
-  if (!list || list->size() != 2) return wrong(key, node, wanted(value, limits)), false;
-  const bool first = read(key, (*list)[0], value[0], limits), second = read(key, (*list)[1], value[1], limits);
-  return first && second;
-}
-
-bool Reader::read(const char* key, const Node& node, Rest& value, Range limits) {
+bool Reader::read(const Key& key, const Node& node, Rest& value) {
   const auto* text = std::get_if<std::string>(&node.value);
-  const bool number = std::holds_alternative<double>(node.value) || std::holds_alternative<std::int64_t>(node.value);
-  if (number) {
+  if (std::holds_alternative<double>(node.value) || std::holds_alternative<std::int64_t>(node.value)) {
     value.as_built = false;
-    return read(key, node, value.degrees, limits);
+    return read(key, node, value.degrees);
   }
-  if (!text || (*text != "straight" && *text != "as_built"))
-    return wrong(key, node, "\"straight\", \"as_built\" or an angle in degrees"), false;
+  if (!text || (*text != "straight" && *text != "as_built")) return wrong(key, node, wanted(key, &value));
   value = {*text == "as_built", 180};
   return true;
 }
 
-void Reader::one_or_more(const char* key, std::vector<std::string>& values) {
-  const Node* node = find(key);
-  if (!node) return;
+bool Reader::read(const Key& key, const Node& node, std::vector<std::string>& values) {
+  const auto* list = std::get_if<List>(&node.value);
   values.clear();
-  const auto* list = std::get_if<List>(&node->value);
+  if (key.kind == Kind::words) return read_words(key, node, values);
+  if (key.kind == Kind::values) {
+    if (!list || list->empty()) return wrong(key, node, wanted(key, &values));
+    for (const Node& n : *list) values.push_back(to_toml(n));
+    return true;
+  }
   const auto is_text = [](const Node& n) { return std::holds_alternative<std::string>(n.value); };
-  if (list ? !std::all_of(list->begin(), list->end(), is_text) : !is_text(*node))
-    return wrong(key, *node, "a string or a list of strings");
-  if (!list) read(key, *node, values.emplace_back(), range::any);
+  if (list ? !std::all_of(list->begin(), list->end(), is_text) : !is_text(node)) return wrong(key, node, wanted(key, &values));
+  if (!list) read(key, node, values.emplace_back());
   else
-    for (const Node& n : *list) read(key, n, values.emplace_back(), range::any);
+    for (const Node& n : *list) read(key, n, values.emplace_back());
+  return true;
 }
 
-void Reader::one_or_two(const char* key, std::vector<double>& values, Range limits) {
-  const Node* node = find(key);
-  if (!node) return;
-  const auto* list = std::get_if<List>(&node->value);
+bool Reader::read_words(const Key& key, const Node& node, std::vector<std::string>& list) {
+  const auto* nodes = std::get_if<List>(&node.value);
+  if (!nodes) return wrong(key, node, wanted(key, &list));
+  for (const Node& n : *nodes) {
+    const int i = one_of(key, n);
+    if (i < 0) continue;
+    if (contains(list, key.words[i])) mistake(n.place, inside(key.name), in_quotes(key.words[i]) + " is there twice; once is enough");
+    else list.push_back(key.words[i]);
+  }
+  return true;
+}
+
+bool Reader::read_one_or_two(const Key& key, const Node& node, std::vector<double>& values) {
+  const auto* list = std::get_if<List>(&node.value);
   values.clear();
-  if (!list)
-    read(key, *node, values.emplace_back(), limits);
-  else if (list->size() == 2)
-    read(key, *node, values, limits);
-  else
-    wrong(key, *node, wanted(0.0, limits) + ", or a list of two, for unlike materials");
+  if (!list) return read(key, node, values.emplace_back());
+  if (list->size() == 2) return read<double>(key, node, values);
+  return wrong(key, node, wanted(key, &values));
 }
 
-void Reader::center(const char* key, Vec3& value, int axis) {
-  const Node* node = find(key);
-  if (!node) return missing(key, "a list of two coordinates, without the one along the axis, or of three");
-  const auto* list = std::get_if<List>(&node->value);
-  if (!list || (list->size() != 2 && list->size() != 3))
-    return wrong(key, *node, "a list of two coordinates, without the one along the axis, or of three");
+bool Reader::read_center(const Key& key, const Node& node, Vec3& value) {
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || (list->size() != 2 && list->size() != 3)) return wrong(key, node, wanted(key, &value));
   value = Vec3::Zero();
   for (int c = 0, i = 0; c < 3; ++c)
-    if (c != axis || list->size() == 3) read(key, (*list)[i++], value[c], range::any);
-  value[axis] = 0;
+    if (c != key.axis || list->size() == 3) read(key, (*list)[i++], value[c]);
+  value[key.axis] = 0;
+  return true;
 }
 
-void Reader::foreign(const char* key, const std::string& what) {
-  if (const Node* node = elamin::find(entries_, key)) {
-    find(key);
-    mistake(node->place, inside(key), "does not belong to " + what);
-  }
-}
-
-void Reader::name(const char* key, std::string& value) {
-  must(key, value);
-  const Node* node = find(key);
-  if (node && std::holds_alternative<std::string>(node->value) && !is_name(value))
-    wrong(key, *node, "a name of letters, digits, '_' and '-', a letter first, at most 64 of them");
-}
-
-void Reader::file(const char* key, std::string& value) {
-  must(key, value);
-  const Node* node = find(key);
-  if (!node || !std::holds_alternative<std::string>(node->value)) return;
-  if (value.empty()) return wrong(key, *node, "the name of a file");
+bool Reader::read_file(const Key& key, const Node& node, std::string& value) {
+  if (!read(key, node, value)) return false;
+  if (value.empty()) return wrong(key, node, "the name of a file");
   std::error_code error;
   const auto path = std::filesystem::absolute(std::filesystem::path(folder_) / value, error).lexically_normal();
   if (!std::filesystem::exists(path, error))
-    mistake(node->place, inside(key),
-            "there is no file " + in_quotes(value) + "; it is sought from the folder of this file");
+    mistake(node.place, inside(key.name), "there is no file " + in_quotes(value) + "; it is sought from the folder of this file");
   value = path.string();
-}
-
-void Reader::raw(const char* key, std::vector<std::string>& values) {
-  const Node* node = find(key);
-  if (!node) return;
-  const auto* list = std::get_if<List>(&node->value);
-  if (!list || list->empty()) return wrong(key, *node, "a list of values, at least one");
-  for (const Node& n : *list) values.push_back(to_toml(n));
-}
-
-int Reader::one_of(const char* key, const Node& node, const std::vector<std::string>& known) {
-  const auto* text = std::get_if<std::string>(&node.value);
-  const auto found = text ? std::find(known.begin(), known.end(), *text) : known.end();
-  if (found != known.end()) return static_cast<int>(found - known.begin());
-  mistake(node.place, inside(key),
-          "must be " + quoted_choice(known) + ", is " + shown(node) + (text ? did_you_mean(*text, known) : ""));
-  return -1;
-}
-
-void Reader::some_of(const char* key, const Node& node, const std::vector<std::string>& known,
-                     std::vector<std::string>& list) {
-  const auto* nodes = std::get_if<List>(&node.value);
-  if (!nodes) return wrong(key, node, "a list of the words " + quoted_choice(known));
-  list.clear();
-  for (const Node& n : *nodes) {
-    const int i = one_of(key, n, known);
-    if (i < 0) continue;
-    if (std::find(list.begin(), list.end(), known[i]) != list.end())
-      mistake(n.place, inside(key), in_quotes(known[i]) + " is there twice; once is enough");
-    else
-      list.push_back(known[i]);
-  }
-}
-
-std::string Reader::label(const Entries& entries, std::size_t index) {
-  const Node* node = elamin::find(entries, "name");
-  const auto* name = node ? std::get_if<std::string>(&node->value) : nullptr;
-  return name && is_name(*name) ? *name : std::to_string(index + 1);
+  return true;
 }
 
 }  // namespace elamin

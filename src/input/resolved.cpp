@@ -1,98 +1,70 @@
 #include "input/resolved.hpp"
 
 #include "input/document.hpp"
-#include "input/schema.hpp"
+#include "input/keys.hpp"
+
+#include <fmt/format.h>
 
 namespace elamin {
 namespace {
 
-/// The io of `describe` that writes.
-class Writer {
+std::string text_of(bool value) { return value ? "true" : "false"; }
+std::string text_of(int value) { return std::to_string(value); }
+std::string text_of(double value) { return to_toml(value); }
+std::string text_of(const std::string& value) { return to_toml(value); }
+std::string text_of(const Vec3& v) { return "[" + text_of(v.x()) + ", " + text_of(v.y()) + ", " + text_of(v.z()) + "]"; }
+std::string text_of(const Rest& r) {
+  return r.as_built ? text_of(std::string("as_built")) : r.degrees == 180 ? text_of(std::string("straight")) : text_of(r.degrees);
+}
+template <class T> std::string text_of(const std::array<T, 2>& pair) { return "[" + text_of(pair[0]) + ", " + text_of(pair[1]) + "]"; }
+template <class T> std::string text_of(const std::vector<T>& list) {
+  std::string text;
+  for (const T& value : list) text += (text.empty() ? "" : ", ") + text_of(value);
+  return "[" + text + "]";
+}
+
+/// The Keys that write.
+class Writer : public Keys {
  public:
-  static constexpr bool reading = false;
   Writer(std::string& text, std::string path) : text_(text), path_(std::move(path)) {}
 
-  template <class T> void must(const char* key, const T& value, Range = {}) { line(key, toml(value)); }
-  template <class T> void may(const char* key, const T& value, Range = {}) { line(key, toml(value)); }
-  template <class T> void may(const char* key, const std::optional<T>& value, Range = {}) {
-    if (value) line(key, toml(*value));
+  void either(const char*, const std::vector<Choice>& choices) override {
+    for (const Choice& c : choices)
+      if (c.chosen) c.keys();
   }
-  template <class T> void must(const char* key, const std::optional<T>& value, Range = {}) { may(key, value); }
-  void one_or_more(const char* key, const std::vector<std::string>& list) { line(key, toml(list)); }
-  void must_one_or_more(const char* key, const std::vector<std::string>& list) { one_or_more(key, list); }
-  void one_or_more(const char* key, const std::optional<std::vector<std::string>>& list) { may(key, list); }
-  void one_or_two(const char* key, const std::vector<double>& values, Range) {
-    if (!values.empty()) line(key, values.size() == 1 ? toml(values[0]) : toml(values));
-  }
-  void center(const char* key, const Vec3& value, int axis) {
-    line(key, toml(std::array{value[axis == 0 ? 1 : 0], value[axis == 2 ? 1 : 2]}));
-  }
-  void foreign(const char*, const std::string&) {}
-  void name(const char* key, const std::string& value) { line(key, toml(value)); }
-  void may_name(const char* key, const std::string& value) {
-    if (!value.empty()) name(key, value);
-  }
-  void file(const char* key, const std::string& value) { line(key, toml(value)); }
-  void may_file(const char* key, const std::string& value) {
-    if (!value.empty()) line(key, toml(value));
-  }
-  void raw(const char*, const std::vector<std::string>&) {}   // sweeps are not written
-  template <class T, class W, std::size_t n> bool word(const char* key, const T& value, const Word<W> (&words)[n]) {
-    for (const auto& w : words)
-      if (value == w.value) line(key, toml(std::string(w.text)));
-    return true;
-  }
-  template <class T, class W, std::size_t n>
-  bool must_word(const char* key, const T& value, const Word<W> (&words)[n]) {
-    return word(key, value, words);
-  }
-  template <class Words>
-  void words(const char* key, const std::vector<std::string>& list, const Words&) {
-    line(key, toml(list));
-  }
-
-  template <class T> void table(const char* key, T& value) { descend("[" + inside(key) + "]", key, value); }
-  template <class T> void table(const char* key, std::optional<T>& value) {
-    if (value) table(key, *value);
-  }
-  template <class T> void tables(const char* key, std::vector<T>& list) {
-    for (T& value : list) descend("[[" + inside(key) + "]]", key, value);
-  }
-  void skip_the_rest() {}
 
  private:
+  bool value(const Key& key, KeyValue value, bool there) override {
+    if (there) line(key.name, to_toml(key, value));
+    return false;
+  }
+  bool choose(const Key& key, int& at) override {
+    if (at >= 0) line(key.name, to_toml(key.words[at]));
+    return true;
+  }
+  void below(const char* key, const Below& tables) override {
+    const std::string path = path_.empty() ? key : path_ + "." + key;
+    for (std::size_t i = 0; i < tables.count; ++i) {
+      text_ += fmt::format(fmt::runtime(tables.many ? "\n[[{}]]\n" : "\n[{}]\n"), path);
+      Writer writer(text_, path);
+      tables.each(i, writer);
+    }
+  }
   void line(const char* key, const std::string& value) { text_ += std::string(key) + " = " + value + "\n"; }
-  template <class T> void descend(const std::string& header, const char* key, T& value) {
-    text_ += "\n" + header + "\n";
-    Writer writer(text_, inside(key));
-    describe(writer, value);
-  }
-  std::string inside(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-
-  static std::string toml(bool value) { return value ? "true" : "false"; }
-  static std::string toml(int value) { return std::to_string(value); }
-  static std::string toml(double value) { return to_toml(value); }
-  static std::string toml(const std::string& value) { return to_toml(value); }
-  static std::string toml(const Vec3& v) { return "[" + toml(v.x()) + ", " + toml(v.y()) + ", " + toml(v.z()) + "]"; }
-  static std::string toml(const Rest& r) {
-    return r.as_built         ? toml(std::string("as_built"))
-           : r.degrees == 180 ? toml(std::string("straight"))
-                              : toml(r.degrees);
-  }
-  template <class T> static std::string toml(const std::array<T, 2>& pair) {
-    return "[" + toml(pair[0]) + ", " + toml(pair[1]) + "]";
-  }
-  template <class T> static std::string toml(const std::vector<T>& list) {
-    std::string text;
-    for (const T& value : list) text += (text.empty() ? "" : ", ") + toml(value);
-    return "[" + text + "]";
-  }
 
   std::string& text_;
   std::string path_;
 };
 
 }  // namespace
+
+std::string to_toml(const Key& key, KeyValue value) {
+  if (const auto* x = std::get_if<Vec3*>(&value); x && key.kind == Key::Kind::center)
+    return text_of(std::array{(**x)[key.axis == 0 ? 1 : 0], (**x)[key.axis == 2 ? 1 : 2]});
+  if (const auto* list = std::get_if<std::vector<double>*>(&value); list && key.kind == Key::Kind::one_or_two && (*list)->size() == 1)
+    return text_of((**list)[0]);
+  return std::visit([](const auto* v) { return text_of(*v); }, value);
+}
 
 std::string resolved_toml(const Problem& problem) {
   ProblemFile file{problem, {}};

@@ -10,4 +10,7 @@ namespace elamin {
 /// same Problem, numbers to the last bit.
 std::string resolved_toml(const Problem& problem);
 
+/// The value of a key as TOML.
+std::string to_toml(const Key& key, KeyValue value);
+
 }  // namespace elamin

@@ -1,7 +1,7 @@
 #include "input/settings.hpp"
 
 #include "core/error.hpp"
-#include "input/keys.hpp"
+#include "input/key_tree.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
 
@@ -11,18 +11,6 @@
 
 namespace elamin {
 namespace {
-
-const KeyTree& key_tree() {
-  static const KeyTree tree = [] {
-    KeyTree root;
-    root.kind = KeyTree::Kind::table;
-    Keys keys(root);
-    ProblemFile file;
-    describe(keys, file);
-    return root;
-  }();
-  return tree;
-}
 
 std::vector<std::string> split(const std::string& key) {
   std::vector<std::string> parts(1);
@@ -61,10 +49,10 @@ class Walk {
       if (!child) return unknown(part);
       canonical_ += fmt::format("{}{}", at_ ? "." : "", part);
       ++at_;
-      if (child->kind == KeyTree::Kind::value) return value(part);
+      if (child->level == KeyTree::Level::value) return value(part);
       if (at_ == parts_.size()) return refuse("is a table; name one of its keys: " + listed(child->names()));
       tree_ = child;
-      if (!(child->kind == KeyTree::Kind::table ? table(part) : element(part))) return nullptr;
+      if (!(child->level == KeyTree::Level::table ? table(part) : element(part))) return nullptr;
       if (at_ == parts_.size()) return refuse("is a table; name one of its keys: " + listed(child->names()));
     }
   }
@@ -149,7 +137,7 @@ void apply(const Setting& setting, Document& document, Mistakes& mistakes) {
 
 bool has_table(const std::string& key) {
   const KeyTree* tree = key_tree().find(key);
-  return tree && tree->kind != KeyTree::Kind::value;
+  return tree && tree->level != KeyTree::Level::value;
 }
 
 std::string canonical_key(const std::string& key, const Document& document) {

@@ -1,7 +1,7 @@
 #include "input/staged_structure.hpp"
 
 #include "model/connect.hpp"
-#include "input/build_contacts.hpp"
+#include "input/interactions.hpp"
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>

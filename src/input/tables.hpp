@@ -2,7 +2,7 @@
 // From a document to structs, with the defaults that follow from other keys, and checked.
 #include "input/document.hpp"
 #include "input/mistakes.hpp"
-#include "input/schema.hpp"
+#include "input/problem.hpp"
 
 namespace elamin {
 

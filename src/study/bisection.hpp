@@ -2,7 +2,7 @@
 // A sweep that looks for the value of a key at which an outcome changes.
 #include "input/document.hpp"
 #include "input/mistakes.hpp"
-#include "input/schema.hpp"
+#include "input/problem.hpp"
 #include "input/settings.hpp"
 
 #include <string>

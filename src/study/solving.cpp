@@ -26,13 +26,13 @@ NewtonOptions solver_options(const Problem& problem) {
 
 Method solver_method(const Problem& problem) {
   const SolverTable& s = problem.solver;
-  const std::string of_nlopt = "nlopt:";
   if (s.method == "ipopt")
     return IpoptOptions{.tolerance = s.tolerance, .max_iterations = s.max_iterations.value_or(IpoptOptions{}.max_iterations)};
-  if (s.method.rfind(of_nlopt, 0) == 0)
-    return NloptOptions{.algorithm = s.method.substr(of_nlopt.size()), .tolerance = s.tolerance,
-                        .max_evaluations = s.max_evaluations, .polish = s.polish, .precondition = s.precondition,
-                        .bounds = s.bounds, .seed = static_cast<unsigned long>(s.seed)};
+  if (s.by_nlopt()) {
+    NloptOptions options = s.nlopt;
+    options.algorithm = s.method.substr(6), options.tolerance = s.tolerance;
+    return options;
+  }
   return s.method == "auto" ? Method(AutoOptions{}) : Method(solver_options(problem));
 }
 

@@ -1,0 +1,211 @@
+#include "input/beam.hpp"
+
+#include "input/mistakes.hpp"
+#include "model/centerline.hpp"
+#include "model/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+
+namespace {
+
+constexpr Word<Profile> profile_words[]{{"circle", Profile::circle}, {"sine", Profile::sine}};
+constexpr Word<ClampedEnds> clamped_words[]{{"from", ClampedEnds::from}, {"to", ClampedEnds::to}, {"both", ClampedEnds::both}};
+
+void check_corners(TablePlace& place, const std::vector<Vec3>& through, Mistakes& mistakes) {
+  if (through.size() < 2)
+    mistakes.add(place, "through", "must be a list of two points at least, [[x, y, z], [x, y, z]]");
+  for (std::size_t i = 1; i < through.size(); ++i)
+    if (through[i] == through[i - 1]) {
+      mistakes.add(place, "through", fmt::format("has points {} and {} in the same place", i, i + 1));
+      break;
+    }
+}
+
+void check_arch(BeamTable& b, bool in_plane, Mistakes& mistakes) {
+  const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
+  const bool is_arch = written("rise") || written("angle");
+  if (is_arch && !(written("from") && written("to")))
+    mistakes.add(b.place, written("rise") ? "rise" : "angle",
+                  "is of an arch, which stands on from and to; give both");
+  if (!is_arch) return;
+  if (b.rise && *b.rise == 0) mistakes.add(b.place, "rise", "must not be 0; leave it out for a straight beam");
+  if (!written("toward") && !in_plane && written("from") && written("to"))
+    mistakes.add(b.place, "toward",
+                  "is missing; the arch rises to this side of from and to. In a plane it may be left out");
+  if (b.from && b.to && b.toward && *b.from != *b.to && !rises({*b.from, *b.to, *b.toward}))
+    mistakes.add(b.place, "toward", "leads to no side of the line between from and to");
+  if (b.particles == 2) mistakes.add(b.place, "particles", "must be at least 3 for an arch");
+  if (b.profile != Profile::sine) return;
+  if (!written("rise")) mistakes.add(b.place, "profile", "of a sine needs rise");
+  if (b.clamped)
+    mistakes.add(b.place, "clamped", "is not for a sine; hold its ends with a [[support]] and leave this out");
+}
+
+}  // namespace
+
+void describe(Keys& keys, BeamTable& t) {
+  keys.about("A row of particles with bonds between neighbours and angles between triplets. Its place is from and to, or center, axis and "
+             "spacing, or through.");
+  keys.name("name", t.name, "its name, which is a group too");
+  keys.may("from_stage", t.from_stage, "the stage it is there from; by default from the start");
+  keys.word("section", t.section, section_words, "the section that the stiffnesses follow from");
+  keys.must("particles", t.particles, "how many", Range{2, most_particles});
+  keys.may("from", t.from, "centre of the first particle");
+  keys.may("to", t.to, "centre of the last one");
+  keys.may("rise", t.rise, "height of an arch between from and to [length]");
+  keys.may("angle", t.angle, "opening of the arc of an arch [degrees]", Range{0, 359, true});
+  keys.may("toward", t.toward, "the side that an arch rises to; by default in the plane, to the left");
+  keys.word("profile", t.profile, profile_words, "shape of an arch; by default a circle");
+  keys.may("through", t.through, "the corners that the row goes through; some particle must be on each");
+  keys.word("clamped", t.clamped, clamped_words, "ends with one particle beyond, to be held");
+  keys.may("center", t.center, "middle of the row");
+  keys.may("axis", t.axis, "its direction");
+  keys.may("spacing", t.spacing, "distance of neighbours [length]; by default the diameter", range::positive);
+  keys.must("diameter", t.diameter, "of the particles, for contact and mass [length]", range::positive);
+  describe_row_stiffness(keys, t);
+  keys.at_most_one({"rise", "angle"});
+  keys.with({"toward", "profile"}, {"rise", "angle"}, "which make it an arch");
+}
+
+void check(BeamTable& b, bool in_plane, Mistakes& mistakes) {
+  const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
+  const bool ends = written("from") || written("to"), middle = written("center") || written("axis");
+  if (written("through") && (ends || middle)) {
+    mistakes.add(b.place, "through", "gives the place; leave out from, to, center and axis");
+  } else if (ends && middle) {
+    mistakes.add(b.place, "has from or to as well as center or axis; give from and to, or center, axis and spacing");
+  } else if (written("through")) {
+    if (written("spacing")) mistakes.add(b.place, "spacing", "follows from through and particles; leave it out");
+    if (b.through) check_corners(b.place, *b.through, mistakes);
+  } else if (ends) {
+    if (!written("from"))
+      mistakes.add(b.place, "from", "is missing beside to; it must be a list of three numbers [x, y, z]");
+    if (!written("to"))
+      mistakes.add(b.place, "to", "is missing beside from; it must be a list of three numbers [x, y, z]");
+    if (written("spacing")) mistakes.add(b.place, "spacing", "follows from from, to and particles; leave it out");
+    if (b.from && b.to && *b.from == *b.to)
+      mistakes.add(b.place, "to", "is the same point as from; a beam has a length");
+  } else if (middle) {
+    if (!written("center"))
+      mistakes.add(b.place, "center", "is missing beside axis; it must be a list of three numbers [x, y, z]");
+    if (!written("axis"))
+      mistakes.add(b.place, "axis", "is missing beside center; it must be a list of three numbers [x, y, z]");
+    if (b.axis) check_direction(b.place, "axis", *b.axis, mistakes);
+  } else {
+    mistakes.add(b.place, "its place is missing; give from and to, or center, axis and spacing, or through");
+  }
+  check_arch(b, in_plane, mistakes);
+  if (b.clamped) {
+    const int least = 2 + (*b.clamped == ClampedEnds::both ? 2 : 1);
+    if (middle)
+      mistakes.add(b.place, "clamped", "needs ends; give from and to, or through");
+    else if (b.particles > 0 && b.particles < least)
+      mistakes.add(b.place, "particles",
+                    fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
+  }
+  check_row_stiffness(b.place, mistakes);
+}
+
+namespace {
+
+/// The ends of the beam beyond which one particle more stands.
+Clamped clamped_ends(const BeamTable& table) {
+  const bool both = table.clamped == ClampedEnds::both;
+  return {both || table.clamped == ClampedEnds::from, both || table.clamped == ClampedEnds::to};
+}
+
+double largest(const Vec3& x) { return x.cwiseAbs().maxCoeff(); }
+
+/// The corners of a beam, or its two ends.
+std::vector<ExactVector> corners_of(const BeamTable& table) {
+  std::vector<ExactVector> corners;
+  if (table.through)
+    for (const Vec3& x : *table.through) corners.push_back(exact(x));
+  else if (table.from)
+    corners = {exact(*table.from), exact(*table.to)};
+  else
+    for (const ExactVector& x : ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter),
+                                            table.particles - 1))
+      corners.push_back(x);
+  return corners;
+}
+
+std::optional<Centerline> arch_of(const BeamTable& table, const std::string& plane, double size, Mistakes& mistakes) {
+  Arch a{*table.from, *table.to, table.toward.value_or(Vec3::Zero())};
+  if (!table.toward) {                               // a quarter turn of from → to in the plane
+    const int u = plane[0] - 'x', v = plane[1] - 'x';
+    a.toward[u] = -(a.to - a.from)[v], a.toward[v] = (a.to - a.from)[u];
+  }
+  const double chord = (a.to - a.from).norm();
+  if (!rises(a) || chord <= 1e-12 * size) {
+    mistakes.add(table.place, "to",
+                 "is no place to which an arch leads from here; from and to must lie apart in the plane");
+    return std::nullopt;
+  }
+  if (table.profile == Profile::sine) {
+    std::optional<Centerline> line = half_sine(a, *table.rise, table.particles);
+    if (!line)
+      mistakes.add(table.place, "rise",
+                   "is too high for so few particles on a sine; take more of them, or a circle");
+    return line;
+  }
+  if (table.angle) return arc(a, exact(*table.angle) / exact(360), table.particles, clamped_ends(table));
+  if (*table.rise < 0) a.toward = -a.toward;
+  return arc(a, turns_of_rise(chord, std::abs(*table.rise)), table.particles, clamped_ends(table));
+}
+
+void not_on_corners(const BeamTable& table, Mistakes& mistakes) {
+  const auto [below, above] = fitting(*table.through, table.particles, clamped_ends(table));
+  std::string nearest;
+  for (const int n : {below, above})
+    if (n > 0) nearest += fmt::format("{}{}", nearest.empty() ? "" : " and ", n);
+  mistakes.add(table.place, "particles",
+               fmt::format("{} evenly along through put none on a corner; {}", table.particles,
+                           nearest.empty()
+                               ? "no number near it does: the lengths between corners must have a common measure"
+                               : "the nearest that do: " + nearest));
+}
+
+/// Where the particles of a beam are; none, and said why, if they cannot be there.
+std::optional<Centerline> centerline_of(const BeamTable& table, const std::string& plane, Mistakes& mistakes) {
+  const std::vector<ExactVector> corners = corners_of(table);
+  double length = 0, farthest = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    farthest = std::max(farthest, largest(corners[i].hi));
+    if (i > 0) length += distance(corners[i - 1], corners[i]).value();
+  }
+  if (table.rise) length += std::abs(*table.rise), farthest += std::abs(*table.rise);
+  if (!std::isfinite(length)) {
+    mistakes.add(table.place, "its length is beyond what numbers can hold");
+    return std::nullopt;
+  }
+  if (lost(table.place, "spacing", length / (table.particles - 1), farthest, mistakes)) return std::nullopt;
+  if (table.rise || table.angle) return arch_of(table, plane, length, mistakes);
+  if (!table.through) return row(corners.front(), corners.back(), table.particles, clamped_ends(table));
+  std::optional<Centerline> line = polyline(*table.through, table.particles, clamped_ends(table));
+  if (!line) not_on_corners(table, mistakes);
+  return line;
+}
+
+}  // namespace
+
+std::optional<Beam> built(const BeamTable& table, const std::string& plane, Mistakes& mistakes) {
+  const Clamped clamped = clamped_ends(table);
+  const std::optional<Centerline> line = centerline_of(table, plane, mistakes);
+  if (!line) return std::nullopt;
+  Beam b{table.name, line->centers, table.diameter, table.density.value_or(0), table.youngs_modulus.value_or(0),
+         {}, {}};
+  b.bond.rest_length = table.rest_length.value_or(line->spacing);
+  row_stiffness(table, table.diameter, b.bond, b.angle);
+  b.angle.rest = rest_angle(table.rest, pi);
+  b.as_built = table.rest.as_built, b.clamped = clamped;
+  if (!stiff(table.place, b.bond.stiffness, b.angle.stiffness, mistakes)) return std::nullopt;
+  return b;
+}
+
+}  // namespace elamin

@@ -1,0 +1,360 @@
+#include "input/bodies.hpp"
+
+#include "core/suggest.hpp"
+#include "input/check_parts.hpp"
+#include "input/stiffness.hpp"
+#include "input/structures.hpp"
+#include "lammps/body.hpp"
+#include "lammps/molecule.hpp"
+#include "model/rigid_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace elamin {
+
+namespace {
+
+constexpr Word<BodyShape> body_words[]{{"sphere", BodyShape::sphere}, {"rod", BodyShape::rod},   {"tetrahedron", BodyShape::tetrahedron},
+                                       {"cube", BodyShape::cube},     {"box", BodyShape::box},   {"mesh", BodyShape::mesh},
+                                       {"molecule", BodyShape::molecule}};
+
+}  // namespace
+
+void describe(Keys& keys, TurnTable& t) {
+  keys.about("A rotation.");
+  keys.must("axis", t.axis, "its axis, of any length but zero");
+  keys.must("angle", t.angle, "its angle [degrees]");
+}
+
+void describe(Keys& keys, BodyTable& t) {
+  keys.about("A rigid body: a core, rounded by a ball. Lengths are of the core, without the rounding.");
+  keys.name("name", t.name, "its name, which is a group too");
+  if (!keys.must_word("shape", t.shape, body_words, "of its core")) return keys.skip_the_rest();   // other keys belong to other shapes
+  const auto edge = [&] { keys.must("edge", t.edge, "of a tetrahedron or a cube [length]", range::positive); };
+  keys.either("shape", {{{"sphere"}, "a sphere, which has rounding_diameter", t.shape == BodyShape::sphere, [] {}},
+                        {{"rod"}, "a rod", t.shape == BodyShape::rod,
+                         [&] { keys.must("length", t.length, "of a rod [length]", range::positive); }},
+                        {{"tetrahedron"}, "a tetrahedron", t.shape == BodyShape::tetrahedron, edge},
+                        {{"cube"}, "a cube", t.shape == BodyShape::cube, edge},
+                        {{"box"}, "a box", t.shape == BodyShape::box,
+                         [&] { keys.must("size", t.size, "the sides of a box [length]", range::positive); }},
+                        {{"mesh"}, "a mesh", t.shape == BodyShape::mesh, [&] {
+                           keys.must("vertices", t.vertices, "of a mesh");
+                           keys.may("faces", t.faces, "of a mesh: indices of vertices from 1, counter-clockwise seen from outside", range::id);
+                           keys.may("edges", t.edges, "of a mesh: pairs of vertices; by default those of the faces", range::id);
+                         }},
+                        {{"molecule"}, "a molecule, whose file has them", t.shape == BodyShape::molecule,
+                         [&] { keys.file("molecule", t.molecule, "LAMMPS's molecule file of one body"); }}});
+  keys.may("mass", t.mass, "[mass]; of a density it follows", range::positive);
+  keys.either("shape", {{{"sphere", "rod", "tetrahedron", "cube", "box", "mesh"}, "a body", t.shape != BodyShape::molecule, [&] {
+                           keys.must("rounding_diameter", t.rounding_diameter, "of the ball that rounds the core [length]", range::positive);
+                           keys.may("density", t.density, "[mass/length³]", range::positive);
+                           keys.may("inertia", t.inertia,
+                                    "with mass, about the centre of mass: ixx, iyy, izz, ixy, ixz, iyz; by default of a uniform solid");
+                         }},
+                        {{"molecule"}, "a molecule, whose file has it", t.shape == BodyShape::molecule, [] {}}});
+  keys.may("position", t.position, "of the origin of the core's frame");
+  keys.table("rotation", t.rotation);
+  keys.at_most_one({"mass", "density"});
+  keys.with({"inertia"}, {"mass"}, "since of a density it follows");
+}
+
+void describe(Keys& keys, GlueTable& t) {
+  keys.about("Particles that a body carries.");
+  keys.must("group", t.group, "the particles");
+  keys.must("body", t.body, "a [[body]], or a group of one");
+}
+
+namespace {
+
+void check_turn(std::optional<TurnTable>& turn, Mistakes& mistakes) {
+  if (turn) check_direction(turn->place, "axis", turn->axis, mistakes);
+}
+
+void check_mesh(BodyTable& b, Mistakes& mistakes) {
+  if (b.vertices.size() > 2 && b.faces.empty() && !b.place.keys.count("faces"))
+    mistakes.add(b.place, "faces", "is missing; it must be a list of faces, each a list of the indices of its vertices from 1");
+  if (!b.edges) return;
+  for (const std::vector<int>& e : *b.edges)
+    if (e.size() != 2) return mistakes.add(b.place, "edges", fmt::format("must be pairs of vertices; one has {}", e.size()));
+}
+
+void check_body(BodyTable& b, Mistakes& mistakes) {
+  check_turn(b.rotation, mistakes);
+  if (b.rotation && b.rotation->place.broken) b.place.broken = true;
+  if (b.place.broken) return;
+  if (b.shape == BodyShape::mesh) check_mesh(b, mistakes);
+  if (!b.inertia) return;
+  const std::vector<double>& i = *b.inertia;
+  if (i.size() != 6)
+    return mistakes.add(b.place, "inertia", fmt::format("must be six numbers [ixx, iyy, izz, ixy, ixz, iyz], is a list of {}", i.size()));
+  Mat3 inertia;
+  inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  if (const std::string wrong = wrong_inertia(inertia); !wrong.empty()) mistakes.add(b.place, "inertia", wrong);
+}
+
+/// LAMMPS's rules are forces without an energy.
+void check_potential(const Problem& problem, TablePlace& place, const char* why, Mistakes& mistakes) {
+  const bool minimises = problem.study == StudyType::equilibrium || problem.study == StudyType::path ||
+                         problem.study == StudyType::modes || (problem.study == StudyType::dynamics && problem.dynamics.relax);
+  if (minimises) mistakes.add(place, "formulation", why);
+}
+
+void check_rounded(const Problem& problem, ContactTable& c, Mistakes& mistakes) {
+  const RoundedKeys& r = c.rounded;
+  if (r.k_na > 0 && !c.cutoff)
+    mistakes.add(c.place, "cutoff", "is missing; it must be a positive number, within which k_na attracts");
+  if (r.formulation == RoundedFormulation::lammps)
+    return check_potential(problem, c.place, "\"lammps\" has no potential: its forces are no gradient of an energy; take formulation = "
+                                             "\"multi\" or \"closest\"", mistakes);
+  if (r.mu > 0 && r.slip == 0)
+    mistakes.add(c.place, "slip", "is missing; it must be a positive number, the damping that takes the place of friction mu at small "
+                                  "sliding velocities");
+}
+
+void check_wall(const Problem& problem, WallTable& w, Mistakes& mistakes) {
+  if (!w.k_n) {
+    const std::pair<const char*, bool> said[]{{"k_na", w.k_na > 0}, {"cutoff", w.cutoff > 0}, {"c_n", w.c_n > 0}, {"c_t", w.c_t.has_value()},
+                                              {"formulation", w.lammps}};
+    for (const auto& [key, there] : said)
+      if (there) mistakes.add(w.place, key, "is of bodies, and so needs k_n");
+    return;
+  }
+  if (w.k_na > 0 && !(w.cutoff > 0))
+    mistakes.add(w.place, "cutoff", "is missing; it must be a positive number, within which k_na attracts");
+  if (!w.lammps) return;
+  check_potential(problem, w.place, "\"lammps\" has no potential: its forces have no energy; take formulation = \"potential\"", mistakes);
+  if (w.k_na > 0) mistakes.add(w.place, "k_na", "does not go with formulation = \"lammps\", whose walls do not attract; leave it out");
+  const Region& r = w.region;
+  const bool across = r.shape == Shape::plane && (r.normal.array() != 0).count() == 1;
+  if (!across && !(r.shape == Shape::block && w.inside))
+    mistakes.add(w.place, "shape", "with formulation = \"lammps\" must be a plane across an axis, or a block, inside");
+}
+
+}  // namespace
+
+void check_bodies(Problem& problem, Names& names, Mistakes& mistakes) {
+  for (BodyTable& b : problem.bodies) {
+    names.add(b.place, b.name);
+    check_body(b, mistakes);
+  }
+}
+
+void check_rounded(Problem& problem, Names& names, Mistakes& mistakes) {
+  for (GlueTable& g : problem.glue) {
+    names.refer(g.place, "group", g.group);
+    names.refer(g.place, "body", g.body);
+  }
+  for (SupportTable& s : problem.supports) {
+    check_turn(s.rotation, mistakes);
+    s.place.broken = s.place.broken || (s.rotation && s.rotation->place.broken);
+  }
+  const ContactTable* first = nullptr;
+  for (ContactTable& c : problem.contacts) {
+    if (c.place.broken || c.law != "rounded") continue;
+    check_rounded(problem, c, mistakes);
+    if (!first) first = &c;
+    else if (c.cutoff.value_or(0) != first->cutoff.value_or(0))
+      mistakes.add(c.place, "cutoff", fmt::format("is {}, and that of {} is {}; all tables with law \"rounded\" have one cutoff",
+                                                  c.cutoff.value_or(0), named(first->place), first->cutoff.value_or(0)));
+  }
+  for (WallTable& w : problem.walls)
+    if (!w.place.broken) check_wall(problem, w, mistakes);
+}
+
+namespace {
+
+CoreMesh mesh_core(const BodyTable& table) {
+  CoreMesh core;
+  core.vertices = table.vertices, core.faces = table.faces;
+  for (std::vector<int>& face : core.faces)
+    for (int& corner : face) --corner;
+  if (table.edges)
+    for (const std::vector<int>& e : *table.edges) core.edges.push_back({e[0] - 1, e[1] - 1});
+  return core;
+}
+
+CoreMesh core_of(const BodyTable& table) {
+  switch (table.shape) {
+    case BodyShape::rod: return rod_core(table.length);
+    case BodyShape::tetrahedron: return tetrahedron_core(table.edge);
+    case BodyShape::cube: return cube_core(table.edge);
+    case BodyShape::box: return box_core(table.size);
+    case BodyShape::mesh: return mesh_core(table);
+    default: return point_core();
+  }
+}
+
+Mat3 inertia_of(const std::vector<double>& i) {
+  Mat3 m;
+  m << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return m;
+}
+
+/// The body that a molecule file describes, its centre of mass at the position.
+std::optional<RigidBody> molecule(const BodyTable& table, RigidBody b, Mistakes& mistakes) {
+  try {
+    LammpsMolecule file = read_molecule(table.molecule);
+    b.core = std::move(file.form.core), b.radius = file.form.diameter / 2;
+    b.inertia = file.form.inertia, b.centered = true;
+    b.mass = table.mass.value_or(file.mass);
+    if (!table.mass || file.mass == 0) return b;
+    mistakes.add(table.place, "mass", "stands in the molecule file; leave it out");
+  } catch (const InputError& e) {
+    mistakes.add(e.mistakes());
+  }
+  return std::nullopt;
+}
+
+std::optional<RigidBody> built(const BodyTable& table, Mistakes& mistakes) {
+  RigidBody b;
+  b.name = table.name;
+  b.pose.position = {table.position, Vec3::Zero()};
+  if (table.rotation) b.pose.rotation = turn(table.rotation->vector());
+  if (table.shape == BodyShape::molecule) return molecule(table, std::move(b), mistakes);
+  b.core = core_of(table), b.radius = *table.rounding_diameter / 2;
+  const char* key = table.shape != BodyShape::mesh ? "shape" : table.faces.empty() ? "vertices" : "faces";
+  const std::vector<std::string> wrong = elamin::mistakes(b.core, b.radius, 1);
+  for (const std::string& what : wrong) mistakes.add(table.place, key, what);
+  if (!wrong.empty()) return std::nullopt;
+  if (lost(table.place, "rounding_diameter", 2 * b.radius, table.position.cwiseAbs().maxCoeff(), mistakes)) return std::nullopt;
+  b.density = table.density.value_or(0), b.mass = table.mass.value_or(0);
+  if (table.inertia) b.inertia = inertia_of(*table.inertia);
+  return b;
+}
+
+}  // namespace
+
+void add_bodies(const Problem& problem, Model& model, std::vector<std::string>& left_out, Mistakes& mistakes) {
+  std::vector<RigidBody> bodies;
+  std::vector<const TablePlace*> places;
+  for (const BodyTable& table : problem.bodies) {
+    std::optional<RigidBody> one;
+    if (!table.place.broken) one = built(table, mistakes);
+    if (one) bodies.push_back(std::move(*one)), places.push_back(&table.place);
+    else left_out.push_back(table.name);
+  }
+  const std::size_t before = model.bodies.size();
+  add_bodies(model, bodies);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Body& b = model.bodies[before + k];
+    const bool asked = bodies[k].density > 0 || bodies[k].mass > 0;
+    if (asked && !(std::isnormal(b.mass) && b.inertia.allFinite()))
+      mistakes.add(*places[k], fmt::format("its mass, {}, or inertia is beyond what numbers can hold", b.mass));
+  }
+}
+
+bool add_glue(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
+  bool whole = true;
+  std::map<int, const GlueTable*> glued;
+  for (const GlueTable& table : problem.glue) {
+    const Members* group = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    const Members* body = table.place.broken ? nullptr : groups.find(table.place, "body", table.body);
+    whole = whole && group && body;
+    if (!group || !body) continue;
+    if (group->particles.empty())
+      mistakes.add(table.place, "group", fmt::format("\"{}\" has no particle; a body carries particles", table.group));
+    if (body->bodies.size() != 1 || !body->particles.empty()) {
+      mistakes.add(table.place, "body", fmt::format("\"{}\" has {} particles and {} bodies; it must be one body", table.body,
+                                                    body->particles.size(), body->bodies.size()));
+      continue;
+    }
+    const int b = body->bodies.front();
+    const Pose& pose = model.start.bodies[b];
+    for (const int p : group->particles) {
+      if (const auto [first, fresh] = glued.emplace(p, &table); !fresh) {
+        mistakes.add(table.place, "group", fmt::format("particle {} is glued by {} already; once is enough", model.id[p],
+                                                       named(first->second->place)));
+        break;
+      }
+      const ExactVector apart = model.start.at(p) - pose.position;
+      model.glued.push_back({p, b, pose.rotation.conjugate() * Vec3(apart.hi + apart.lo)});
+    }
+  }
+  std::sort(model.glued.begin(), model.glued.end(), [](const Glued& a, const Glued& b) { return a.particle < b.particle; });
+  return whole;
+}
+
+std::string body_name(const Model& model, int body) {
+  for (const Structure& s : model.structures)
+    if (body >= s.first_body && body < s.first_body + s.bodies)
+      return s.kind == "body" ? fmt::format("\"{}\"", s.name) : fmt::format("body {} of \"{}\"", model.bodies[body].id, s.name);
+  return fmt::format("body {}", model.bodies[body].id);
+}
+
+namespace {
+
+/// What carries a particle: index into `glued`, or −1.
+std::vector<int> carriers(const Model& model) {
+  std::vector<int> of(model.particles(), -1);
+  for (std::size_t k = 0; k < model.glued.size(); ++k) of[model.glued[k].particle] = static_cast<int>(k);
+  return of;
+}
+
+void check_glued(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  if (model.glued.empty()) return;
+  const std::vector<int> carrier = carriers(model);
+  const auto refuse = [&](const auto& tables, const std::string& name, const std::vector<int>& particles, const char* key,
+                          const char* what) {
+    const auto glued = std::find_if(particles.begin(), particles.end(), [&](int p) { return carrier[p] >= 0; });
+    if (glued == particles.end()) return;
+    for (const auto& table : tables) {
+      const auto& names = [&] {
+        if constexpr (requires { table.between; }) return std::vector<std::string>(table.between.begin(), table.between.end());
+        else if constexpr (requires { table.loop; }) return std::vector<std::string>{table.loop};
+        else return std::vector<std::string>{table.group};
+      }();
+      if (table.place.broken || std::find(names.begin(), names.end(), name) == names.end()) continue;
+      return mistakes.add(table.place, key, fmt::format("particle {} of \"{}\" is carried by {}, {}", model.id[*glued], name,
+                                                        body_name(model, model.glued[carrier[*glued]].body), what));
+    }
+  };
+  for (const Support& s : model.supports)
+    refuse(problem.supports, s.group, s.particles, "group", "which moves it; hold the body instead");
+  for (const Pressure& p : model.pressures)
+    refuse(problem.pressures, p.loop, p.particles, "loop", "where a pressure does not act; leave out the glue or the pressure");
+  for (const PairContact& c : model.contacts)
+    for (int side = 0; c.hard && side < (c.between[0] == c.between[1] ? 1 : 2); ++side)
+      refuse(problem.contacts, c.between[side], c.particles[side], "hard", "and hard contacts are of free particles; give it a modulus");
+  for (const Wall& w : model.walls)
+    if (w.hard) refuse(problem.walls, w.group, w.particles, "hard", "and hard contacts are of free particles; give it a modulus");
+}
+
+/// Every two bodies are spoken of, if any are. Bodies on the same sides of the same tables are alike.
+void check_spoken_of(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  if (model.rounded.empty()) return;
+  std::vector<std::vector<int>> sides(model.bodies.size());      // 2 table + side
+  for (std::size_t t = 0; t < model.rounded.size(); ++t)
+    for (int side = 0; side < 2; ++side)
+      for (const int b : model.rounded[t].bodies[side]) sides[b].push_back(2 * static_cast<int>(t) + side);
+  std::map<std::vector<int>, std::array<int, 2>> kinds;          // their first two
+  for (std::size_t b = 0; b < sides.size(); ++b) {
+    const auto [kind, fresh] = kinds.emplace(sides[b], std::array{static_cast<int>(b), -1});
+    if (!fresh && kind->second[1] < 0) kind->second[1] = static_cast<int>(b);
+  }
+  const auto table = std::find_if(problem.contacts.begin(), problem.contacts.end(),
+                                  [](const ContactTable& t) { return t.law == "rounded"; });
+  for (auto i = kinds.begin(); i != kinds.end(); ++i)
+    for (auto j = i; j != kinds.end(); ++j) {
+      const int a = i->second[0], b = i == j ? i->second[1] : j->second[0];
+      const auto meets = [&](int side) { return std::binary_search(j->first.begin(), j->first.end(), side ^ 1); };
+      if (b < 0 || std::any_of(i->first.begin(), i->first.end(), meets)) continue;
+      return mistakes.add(table->place, "between",
+                          fmt::format("no [[contact]] with law \"rounded\" is between {} and {}; give one, with k_n = 0 if they feel "
+                                      "nothing of each other", body_name(model, std::min(a, b)), body_name(model, std::max(a, b))));
+    }
+}
+
+}  // namespace
+
+void check_bodies_built(const Problem& problem, const Model& model, Mistakes& mistakes) {
+  check_glued(problem, model, mistakes);
+  check_spoken_of(problem, model, mistakes);
+}
+
+}  // namespace elamin

@@ -1,0 +1,48 @@
+#include "input/problem.hpp"
+
+namespace elamin {
+namespace {
+
+constexpr Word<const char*> plane_words[]{{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}};
+
+}  // namespace
+
+void describe(Keys& keys, ProblemFile& file) {
+  Problem& p = file.problem;
+  keys.about("What stands before the first table.");
+  keys.may("title", p.title, "of the problem");
+  keys.word("plane", p.plane, plane_words, "that every particle stays in; by default none");
+  keys.table("lammps", p.lammps);
+  keys.tables("beam", p.beams);
+  keys.tables("loop", p.loops);
+  keys.tables("sheet", p.sheets);
+  keys.tables("grains", p.grains);
+  keys.tables("body", p.bodies);
+  keys.tables("group", p.groups);
+  keys.tables("connect", p.connections);
+  keys.tables("remove", p.removals);
+  keys.tables("glue", p.glue);
+  keys.tables("support", p.supports);
+  keys.tables("load", p.loads);
+  keys.tables("gravity", p.gravity);
+  keys.tables("pressure", p.pressures);
+  keys.tables("change", p.changes);
+  keys.tables("contact", p.contacts);
+  keys.tables("wall", p.walls);
+  keys.tables("viscosity", p.viscosity);
+  keys.tables("velocity", p.velocities);
+  StudyTable study{p.study_place, p.study};
+  keys.table("study", study);
+  p.study = study.type, p.study_place = study.place;
+  keys.table("path", p.path);
+  keys.table("modes", p.modes);
+  keys.table("solver", p.solver);
+  keys.table("dynamics", p.dynamics);
+  keys.tables("stage", p.stages);
+  keys.tables("observe", p.observe);
+  keys.tables("event", p.events);
+  keys.tables("expect", p.expect);
+  keys.tables("sweep", file.sweeps);
+}
+
+}  // namespace elamin

@@ -1,0 +1,63 @@
+#include "input/solver.hpp"
+
+#include "dynamics/relax.hpp"
+#include "solve/ipopt.hpp"
+
+#include <tuple>
+
+namespace elamin {
+
+namespace {
+
+constexpr Word<const char*> solver_words[]{
+    {"auto", "auto"}, {"newton", "newton"}, {"ipopt", "ipopt"}, {"fire", "fire"}, {"nlopt:LD_LBFGS", "nlopt:LD_LBFGS"},
+    {"nlopt:LD_TNEWTON", "nlopt:LD_TNEWTON"}, {"nlopt:LD_TNEWTON_RESTART", "nlopt:LD_TNEWTON_RESTART"},
+    {"nlopt:LD_TNEWTON_PRECOND", "nlopt:LD_TNEWTON_PRECOND"}, {"nlopt:LD_TNEWTON_PRECOND_RESTART", "nlopt:LD_TNEWTON_PRECOND_RESTART"},
+    {"nlopt:LD_VAR1", "nlopt:LD_VAR1"}, {"nlopt:LD_VAR2", "nlopt:LD_VAR2"}, {"nlopt:LD_SLSQP", "nlopt:LD_SLSQP"},
+    {"nlopt:LD_MMA", "nlopt:LD_MMA"}, {"nlopt:LD_CCSAQ", "nlopt:LD_CCSAQ"}, {"nlopt:LN_COBYLA", "nlopt:LN_COBYLA"},
+    {"nlopt:LN_BOBYQA", "nlopt:LN_BOBYQA"}, {"nlopt:LN_NEWUOA", "nlopt:LN_NEWUOA"}, {"nlopt:LN_PRAXIS", "nlopt:LN_PRAXIS"},
+    {"nlopt:LN_NELDERMEAD", "nlopt:LN_NELDERMEAD"}, {"nlopt:LN_SBPLX", "nlopt:LN_SBPLX"}, {"nlopt:G_MLSL", "nlopt:G_MLSL"},
+    {"nlopt:G_MLSL_LDS", "nlopt:G_MLSL_LDS"}, {"nlopt:GN_DIRECT", "nlopt:GN_DIRECT"}, {"nlopt:GN_DIRECT_L", "nlopt:GN_DIRECT_L"},
+    {"nlopt:GN_CRS2_LM", "nlopt:GN_CRS2_LM"}, {"nlopt:GN_ISRES", "nlopt:GN_ISRES"}, {"nlopt:GN_ESCH", "nlopt:GN_ESCH"}};
+const Keys::Names of_nlopt{
+    "nlopt:LD_LBFGS", "nlopt:LD_TNEWTON", "nlopt:LD_TNEWTON_RESTART", "nlopt:LD_TNEWTON_PRECOND", "nlopt:LD_TNEWTON_PRECOND_RESTART",
+    "nlopt:LD_VAR1", "nlopt:LD_VAR2", "nlopt:LD_SLSQP", "nlopt:LD_MMA", "nlopt:LD_CCSAQ", "nlopt:LN_COBYLA", "nlopt:LN_BOBYQA",
+    "nlopt:LN_NEWUOA", "nlopt:LN_PRAXIS", "nlopt:LN_NELDERMEAD", "nlopt:LN_SBPLX", "nlopt:G_MLSL", "nlopt:G_MLSL_LDS", "nlopt:GN_DIRECT",
+    "nlopt:GN_DIRECT_L", "nlopt:GN_CRS2_LM", "nlopt:GN_ISRES", "nlopt:GN_ESCH"};
+
+}  // namespace
+
+void describe(Keys& keys, SolverTable& t) {
+  keys.about("How equilibria are found.");
+  keys.word("method", t.method, solver_words, "auto: Newton's method, or what settles packings of loose grains");
+  keys.may("tolerance", t.tolerance, "residual, relative to the largest internal force", Range{0, 1e-2, true});
+  keys.may("max_iterations", t.max_iterations, "by default as many as suit the method", Range{1, most_steps});
+  const std::string what = "the method " + t.method + "; it is for NLopt's";
+  keys.either("method", {{{"auto", "newton", "ipopt", "fire"}, what.c_str(), !t.by_nlopt(), [] {}},
+                         {of_nlopt, "the method", t.by_nlopt(), [&] {
+                            keys.may("max_evaluations", t.nlopt.max_evaluations, "of the energy", range::count);
+                            keys.may("polish", t.nlopt.polish, "ends with Newton's method");
+                            keys.may("precondition", t.nlopt.precondition, "in variables in which the Hessian at the start is the identity");
+                            keys.may("bounds", t.nlopt.bounds, "of global methods: half the width of the box about the start [length]",
+                                     range::positive);
+                            int seed = static_cast<int>(t.nlopt.seed);
+                            keys.may("seed", seed, "of random numbers", range::id);
+                            t.nlopt.seed = static_cast<unsigned long>(seed);
+                          }}});
+}
+
+bool SolverTable::operator==(const SolverTable& other) const {
+  const auto numbers = [](const SolverTable& t) {
+    const NloptOptions& n = t.nlopt;
+    return std::tuple(t.method, t.tolerance, t.max_iterations, n.max_evaluations, n.polish, n.precondition, n.bounds, n.seed);
+  };
+  return numbers(*this) == numbers(other);
+}
+
+std::optional<int> standard_iterations(const SolverTable& t) {
+  if (t.by_nlopt()) return std::nullopt;
+  if (t.by_newton()) return NewtonOptions{}.max_iterations;
+  return t.method == "ipopt" ? IpoptOptions{}.max_iterations : static_cast<int>(RelaxOptions{}.max_steps);
+}
+
+}  // namespace elamin

@@ -1,0 +1,120 @@
+#include "input/structures.hpp"
+
+#include "model/beam.hpp"
+#include "model/grains.hpp"
+#include "model/loop.hpp"
+#include "model/sheet.hpp"
+#include "input/check_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace elamin {
+namespace {
+
+/// Room that a particle takes in the model and the checks [bytes].
+constexpr double room = 500;
+
+double memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
+
+/// Everything that can be built of a list of tables; the names of the others go to left_out.
+template <class Table, class Build>
+auto all_built(const std::vector<Table>& tables, std::vector<std::string>& left_out, const Build& build) {
+  std::vector<typename decltype(build(tables.front()))::value_type> all;
+  for (const Table& table : tables) {
+    decltype(build(table)) one;
+    if (!table.place.broken) one = build(table);
+    if (one)
+      all.push_back(std::move(*one));
+    else
+      left_out.push_back(table.name);
+  }
+  return all;
+}
+
+}  // namespace
+
+void check_structures(Problem& problem, Names& names, Mistakes& mistakes) {
+  double particles = 0;
+  const auto all = [&](auto& tables) {
+    for (auto& table : tables) {
+      names.add(table.place, table.name);
+      if constexpr (requires { check(table, true, mistakes); }) check(table, !problem.plane.empty(), mistakes);
+      else check(table, mistakes);
+    }
+  };
+  all(problem.beams);
+  all(problem.loops);
+  all(problem.sheets);
+  all(problem.grains);
+  for (const BeamTable& b : problem.beams) particles += b.particles;
+  for (const LoopTable& l : problem.loops) particles += l.particles;
+  if (particles > most_particles)
+    mistakes.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", particles,
+                             most_particles));
+}
+
+bool add_structures(const Problem& problem, Model& model, std::vector<std::string>& left_out, Mistakes& mistakes) {
+  const auto build = [&](const auto& table) { return built(table, mistakes); };
+  const auto sheets = all_built(problem.sheets, left_out, build);
+  const auto grains = all_built(problem.grains, left_out, build);
+  double rows = 0, total = model.particles();
+  for (const BeamTable& b : problem.beams) rows += b.particles;
+  for (const LoopTable& l : problem.loops) rows += l.particles;
+  for (const Sheet& s : sheets) total += sheet_particles(s);
+  for (const Grains& g : grains) total += static_cast<double>(g.position.cols());
+  total += rows;
+  if (total > most_particles) {
+    if (rows <= most_particles)   // else said when the file was read
+      mistakes.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", total,
+                               most_particles));
+    return false;
+  }
+  if (total * room > memory()) {
+    mistakes.add(fmt::format("{:.0f} particles need more memory than this machine has", total));
+    return false;
+  }
+  for (const auto* numbers : {&model.id, &model.type, &model.molecule}) {
+    const int most = numbers->empty() ? 0 : *std::max_element(numbers->begin(), numbers->end());
+    if (most > std::numeric_limits<int>::max() - total && total > model.particles()) {
+      mistakes.add(
+          problem.lammps->place, "data",
+          fmt::format("its numbers of particles, types or molecules reach {}; there is no room above for those "
+                      "of the other structures",
+                      most));
+      return false;
+    }
+  }
+  const auto beams = all_built(problem.beams, left_out, [&](const BeamTable& table) { return built(table, problem.plane, mistakes); });
+  const auto loops = all_built(problem.loops, left_out, build);
+  if (!beams.empty()) add_beams(model, beams);
+  if (!loops.empty()) add_loops(model, loops);
+  if (!sheets.empty()) add_sheets(model, sheets);
+  if (!grains.empty()) add_grains(model, grains);
+  return true;
+}
+
+const Structure& structure_with(const Model& model, int particle) {
+  return *std::find_if(model.structures.begin(), model.structures.end(),
+                       [&](const Structure& s) { return particle < s.first + s.count; });
+}
+
+const TablePlace& place_of(const Problem& problem, const Structure& s) {
+  const auto find = [&](const char* kind, const auto& tables) -> const TablePlace* {
+    for (const auto& table : tables)
+      if (s.kind == kind && table.name == s.name) return &table.place;
+    return nullptr;
+  };
+  for (const TablePlace* place : {find("beam", problem.beams), find("loop", problem.loops),
+                                  find("sheet", problem.sheets), find("grains", problem.grains),
+                                  find("body", problem.bodies)})
+    if (place) return *place;
+  return problem.lammps->place;
+}
+
+}  // namespace elamin
