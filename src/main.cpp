@@ -1,6 +1,7 @@
 // The command line: which command, on which file. Everything else is in study/.
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "figures/figure.hpp"
 #include "input/key_tree.hpp"
 #include "report/report.hpp"
 #include "results/summary.hpp"
@@ -46,6 +47,7 @@ const char* const description =
     "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
     "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n"
     "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
+    "  elamin plot DIR                a figure of what a run has left in its directory\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
@@ -105,6 +107,14 @@ int main(int argc, char** argv) {
   report_app->add_option("directories", report.directories, "directories of results")->type_name("DIR")->required();
   report_app->add_option("-o,--output", report.file, "the page (default: report.html in the directory; of several directories, here)")->type_name("FILE");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
+  FigureOptions figure;
+  CLI::App* plot_app = app.add_subcommand("plot", "a figure of a run's results: the diagram, and states below it");
+  plot_app->add_option("directory", figure.directory, "the directory of the results")->type_name("DIR")->required();
+  plot_app->add_option("--x", figure.x, "column for the horizontal axis (default: the load factor, what is swept, or time)");
+  plot_app->add_option("--y", figure.y, "column for the vertical axis (default: the first one observed that changes)");
+  plot_app->add_option("--shapes", figure.shapes, "labels of states to draw below, with commas between: initial, final, branch:1, branch:1+mode, mode:2")->delimiter(',');
+  plot_app->add_flag("!--no-diagram", figure.diagram, "the states alone");
+  plot_app->add_option("--out", figure.file, "file of the figure, FIG.svg (default: DIR/figure.svg)");
   CLI::App* schema_app = app.add_subcommand("schema", "print the JSON schema of problem files, for editors");
   bool markdown = false;
   schema_app->add_flag("--markdown", markdown, "print the key reference instead, docs/keys.md");
@@ -122,6 +132,7 @@ int main(int argc, char** argv) {
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);
     if (*report_app) return report_command(report), exit_done;
+    if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
     const RunResult result = run(options);
     if (and_report) report_command({{result.directory}, "", options.quiet});

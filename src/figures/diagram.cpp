@@ -1,0 +1,190 @@
+#include "figures/diagram.hpp"
+
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+#include "results/columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace elamin {
+namespace {
+
+std::string text_in(const Row& row, int column) {
+  if (column < 0) return "";
+  const std::string* text = std::get_if<std::string>(&row[static_cast<std::size_t>(column)]);
+  return text ? *text : "";
+}
+
+std::optional<double> number_in(const Row& row, int column) {
+  return column < 0 ? std::nullopt : as_number(row[static_cast<std::size_t>(column)]);
+}
+
+int needed(const Table& table, const std::string& name, const std::string& file) {
+  const int column = column_index(table.columns, name);
+  if (column < 0)
+    throw InputError(fmt::format("{}: has no column {}; there are: {}{}", file, in_quotes(name), listed(table.columns), did_you_mean(name, table.columns)));
+  return column;
+}
+
+// Whether a column has at least two numbers that differ by more than rounding.
+bool changes(const Table& table, int column) {
+  Extent range;
+  for (const Row& row : table.rows)
+    if (const auto v = number_in(row, column)) range.add(*v);
+  return !range.empty() && range.hi - range.lo > 1e-9 * std::max(std::abs(range.lo), std::abs(range.hi));
+}
+
+// The first of the columns from `first` up to `last` (left out) that changes.
+std::string first_changing(const Table& table, const std::string& first, const std::string& last) {
+  const int end = column_index(table.columns, last), begin = column_index(table.columns, first);
+  for (int c = begin + 1; begin >= 0 && c < end; ++c)
+    if (changes(table, c)) return table.columns[static_cast<std::size_t>(c)];
+  return "";
+}
+
+std::string first_of(std::initializer_list<std::string> names) {
+  for (const std::string& name : names)
+    if (!name.empty()) return name;
+  return "";
+}
+
+std::string axis_name(const std::string& column) { return column == "lambda" ? "load factor λ" : column; }
+
+// The columns of the two axes.
+struct Columns {
+  int x, y;
+  std::optional<Vec2> at(const Row& row) const {
+    const auto u = number_in(row, x), v = number_in(row, y);
+    return u && v ? std::optional(Vec2(*u, *v)) : std::nullopt;
+  }
+};
+
+Diagram begun(const Table& table, const Axes& axes, const std::string& file, Columns& columns) {
+  columns = {needed(table, axes.x, file), needed(table, axes.y, file)};
+  return {axis_name(axes.x), axis_name(axes.y), {}, {}};
+}
+
+}  // namespace
+
+bool Diagram::empty() const {
+  std::size_t points = 0;
+  for (const Curve& c : curves) points += c.points.size();
+  return points < 2;
+}
+
+Diagram path_diagram(const Table& path, const Axes& asked, const std::string& file) {
+  const auto column = [&](const char* name) { return column_index(path.columns, name); };
+  const auto if_changing = [&](const char* name) { return changes(path, column(name)) ? name : ""; };
+  const Axes axes{asked.x.empty() ? "lambda" : asked.x,
+                  first_of({asked.y, first_changing(path, "stable", "parent"), if_changing("negative"), "energy"})};
+  Columns at{};
+  Diagram d = begun(path, axes, file, at);
+  const int label = column("label"), branch = column("branch"), stable = column("stable"), parent = column("parent"), stage = column("stage");
+  std::map<std::string, Vec2> events;
+  std::map<std::string, int> stages;
+  const Row* before = nullptr;
+  int branches = 0;                                        // that no fall leads to
+  for (const Row& row : path.rows) {
+    const auto here = at.at(row);
+    if (!here) {
+      before = nullptr;
+      continue;
+    }
+    const std::string name = text_in(row, label), of_stage = text_in(row, stage);
+    const bool event = is_event(name), fall = name.starts_with("jump:");
+    if (event) d.marks.push_back({name.substr(0, name.find(':')), *here}), events.insert_or_assign(name, *here);
+    if (!of_stage.empty() && stages.try_emplace(of_stage, static_cast<int>(stages.size())).second) d.names.push_back(of_stage);
+    const bool new_branch = before && number_in(*before, branch) != number_in(row, branch) && !fall;
+    if (new_branch) ++branches;
+    const bool new_stage = before && text_in(*before, stage) != of_stage;
+    const auto known_stable = [&](const Row& r) { return number_in(r, stable).value_or(0) != 0; };
+    std::optional<Vec2> from = before ? at.at(*before) : std::nullopt;
+    bool is_stable = known_stable(row);
+    if (before && !new_branch && event) is_stable = is_event(text_in(*before, label)) ? is_stable && known_stable(*before) : known_stable(*before);
+    if (new_branch) {
+      const auto origin = events.find(text_in(row, parent));
+      from = origin == events.end() ? std::nullopt : std::optional(origin->second);
+    }
+    if (new_stage && axes.x == "lambda") from.reset();
+    const auto kind = fall ? Curve::Kind::fall : is_stable ? Curve::Kind::stable : Curve::Kind::unstable;
+    const int its_colour = of_stage.empty() ? branches : stages[of_stage];
+    Curve* last = d.curves.empty() ? nullptr : &d.curves.back();
+    const bool goes_on = last && from && !new_branch && last->kind == kind && last->colour == its_colour && last->points.back() == *from;
+    if (goes_on) last->points.push_back(*here);
+    else d.curves.push_back({from ? Polyline{*from, *here} : Polyline{*here}, kind, its_colour});
+    before = &row;
+  }
+  if (stages.empty() && branches > 0)
+    for (int b = 0; b <= branches; ++b) d.names.push_back(b == 0 ? "first branch" : fmt::format("branch {}", b + 1));
+  if (d.names.size() < 2) d.names.clear();
+  return d;
+}
+
+Diagram motion_diagram(const Table& trajectory, const Axes& asked, const std::string& file) {
+  const int balance = column_index(trajectory.columns, "balance");
+  std::string observed;
+  for (std::size_t c = static_cast<std::size_t>(balance + 1); balance >= 0 && c < trajectory.columns.size() && observed.empty(); ++c)
+    if (changes(trajectory, static_cast<int>(c))) observed = trajectory.columns[c];
+  Columns at{};
+  Diagram d = begun(trajectory, {first_of({asked.x, "time"}), first_of({asked.y, observed, "kinetic"})}, file, at);
+  Curve curve;
+  for (const Row& row : trajectory.rows)
+    if (const auto here = at.at(row)) curve.points.push_back(*here);
+  d.curves = {curve};
+  return d;
+}
+
+Diagram modes_diagram(const Table& modes, const Axes& asked, const std::string& file) {
+  Columns at{};
+  Diagram d = begun(modes, {first_of({asked.x, "mode"}), first_of({asked.y, "eigenvalue"})}, file, at);
+  d.whole_x = d.x == "mode";
+  for (const Row& row : modes.rows)
+    if (const auto here = at.at(row)) d.curves.push_back({{*here}, Curve::Kind::points, 0});
+  return d;
+}
+
+Diagram sweep_diagram(const Table& sweep, const Axes& asked, const std::string& file) {
+  const int status = needed(sweep, "status", file);
+  std::vector<int> keys;                                   // swept, but not what is expected
+  for (int c = 0; c < status; ++c)
+    if (!sweep.columns[static_cast<std::size_t>(c)].starts_with("expect.") && changes(sweep, c)) keys.push_back(c);
+  Axes axes = asked;
+  if (axes.x.empty()) axes.x = keys.empty() ? sweep.columns.front() : sweep.columns[static_cast<std::size_t>(keys.front())];
+  const bool in_time = column_index(sweep.columns, "balance") >= 0;
+  if (axes.y.empty())
+    axes.y = first_of({first_changing(sweep, "status", "step"), first_changing(sweep, "stable", "parent"), in_time ? "kinetic" : "energy"});
+  Columns at{};
+  Diagram d = begun(sweep, axes, file, at);
+  if (d.x == sweep.columns[static_cast<std::size_t>(at.x)] && d.x.find('.') != std::string::npos) d.x = d.x.substr(d.x.find('.') + 1);
+  if (is_event(d.y)) d.y = "load factor λ of " + d.y;
+  // One series, unless a value comes twice.
+  std::map<double, int> times;
+  bool twice = false;
+  for (const Row& row : sweep.rows)
+    if (const auto here = at.at(row)) twice = ++times[here->x()] > 1 || twice;
+  std::map<std::string, Curve> series;
+  for (const Row& row : sweep.rows) {
+    const auto here = at.at(row);
+    if (!here) continue;
+    std::string name;
+    for (const int k : keys)
+      if (twice && k != at.x) {
+        const std::string& key = sweep.columns[static_cast<std::size_t>(k)];
+        const std::string value = fmt::format("{:.6g}", number_in(row, k).value_or(0));
+        name += (name.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " + value;
+      }
+    const auto [it, is_new] = series.try_emplace(name, Curve{{}, Curve::Kind::points, static_cast<int>(series.size())});
+    if (is_new && twice) d.names.push_back(name);
+    it->second.points.push_back(*here);
+  }
+  for (auto& [name, curve] : series) {
+    std::sort(curve.points.begin(), curve.points.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+    d.curves.push_back(curve);
+  }
+  return d;
+}
+
+}  // namespace elamin

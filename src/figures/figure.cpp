@@ -1,0 +1,53 @@
+#include "figures/figure.hpp"
+
+#include "core/error.hpp"
+#include "figures/diagram.hpp"
+#include "figures/shapes.hpp"
+#include "results/stored_run.hpp"
+#include "core/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace elamin {
+namespace {
+
+constexpr double page = 85 / 25.4 * 72, height = 135, margin = 3;       // 85 mm [pt]
+
+// What the directory has in it; nothing if it has one point at most.
+std::optional<Diagram> diagram_in(const FigureOptions& options) {
+  using Read = Diagram (*)(const Table&, const Axes&, const std::string&);
+  const std::pair<const char*, Read> tables[] = {
+      {"sweep.csv", sweep_diagram}, {"modes.csv", modes_diagram}, {"trajectory.csv", motion_diagram}, {"path.csv", path_diagram}};
+  for (const auto& [name, read] : tables) {
+    const std::string file = (std::filesystem::path(options.directory) / name).string();
+    if (!std::filesystem::exists(file)) continue;
+    Diagram d = read(read_table(file), {options.x, options.y}, file);
+    if (!options.diagram || d.empty()) return std::nullopt;
+    return d;
+  }
+  throw InputError(fmt::format("{}: is not a directory of results: there is no path.csv, trajectory.csv, modes.csv or sweep.csv in it",
+                               options.directory));
+}
+
+}  // namespace
+
+std::string write_figure(const FigureOptions& options) {
+  const std::string file = options.file.empty() ? (std::filesystem::path(options.directory) / "figure.svg").string() : options.file;
+  if (!file.ends_with(".svg")) throw InputError(file + ": a figure is written as SVG; a name that ends in .svg is needed (rsvg-convert -f pdf makes a PDF of it)");
+  const std::optional<Diagram> diagram = diagram_in(options);
+  std::vector<std::string> labels = options.shapes;
+  if (labels.empty() && !diagram) labels = {"final"};
+  std::vector<Scene> scenes;
+  for (const std::string& label : labels) scenes.push_back(read_scene(options.directory, label));
+  Drawing drawing;
+  double y = margin;
+  if (diagram) y = draw_diagram(drawing, *diagram, {margin, y}, page - 2 * margin, height);
+  if (!scenes.empty()) y = draw_shapes(drawing, scenes, {margin, y + (diagram ? 6 : 0)}, page - 2 * margin);
+  write_text(file, drawing.svg(page, y + margin, std::filesystem::path(options.directory).lexically_normal().filename().string()));
+  return file;
+}
+
+}  // namespace elamin

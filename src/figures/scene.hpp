@@ -1,0 +1,29 @@
+#pragma once
+// What a stored state looks like: particles, bonds, bodies and walls, from the files that a run leaves beside it.
+#include "laws/region.hpp"
+
+#include <string>
+#include <vector>
+
+namespace elamin {
+
+struct Scene {
+  struct Particle { Vec3 at; double radius; };
+  struct Bond { int first, second; double tension; };      // particles by their place in the list
+  struct Body { std::vector<Vec3> points; std::vector<std::vector<int>> polygons; };   // see Surface
+  std::string label;
+  std::vector<Particle> particles;
+  std::vector<Bond> bonds;
+  std::vector<Body> bodies;
+  std::vector<Region> walls;
+};
+
+/// Reads DIR/states/LABEL.particles.csv and what stands beside it. LABEL: as in events.csv, "initial" or "final"; with "+mode" behind it
+/// moved along its first null vector; or mode:K, the last state moved along a mode of modes/. Moved: by a tenth of its size. Throws
+/// InputError if there is no such state or a file cannot be understood.
+Scene read_scene(const std::string& directory, const std::string& label);
+
+/// Edges and outlines of a wall's surface in space, as far as it goes through a box: lines.
+std::vector<std::vector<Vec3>> outlines(const Region& wall, const Eigen::AlignedBox3d& box);
+
+}  // namespace elamin

@@ -1,0 +1,140 @@
+#include "figures/figure.hpp"
+
+#include "catch.hpp"
+#include "core/error.hpp"
+#include "figures/diagram.hpp"
+#include "figures/scene.hpp"
+#include "results/stored_run.hpp"
+#include "scratch_directory.hpp"
+
+#include <algorithm>
+
+using namespace elamin;
+
+namespace {
+
+// A path that loses stability at a branch point, goes on, and where it ends falls; a second branch leaves the branch point.
+const std::string path_csv =
+    "step,label,branch,lambda,energy,negative,stable,odd_name,height,parent,negative_rigid\n"
+    "0,initial,0,0,0,0,true,1,0,,0\n"
+    "1,,0,0.1,0,0,true,1,0.1,,0\n"
+    "2,branch:1,0,0.2,0,0,false,1,0.2,,0\n"
+    "3,limit:1,0,0.3,0,1,false,1,0.4,,0\n"
+    "4,jump:1,1,0.3,0,0,true,1,2,limit:1,0\n"
+    "5,,2,0.25,0,0,true,1,1,branch:1,0\n"
+    "6,final,2,0.35,0,0,true,1,1.5,branch:1,0\n";
+
+std::string sentence(const FigureOptions& options) {
+  try {
+    write_figure(options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("ticks stand at round numbers, with a power of ten where they are large or small", "[figures]") {
+  CHECK(ticks_of({0, 1}).labels == std::vector<std::string>{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
+  const Ticks small = ticks_of({-2.1e-5, 1e-5});
+  CHECK(small.exponent == -5);
+  CHECK(small.labels == std::vector<std::string>{"−2.0", "−1.5", "−1.0", "−0.5", "0.0", "0.5", "1.0"});
+  CHECK(ticks_of({0.9, 2.1}, true).labels == std::vector<std::string>{"1", "2"});
+  const Extent one = with_room({0.3, 0.1 + 0.2});
+  CHECK((one.lo < 0.28 && one.hi > 0.32));                           // rounding is no range
+}
+
+TEST_CASE("a line loses only what is not seen", "[figures]") {
+  Polyline line;
+  for (int k = 0; k <= 100; ++k) line.emplace_back(k, k == 50 ? 3 : 0.01 * (k % 2));
+  const Polyline rest = thinned(line, 0.05);
+  CHECK(rest.size() == 5);
+  CHECK(rest[2] == Vec2(50, 3));
+  CHECK(thinned(line, 0).size() > 90);
+}
+
+TEST_CASE("a path as curves: stable, unstable, a fall, a branch from where it left", "[figures]") {
+  ScratchDirectory scratch;
+  const Table path = read_table(scratch.file("path.csv", path_csv));
+  const Diagram d = path_diagram(path, {}, "path.csv");
+  CHECK(d.x == "load factor λ");
+  CHECK(d.y == "height");                                            // odd_name never changes
+  REQUIRE(d.curves.size() == 4);
+  CHECK(d.curves[0].kind == Curve::Kind::stable);
+  CHECK(d.curves[0].points == Polyline{{0, 0}, {0.1, 0.1}, {0.2, 0.2}});
+  CHECK(d.curves[1].kind == Curve::Kind::unstable);
+  CHECK(d.curves[1].points == Polyline{{0.2, 0.2}, {0.3, 0.4}});
+  CHECK(d.curves[2].kind == Curve::Kind::fall);
+  CHECK(d.curves[2].points == Polyline{{0.3, 0.4}, {0.3, 2}});
+  CHECK(d.curves[3].points == Polyline{{0.2, 0.2}, {0.25, 1}, {0.35, 1.5}});
+  CHECK((d.curves[3].colour == 1 && d.curves[2].colour == 0));
+  REQUIRE(d.marks.size() == 3);
+  CHECK(d.marks[0].kind == "branch");
+  CHECK(d.marks[2].at == Vec2(0.3, 2));
+}
+
+TEST_CASE("stages begin anew along the load factor, and go on along anything else", "[figures]") {
+  ScratchDirectory scratch;
+  const Table path = read_table(scratch.file("path.csv", "label,branch,lambda,stable,w,parent,stage\ninitial,0,0,true,0,,a\n,0,1,true,1,,a\n"
+                                                         ",0,0,true,1,,b\nfinal,0,1,true,3,,b\n"));
+  const Diagram d = path_diagram(path, {}, "path.csv");
+  REQUIRE(d.curves.size() == 2);
+  CHECK(d.curves[1].points == Polyline{{0, 1}, {1, 3}});
+  CHECK(d.names == std::vector<std::string>{"a", "b"});
+  CHECK(path_diagram(path, {"w", "lambda"}, "path.csv").curves[1].points.size() == 3);
+}
+
+TEST_CASE("a sweep: what is swept, and the first event that there is", "[figures]") {
+  ScratchDirectory scratch;
+  const std::string head = "beam.a.particles,expect.1.value,status,branch:1,limit:1,step,stable,parent\n";
+  const Table sweep = read_table(scratch.file("sweep.csv", head + "9,1,done,,0.25,4,true,\n5,2,done,,0.5,3,true,\n"));
+  const Diagram d = sweep_diagram(sweep, {}, "sweep.csv");
+  CHECK(d.x == "a.particles");
+  CHECK(d.y == "load factor λ of limit:1");
+  REQUIRE(d.curves.size() == 1);
+  CHECK(d.curves[0].points == Polyline{{5, 0.5}, {9, 0.25}});
+}
+
+TEST_CASE("a figure has its words as text, and the same bits twice", "[figures]") {
+  ScratchDirectory scratch;
+  scratch.file("path.csv", path_csv);
+  std::filesystem::create_directories(scratch / "states");
+  scratch.file("states/final.particles.csv", "id,kind,x,y,z,radius,energy,fx,fy,fz\n3,particle,0,0,0,0.1,0,0,0,0\n9,particle,1,0,0,0.1,0,0,0,0\n");
+  scratch.file("states/final.bonds.csv", "first,second,length,strain,tension\n3,9,1,0.5,-2\n");
+  scratch.file("states/final.walls.csv", "name,shape,x,y,z,nx,ny,nz,xlo,ylo,zlo,xhi,yhi,zhi,lo,hi,radius_lo,radius_hi,open\n"
+                                         "w,plane,0,0,-0.1,0,0,1,,,,,,,,,,,\n");
+  const std::string directory = scratch / ".";
+  const std::string file = write_figure({directory, "", "", {"final"}, true, scratch / "a.svg"});
+  CHECK(file == scratch / "a.svg");
+  const std::string svg = text_of(file);
+  CHECK(svg.starts_with("<svg xmlns="));
+  CHECK(svg.ends_with("</svg>\n"));
+  for (const char* word : {">load factor λ<", ">height<", ">unstable<", ">limit point<", ">final<", ">2  tension<", "width=\"240.94pt\""})
+    CHECK(svg.find(word) != std::string::npos);
+  CHECK(std::count(svg.begin(), svg.end(), '<') == std::count(svg.begin(), svg.end(), '>'));
+  CHECK(svg.find("nan") == std::string::npos);
+  write_figure({directory, "", "", {"final"}, true, scratch / "b.svg"});
+  CHECK(text_of(scratch / "b.svg") == svg);
+  const Scene scene = read_scene(directory, "final");
+  REQUIRE((scene.bonds.size() == 1 && scene.walls.size() == 1));
+  CHECK(scene.bonds[0].tension == -2);
+  CHECK(scene.walls[0].center == Vec3(0, 0, -0.1));
+}
+
+TEST_CASE("what is missing for a figure is said", "[figures]") {
+  ScratchDirectory scratch;
+  FigureOptions options;
+  options.directory = scratch / "none";
+  CHECK(sentence(options).find("none: is not a directory of results: there is no path.csv") != std::string::npos);
+  options.directory = scratch / ".";
+  scratch.file("path.csv", path_csv);
+  options.y = "heigth";
+  CHECK(sentence(options).find("has no column \"heigth\"; there are: step, label") != std::string::npos);
+  CHECK(sentence(options).find("did you mean \"height\"?") != std::string::npos);
+  options.y = "", options.shapes = {"limit:1"};
+  CHECK(sentence(options).find("limit-1.particles.csv: is not there; this run has left no such states") != std::string::npos);
+  options.shapes = {}, options.file = "f.pdf";
+  CHECK(sentence(options).find("f.pdf: a figure is written as SVG") == 0);
+  CHECK(!std::filesystem::exists(scratch / "figure.svg"));
+}
