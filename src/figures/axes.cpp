@@ -59,7 +59,7 @@ Ticks ticks_of(const Extent& range, bool whole) {
   return ticks;
 }
 
-void draw_axes(Drawing& drawing, const Frame& f, const std::string& x, const std::string& y) {
+void draw_axes(Drawing& drawing, const PlotArea& f, const std::string& x, const std::string& y) {
   constexpr double tick = 2.5;
   const Ticks across = ticks_of(f.x, f.whole_x), up = ticks_of(f.y);
   std::vector<Polyline> marks;

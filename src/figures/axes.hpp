@@ -23,7 +23,7 @@ struct Ticks {
 Ticks ticks_of(const Extent& range, bool whole = false);
 
 /// A frame on the page, and where numbers are in it.
-struct Frame {
+struct PlotArea {
   Vec2 lo, hi;                         // corners on the page: left and low, right and high
   Extent x, y;
   bool whole_x = false;                // ticks at whole numbers only
@@ -33,6 +33,6 @@ struct Frame {
 };
 
 /// Draws the frame with its ticks and names.
-void draw_axes(Drawing& drawing, const Frame& frame, const std::string& x, const std::string& y);
+void draw_axes(Drawing& drawing, const PlotArea& frame, const std::string& x, const std::string& y);
 
 }  // namespace elamin

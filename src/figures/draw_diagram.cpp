@@ -86,7 +86,7 @@ double draw_diagram(Drawing& drawing, const Diagram& d, const Vec2& corner, doub
   Extent x, y;
   for (const Curve& c : d.curves)
     for (const Vec2& p : c.points) x.add(p.x()), y.add(p.y());
-  Frame f{{}, {}, with_room(x), with_room(y), d.whole_x};
+  PlotArea f{{}, {}, with_room(x), with_room(y), d.whole_x};
   double widest = 0;
   for (const std::string& label : ticks_of(f.y).labels) widest = std::max(widest, width_of(label, legend_type));
   const double left = corner.x() + widest + 16;
