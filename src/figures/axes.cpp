@@ -73,7 +73,7 @@ void draw_axes(Drawing& drawing, const PlotArea& f, const std::string& x, const 
     const Vec2 at = f.at(f.x.lo, up.values[i]);
     marks.push_back({at, at + Vec2(tick, 0)});
     drawing.words(at + Vec2(-2.5, 2.3), up.labels[i], Anchor::end, small_type);
-    widest = std::max(widest, width_of(up.labels[i], small_type));
+    widest = std::max(widest, 1.2 * width_of(up.labels[i], small_type));
   }
   drawing.lines(marks, {});
   drawing.area({f.lo, {f.hi.x(), f.lo.y()}, f.hi, {f.lo.x(), f.hi.y()}}, "", {});
