@@ -63,10 +63,13 @@ class TreeMaker : public Keys {
   }
   void note(const Key& from, Type type, const std::string& may_be, const std::string& standard) {
     KeyTree& key = add(from.name, from.needed);
+    const bool again = !key.means.empty();       // in another choice
     append(key.means, from.means, "; ");
     append(key.may_be, may_be, ", or ");
-    key.type = key.type == Type::other || key.type == type ? type : Type::other;
-    key.needed = from.needed, key.range = from.range, key.standard = from.needed ? "" : standard;
+    key.type = !again || key.type == type ? type : Type::other;
+    key.range = again ? Range{std::min(key.range.lo, from.range.lo), std::max(key.range.hi, from.range.hi), key.range.above && from.range.above}
+                      : from.range;
+    key.needed = from.needed, key.standard = from.needed ? "" : standard;
     for (const std::string& word : from.words)
       if (std::find(key.words.begin(), key.words.end(), word) == key.words.end()) key.words.push_back(word);
   }
