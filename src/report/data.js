@@ -50,14 +50,16 @@ class Run {
   called(id) {
     const k = this.index.get(id);
     if (this.shape && k !== undefined)
-      for (const s of this.shape.structures) if (k >= s.first && k < s.first + s.count) return s.count > 1 ? `${s.name} ${k - s.first + 1}` : s.name;
+      for (const s of this.shape.structures) if (k >= s.first && k < s.first + s.count) return s.count > 1 ? `${s.name} ${k - s.first + 1}`
+          : s.name;
     const b = this.shape ? this.shape.bodies.findIndex((body) => body.id === id) : -1;
     if (b >= 0) for (const s of this.shape.structures) if (b >= s.first_body && b < s.first_body + s.bodies) return s.name;
     return `${id}`;
   }
 
   /// A sentence of the program with particles by their structure.
-  told(text) { return text.replace(/\b(particle|body) (\d+)/g, (all, kind, id) => this.index.has(+id) || kind === 'body' ? this.called(+id) : all); }
+  told(text) { return text.replace(/\b(particle|body) (\d+)/g, (all, kind, id) => this.index.has(+id) || kind === 'body' ? this.called(+id)
+      : all); }
 }
 
 function decodedStructure(s) {
@@ -91,7 +93,8 @@ function short(v) {
 /// Text of the ticks of a scale: powers of ten where numbers are long.
 function ticks(scale) {
   const most = d3.max(scale.domain(), Math.abs);
-  return most > 0 && (most < 1e-3 || most >= 1e6) ? (v) => (v === 0 ? '0' : v.toExponential(2).replace(/\.?0*e/, 'e').replace('e+', 'e')) : undefined;
+  return most > 0 && (most < 1e-3 || most >= 1e6) ? (v) => (v === 0 ? '0' : v.toExponential(2).replace(/\.?0*e/, 'e').replace('e+', 'e'))
+      : undefined;
 }
 /// Where a scale ends; numbers that agree to nine digits count as one.
 function reach(values, room = 0) {
@@ -102,16 +105,19 @@ function reach(values, room = 0) {
 }
 const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
-const kindOf = (label) => { const m = /^(branch|limit|contact|jump):\d+$/.exec(label || ''); return m ? m[1] : label ? (label === 'initial' || label === 'final' ? label : 'event') : ''; };
+const kindOf = (label) => { const m = /^(branch|limit|contact|jump):\d+$/.exec(label || ''); return m ? m[1] : label
+    ? (label === 'initial' || label === 'final' ? label : 'event') : ''; };
 
 const dark = () => matchMedia('(prefers-color-scheme: dark)').matches;
 
 /// Colours that colour-blind readers can tell apart (after Okabe and Ito); those of saved figures are the light ones.
 function theme(isDark = dark()) {
   return isDark
-    ? {ink: '#e8ebef', quiet: '#a3adba', rule: '#373e48', page: '#14171b', series: ['#5fb3e6', '#f0b23c', '#3fc79a', '#e29cc4', '#9ad7f7', '#ff9a66'],
+    ? {ink: '#e8ebef', quiet: '#a3adba', rule: '#373e48', page: '#14171b', series: ['#5fb3e6', '#f0b23c', '#3fc79a', '#e29cc4', '#9ad7f7',
+        '#ff9a66'],
       index: ['#ff8a4d', '#e86fb1', '#b48cff', '#d6c23a']}
-    : {ink: '#16191d', quiet: '#596270', rule: '#d5dae1', page: '#ffffff', series: ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#b85a1c'],
+    : {ink: '#16191d', quiet: '#596270', rule: '#d5dae1', page: '#ffffff', series: ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9',
+        '#b85a1c'],
       index: ['#d55e00', '#b0307a', '#6a3fb5', '#8a7500']};
 }
 const seriesColour = (t, k) => t.series[k % t.series.length];

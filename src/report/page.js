@@ -17,7 +17,8 @@ try {
 /// What a diagram begins with: of a path the first observable that changes, against the load factor.
 function firstColumns(run) {
   const observables = run.path.numeric(), after = run.path.columns.indexOf(run.in_time ? 'balance' : 'stable');
-  const own = observables.filter((c) => run.path.columns.indexOf(c) > after && !['negative_rigid', 'parent'].includes(c) && !c.startsWith('eigenvalue_') && new Set(run.path.column(c)).size > 1);
+  const own = observables.filter((c) => run.path.columns.indexOf(c) > after && !['negative_rigid', 'parent'].includes(c)
+      && !c.startsWith('eigenvalue_') && new Set(run.path.column(c)).size > 1);
   return [run.path.has(run.parameter) ? run.parameter : observables[0], own[0] || 'energy'];
 }
 
@@ -43,7 +44,8 @@ function open(number) {
   $('size').parentElement.hidden = !run.shape || !run.shape.radius.length;
   $('colour').parentElement.hidden = !run.shape || !run.shape.fields.length;
   if (run.states.length) fill($('ghost'), [['', 'nothing'], ...run.states.map((s, k) => [k, nameOf(run, s)])], '');
-  fill($('colour'), [['', 'structure'], ...(run.shape ? run.shape.fields.map((f) => [f.key, f.name]) : [])], run.shape && run.shape.structures.length === 1 && run.shape.fields.length ? run.shape.fields[0].key : '');
+  fill($('colour'), [['', 'structure'], ...(run.shape ? run.shape.fields.map((f) => [f.key, f.name]) : [])], run.shape
+      && run.shape.structures.length === 1 && run.shape.bonds.length ? run.shape.fields[0].key : '');
   $('shape-part').hidden = !run.states.length && !run.no_shape;
   if (shape && run.states.length) shape.open(run);
   showDiagram(), showEvents(), showAbout(), select(page.row);
@@ -61,7 +63,8 @@ function select(row) {
   page.row = row;
   $('row').value = row;
   const label = p.at('label', row), unstable = p.at('negative', row);
-  const parts = [`point ${row}`, label, `${run.in_time ? 'time' : 'load factor'} ${short(p.at(run.parameter, row))}`, p.has('stable') ? (p.at('stable', row) ? 'stable' : ['branch', 'limit'].includes(kindOf(label)) ? 'critical' : `unstable, index ${unstable}`) : ''];
+  const parts = [`point ${row}`, label, `${run.in_time ? 'time' : 'load factor'} ${short(p.at(run.parameter, row))}`, p.has('stable')
+      ? (p.at('stable', row) ? 'stable' : ['branch', 'limit'].includes(kindOf(label)) ? 'critical' : `unstable, index ${unstable}`) : ''];
   $('where').textContent = p.rows ? parts.filter((t) => t).join(' · ') : '';
   $('row').setAttribute('aria-valuetext', $('where').textContent);
   diagram.select(row);
@@ -93,8 +96,10 @@ function showShape() {
   $('shape-note').textContent = told.join(' ');
   if (!shape || !state) return;
   const modes = arrays(state).modes, mode = modes[$('mode').value] || null, field = $('colour').value;
-  shape.show(state, {ghost: $('ghost').value === '' ? null : run.states[$('ghost').value], mode, amplitude: mode ? page.swung ?? $('amplitude').value / 100 : 0, field, size: $('size').value / 100});
-  $('shape').setAttribute('aria-label', `${run.title || run.name}, ${nameOf(run, state)}: ${run.shape.radius.length} particles, ${run.shape.bodies.length} bodies, ${arrays(state).contacts.length} contacts`);
+  shape.show(state, {ghost: $('ghost').value === '' ? null : run.states[$('ghost').value], mode, amplitude: mode
+      ? page.swung ?? $('amplitude').value / 100 : 0, field, size: $('size').value / 100});
+  $('shape').setAttribute('aria-label',
+      `${run.title || run.name}, ${nameOf(run, state)}: ${run.shape.radius.length} particles, ${run.shape.bodies.length} bodies, ${arrays(state).contacts.length} contacts`);
   showLegend(field);
 }
 
@@ -104,40 +109,47 @@ function showLegend(field) {
   const swatch = (colour) => { const m = element('span'); m.className = 'swatch'; m.style.background = colour; return m; };
   const f = run.shape.fields.find((g) => g.key === field);
   if (f) {
-    const ramp = element('span'), most = shape.reach[field] || 0;
+    const ramp = element('span'), most = short(+(shape.reach[field] || 0).toPrecision(2)), from = shape.signed[field] ? 0 : 0.5;
     ramp.className = 'ramp';
-    ramp.style.background = `linear-gradient(90deg, ${d3.range(0, 1.01, 0.1).map((v) => d3.interpolateRdBu(1 - v)).join(',')})`;
-    line(ramp, `${f.name}, −${short(+most.toPrecision(2))} to ${short(+most.toPrecision(2))}`);
+    ramp.style.background = `linear-gradient(90deg, ${d3.range(from, 1.01, 0.1).map((v) => d3.interpolateRdBu(1 - v)).join(',')})`;
+    line(ramp, `${f.name}, ${from ? '0' : `−${most}`} to ${most}`);
   } else if (run.shape.structures.length > 1 && run.shape.structures.length < 9)
     run.shape.structures.forEach((s, k) => line(swatch(seriesColour(t, k)), s.name));
-  if (arrays(page.state).contacts.length && shape.most > 0) line(swatch(t.index[0]), `contact forces, at most ${short(+shape.most.toPrecision(3))}`);
+  if (arrays(page.state).contacts.length && shape.most > 0) line(swatch(t.index[0]),
+      `contact forces, at most ${short(+shape.most.toPrecision(3))}`);
   if (page.state.loads.some((v) => v)) line(swatch(t.series[2]), 'loads');
   if (shape.enlarged) line(element('span'), 'particles are drawn larger than they are');
   $('legend').replaceChildren(...rows);
 }
 
-const sentences = {branch: 'a branch point', limit: 'a limit point: the load factor turns back', jump: 'it falls to another equilibrium', initial: 'the start', final: 'the end'};
+const sentences = {branch: 'a branch point', limit: 'a limit point: the load factor turns back', jump: 'it falls to another equilibrium',
+    initial: 'the start', final: 'the end'};
 
 function showEvents() {
   const run = page.run, labels = run.path.column('label'), drops = new Map(falls(run).map((f) => [f.label, f.freed]));
   const rows = d3.range(run.path.rows).filter((k) => labels[k]);
   $('events-part').hidden = !rows.length;
   const head = element('tr'), body = [];
-  for (const h of ['event', run.in_time ? 'time' : 'load factor', 'energy', 'what']) head.append(element('th', h, ['event', 'what'].includes(h) ? {} : {class: 'number'}));
+  for (const h of ['event', run.in_time ? 'time' : 'load factor', 'energy', 'what']) head
+      .append(element('th', h, ['event', 'what'].includes(h) ? {} : {class: 'number'}));
   for (const k of rows) {
     const tr = element('tr', null, {'data-row': k}), button = element('button', labels[k]), cell = element('td');
     const event = run.events.column('label').indexOf(labels[k]), kind = kindOf(labels[k]), freed = drops.get(labels[k]);
-    const what = run.told((event >= 0 && run.events.at('what', event)) || ''), before = run.events.at('negative_before', event), after = run.events.at('negative_after', event);
+    const what = run.told((event >= 0 && run.events.at('what', event)) || ''), before = run.events.at('negative_before', event),
+        after = run.events.at('negative_after', event);
     button.onclick = () => select(k);
     cell.append(button);
     const named = kind === 'event' ? (event >= 0 ? 'the observable reaches its value' : 'the stage ends') : '';
-    const text = [kind === 'jump' ? sentences.jump : what || sentences[kind] || named, before === 0 && after > 0 ? 'stability is lost' : before > 0 && after === 0 ? 'stability is won back' : '', freed !== undefined ? `${short(freed)} of energy is set free` : '',
+    const text = [kind === 'jump' ? sentences.jump : what || sentences[kind] || named, before === 0 && after > 0 ? 'stability is lost'
+        : before > 0 && after === 0 ? 'stability is won back' : '', freed !== undefined ? `${short(freed)} of energy is set free` : '',
       event >= 0 && before !== after && before >= 0 ? `Morse index ${before} → ${after}` : ''].filter((s) => s).join('; ');
-    tr.append(cell, element('td', short(run.path.at(run.parameter, k)), {class: 'number'}), element('td', short(run.path.at('energy', k)), {class: 'number'}), element('td', text));
+    tr.append(cell, element('td', short(run.path.at(run.parameter, k)), {class: 'number'}), element('td', short(run.path.at('energy', k)),
+        {class: 'number'}), element('td', text));
     body.push(tr);
   }
   $('events').replaceChildren(head, ...body);
-  $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} falls set ${short(d3.sum([...drops.values()]))} of energy free.` : '';
+  $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} falls set ${short(d3.sum([...drops.values()]))} of energy free.`
+      : '';
 }
 
 function drawCharts() {
@@ -148,7 +160,8 @@ function drawCharts() {
 }
 
 function showAbout() {
-  const run = page.run, facts = [], fact = (name, value, code) => { if (value) { const d = element('dd'); d.append(code ? element('code', value) : value); facts.push(element('dt', name), d); } };
+  const run = page.run, facts = [], fact = (name, value, code) => { if (value) { const d = element('dd'); d
+      .append(code ? element('code', value) : value); facts.push(element('dt', name), d); } };
   const met = run.expected.filter((e) => e.met).length;
   $('met').hidden = !run.expected.length;
   $('met').textContent = run.expected.length ? `${met} of ${run.expected.length} expectations of the problem file are met.` : '';
@@ -160,7 +173,8 @@ function showAbout() {
   $('expected-count').textContent = `The ${plural(run.expected.length, 'expectation')} of the problem file, ${met} met`;
   $('expected').replaceChildren(head, ...run.expected.map((e) => {
     const tr = element('tr');
-    tr.append(element('td', e.column), element('td', e.at), element('td', short(e.expected)), element('td', short(e.value)), element('td', e.met ? '✓ met' : '✗ not met', {class: e.met ? 'good' : 'bad'}), element('td', e.source));
+    tr.append(element('td', e.column), element('td', e.at), element('td', short(e.expected)), element('td', short(e.value)),
+        element('td', e.met ? '✓ met' : '✗ not met', {class: e.met ? 'good' : 'bad'}), element('td', e.source));
     return tr;
   }));
   fact('problem file', run.input.file), fact('its SHA-256', run.input.sha256, true);
@@ -171,7 +185,8 @@ function showAbout() {
   fact('the run again', `elamin ${quoted(`${run.directory}/resolved.toml`)} -o again`, true), fact('this page again', report.command, true);
   $('facts').replaceChildren(...facts);
   $('described').textContent = run.described || run.no_shape;
-  $('input-title').textContent = run.input.text !== null ? `The problem file, ${run.input.file}` : `The problem file ${run.input.file} is not there any more, or is not what was run`;
+  $('input-title').textContent = run.input.text !== null ? `The problem file, ${run.input.file}`
+      : `The problem file ${run.input.file} is not there any more, or is not what was run`;
   $('input').textContent = run.input.text ?? '';
   $('resolved').textContent = run.resolved;
   drawCharts();
@@ -180,7 +195,8 @@ const quoted = (text) => (/^[\w./=+,-]+$/.test(text) ? text : `'${text.replace(/
 
 function showSweep() {
   if (!sweep) return;
-  drawSweep($('sweep-plot'), sweep, $('sweep-x').value, $('sweep-y').value, {logX: $('sweep-log-x').checked, logY: $('sweep-log-y').checked, chosen: page.run.number, choose: (k) => runs[k] && open(k)});
+  drawSweep($('sweep-plot'), sweep, $('sweep-x').value, $('sweep-y').value, {logX: $('sweep-log-x').checked,
+      logY: $('sweep-log-y').checked, chosen: page.run.number, choose: (k) => runs[k] && open(k)});
 }
 
 function stop() {
@@ -191,7 +207,8 @@ function stop() {
 }
 function play() {
   if (page.timer) return stop();
-  const rows = page.run.path.rows, seconds = Math.min(12, Math.max(3, rows / 10)), from = page.row >= rows - 1 ? 0 : page.row, began = performance.now();
+  const rows = page.run.path.rows, seconds = Math.min(12, Math.max(3, rows / 10)), from = page.row >= rows - 1 ? 0 : page.row,
+      began = performance.now();
   $('play').textContent = '❚❚ Pause';
   $('play').setAttribute('aria-pressed', 'true');
   const step = (now) => {
@@ -239,19 +256,24 @@ fill($('run'), runs.map((r, k) => [k, r.name]));
 $('run').onchange = () => open(+$('run').value);
 if (sweep) {
   $('sweep').hidden = false;
-  const columns = sweep.numeric().map((c) => [c, c]), swept = sweep.columns.slice(0, sweep.columns.indexOf('status')).filter((c) => columns.some(([n]) => n === c));
+  const columns = sweep.numeric().map((c) => [c, c]), swept = sweep.columns.slice(0, sweep.columns.indexOf('status'))
+      .filter((c) => columns.some(([n]) => n === c));
   const thresholds = ['branch:1', 'limit:1', 'contact:1'].filter((c) => sweep.column(c).some((v) => v !== null));
-  fill($('sweep-x'), columns, swept.find((c) => !c.startsWith('expect.')) || swept[0]), fill($('sweep-y'), columns, thresholds[0] || firstColumns(runs[0])[1]);
+  fill($('sweep-x'), columns, swept.find((c) => !c.startsWith('expect.')) || swept[0]), fill($('sweep-y'), columns, thresholds[0]
+      || firstColumns(runs[0])[1]);
 }
 if (runs.length > 1) {
   $('overlay').checked = runs.length <= 12;
-  if (!sweep) $('sweep').hidden = false, $('sweep-title').textContent = 'The runs', $('sweep-plot').remove(), $('sweep').querySelector('.tools').remove();
+  if (!sweep) $('sweep').hidden = false, $('sweep-title').textContent = 'The runs', $('sweep-plot').remove(),
+      $('sweep').querySelector('.tools').remove();
   $('multiples').append(...runs.map((run, k) => {
-    const b = element('button', null, {'data-run': k, title: run.name}), svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), [x, y] = firstColumns(run), all = points(run, x, y), t = theme();
+    const b = element('button', null, {'data-run': k, title: run.name}), svg = document.createElementNS('http://www.w3.org/2000/svg',
+        'svg'), [x, y] = firstColumns(run), all = points(run, x, y), t = theme();
     const sx = d3.scaleLinear(d3.extent(all, (p) => p.x), [4, 116]), sy = d3.scaleLinear(d3.extent(all, (p) => p.y), [56, 4]);
     d3.select(svg).attr('viewBox', '0 0 120 60').attr('aria-hidden', 'true');
     for (const l of pieces(all).lines)
-      d3.select(svg).append('path').attr('d', d3.line().x((p) => sx(p.x)).y((p) => sy(p.y))(l.points)).attr('fill', 'none').attr('stroke', l.stable ? t.series[0] : indexColour(t, l.negative)).attr('stroke-width', 1.5);
+      d3.select(svg).append('path').attr('d', d3.line().x((p) => sx(p.x)).y((p) => sy(p.y))(l.points)).attr('fill', 'none')
+          .attr('stroke', l.stable ? t.series[0] : indexColour(t, l.negative)).attr('stroke-width', 1.5);
     b.append(svg, element('span', run.name));
     b.onclick = () => open(k);
     return b;

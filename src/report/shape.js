@@ -34,7 +34,8 @@ class ShapeView {
     this.close();
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.AmbientLight(0xffffff, 0.55), this.lamp, this.lamp.target);
-    const s = run.shape, n = s.radius.length, ball = n > 2000 ? new THREE.IcosahedronBufferGeometry(1, 1) : new THREE.SphereBufferGeometry(1, n > 500 ? 14 : 24, n > 500 ? 10 : 16);
+    const s = run.shape, n = s.radius.length, ball = n > 2000 ? new THREE.IcosahedronBufferGeometry(1, 1)
+        : new THREE.SphereBufferGeometry(1, n > 500 ? 14 : 24, n > 500 ? 10 : 16);
     this.measure();
     const least = 0.004 * this.extent;                          // what is smaller would not be seen
     this.radius = Array.from(s.radius, (r) => Math.max(r, least));
@@ -46,11 +47,13 @@ class ShapeView {
     this.ghostBalls = new Copies(ball.clone(), n, {transparent: true, opacity: 0.28, depthWrite: false});
     const held = s.supports.flatMap((p) => (p.held.length > 1 ? p.particles : []));
     this.held = [...new Set(held)];
-    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.length, {transparent: true, opacity: 0.3, depthWrite: false});
+    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.length, {transparent: true, opacity: 0.3,
+        depthWrite: false});
     this.bodies = this.solids(1), this.ghostBodies = this.solids(0.28);
     this.walls = s.walls.map((w) => this.wall(w));
     this.arrows = new THREE.Group();
-    this.scene.add(this.balls.mesh, this.rods.mesh, this.ghostBalls.mesh, this.blocks.mesh, this.arrows, ...this.bodies, ...this.ghostBodies, ...this.walls);
+    this.scene.add(this.balls.mesh, this.rods.mesh, this.ghostBalls.mesh, this.blocks.mesh, this.arrows, ...this.bodies,
+        ...this.ghostBodies, ...this.walls);
     this.look('');
   }
   close() {
@@ -59,8 +62,9 @@ class ShapeView {
 
   /// The box around every stored state, the largest contact force, and how far the values of each field reach.
   measure() {
-    this.box = new THREE.Box3(), this.most = 0, this.reach = {};
-    const reach = new Map(this.run.shape.bodies.map((b, k) => [k, Math.max(...Array.from(this.run.shape.surfaces[b.shape].points, Math.abs))]));
+    this.box = new THREE.Box3(), this.most = 0, this.reach = {}, this.signed = {};
+    const reach = new Map(this.run.shape.bodies
+        .map((b, k) => [k, Math.max(...Array.from(this.run.shape.surfaces[b.shape].points, Math.abs))]));
     for (const state of this.run.states) {
       const a = arrays(state);
       for (let k = 0; k < a.x.length; k += 3) this.box.expandByPoint(vector(a.x.subarray(k, k + 3)));
@@ -70,7 +74,7 @@ class ShapeView {
       }
       for (const c of a.contacts) this.most = Math.max(this.most, c.size);
       for (const [name, values] of Object.entries(a.fields))
-        for (const v of values) this.reach[name] = Math.max(this.reach[name] || 0, Math.abs(v));
+        for (const v of values) this.reach[name] = Math.max(this.reach[name] || 0, Math.abs(v)), this.signed[name] ||= v < 0;
     }
     const largest = Array.from(this.run.shape.radius).reduce((m, r) => Math.max(m, r), 0);
     this.box.expandByScalar(largest);
@@ -87,7 +91,8 @@ class ShapeView {
       g.computeVertexNormals();
       return g;
     });
-    return this.run.shape.bodies.map((b, k) => new THREE.Mesh(forms[b.shape], new THREE.MeshLambertMaterial({color: seriesColour(t, this.structureOfBody(k)),
+    return this.run.shape.bodies.map((b, k) => new THREE.Mesh(forms[b.shape],
+        new THREE.MeshLambertMaterial({color: seriesColour(t, this.structureOfBody(k)),
       transparent: opacity < 1, opacity, depthWrite: opacity === 1})));
   }
   structureOf(k) { return this.run.shape.structures.findIndex((s) => k >= s.first && k < s.first + s.count); }
@@ -101,24 +106,31 @@ class ShapeView {
     let g, place = new THREE.Vector3();
     if (w.shape === 'plane') {
       const n = vector(w.normal);
-      g = new THREE.PlaneBufferGeometry(1.3 * size, 1.3 * size).applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), n)));
+      g = new THREE.PlaneBufferGeometry(1.3 * size, 1.3 * size)
+          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1),
+          n)));
       place = centre.sub(n.clone().multiplyScalar(n.dot(centre.clone().sub(vector(w.center)))));
     } else if (w.shape === 'block') {
-      const [lo, hi] = [w.lo, w.hi].map((end, side) => vector(end.map((v, c) => (Number.isFinite(v) && v !== null ? v : centre.getComponent(c) + (side - 0.5) * 1.6 * size))));
+      const [lo, hi] = [w.lo, w.hi].map((end, side) => vector(end
+          .map((v, c) => (Number.isFinite(v) && v !== null ? v : centre.getComponent(c) + (side - 0.5) * 1.6 * size))));
       g = new THREE.BoxBufferGeometry(...hi.clone().sub(lo).toArray());
       place = lo.add(hi).multiplyScalar(0.5);
     } else if (w.shape === 'sphere') {
       g = new THREE.SphereBufferGeometry(w.radius, 32, 20);
       place = vector(w.center);
     } else {
-      const middle = centre.getComponent(w.axis), lo = w.lo === null ? middle - 0.7 * size : w.lo, hi = w.hi === null ? middle + 0.7 * size : w.hi;
+      const middle = centre.getComponent(w.axis), lo = w.lo === null ? middle - 0.7 * size : w.lo, hi = w.hi === null ? middle + 0.7 * size
+          : w.hi;
       const axis = new THREE.Vector3().setComponent(w.axis, 1);
-      g = new THREE.CylinderBufferGeometry(w.radius_hi, w.radius_lo, hi - lo, 40, 1, true).applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(up, axis)));
+      g = new THREE.CylinderBufferGeometry(w.radius_hi, w.radius_lo, hi - lo, 40, 1, true)
+          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(up, axis)));
       place = vector(w.center).setComponent(w.axis, (lo + hi) / 2);
     }
     const t = theme();
-    group.add(new THREE.Mesh(g, new THREE.MeshBasicMaterial({color: t.quiet, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false})));
-    group.add(new THREE.LineSegments(new THREE.EdgesGeometry(g, 20), new THREE.LineBasicMaterial({color: t.quiet, transparent: true, opacity: 0.7})));
+    group.add(new THREE.Mesh(g, new THREE.MeshBasicMaterial({color: t.quiet, transparent: true, opacity: 0.16, side: THREE.DoubleSide,
+        depthWrite: false})));
+    group.add(new THREE.LineSegments(new THREE.EdgesGeometry(g, 20), new THREE.LineBasicMaterial({color: t.quiet, transparent: true,
+        opacity: 0.7})));
     group.userData = {place, radius: w.radius || w.radius_lo || 0, axis: w.axis};
     return group;
   }
@@ -146,12 +158,14 @@ class ShapeView {
     for (let b = 0; 2 * b < s.bonds.length; ++b) {
       const [p, q] = [s.bonds[2 * b], s.bonds[2 * b + 1]].map((k) => vector(x.subarray(3 * k, 3 * k + 3)));
       const along = q.clone().sub(p), length = along.length();
-      this.rods.put(b, p.add(q).multiplyScalar(0.5), new THREE.Quaternion().setFromUnitVectors(up, along.divideScalar(length || 1)), new THREE.Vector3(this.thick, length, this.thick));
+      this.rods.put(b, p.add(q).multiplyScalar(0.5), new THREE.Quaternion().setFromUnitVectors(up, along.divideScalar(length || 1)),
+          new THREE.Vector3(this.thick, length, this.thick));
       this.rods.tint(b, tints.bonds[b]);
     }
     this.rods.done();
     const grey = new THREE.Color(t.quiet);
-    this.held.forEach((p, k) => { this.blocks.put(k, vector(x.subarray(3 * p, 3 * p + 3)), one, new THREE.Vector3().setScalar(this.radius[p])); this.blocks.tint(k, grey); });
+    this.held.forEach((p, k) => { this.blocks.put(k, vector(x.subarray(3 * p, 3 * p + 3)), one,
+        new THREE.Vector3().setScalar(this.radius[p])); this.blocks.tint(k, grey); });
     this.blocks.done();
     this.pose(this.bodies, a.poses, mode, scale);
     this.behind(ghost, grey);
@@ -181,7 +195,8 @@ class ShapeView {
       m.position.set(p[0] + v[0], p[1] + v[1], p[2] + v[2]);
       m.quaternion.set(p[3], p[4], p[5], p[6]);
       const angle = Math.hypot(v[3], v[4], v[5]);
-      if (angle > 0) m.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(v[3] / angle, v[4] / angle, v[5] / angle), angle));
+      if (angle > 0) m.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(v[3] / angle, v[4] / angle,
+          v[5] / angle), angle));
     });
   }
 
@@ -198,7 +213,8 @@ class ShapeView {
     }
     const sum = new Float64Array(n), count = new Float64Array(n);
     values.forEach((v, b) => { for (const p of [s.bonds[2 * b], s.bonds[2 * b + 1]]) { sum[p] += v; ++count[p]; } });
-    return {particles: own.map((c, k) => (count[k] ? colour(sum[k] / count[k]) : new THREE.Color(t.rule))), bonds: Array.from(values, colour)};
+    return {particles: own.map((c, k) => (count[k] ? colour(sum[k] / count[k]) : new THREE.Color(t.rule))),
+        bonds: Array.from(values, colour)};
   }
 
   /// Arrows: contact forces in their proportion to the largest of the run, and loads.
@@ -218,28 +234,33 @@ class ShapeView {
         if (c.second >= 0) add(c.point, c.force.map((f) => -f), 0.02 * this.extent + 0.12 * this.extent * c.size / this.most, t.index[0]);
       }
     this.run.shape.loads.forEach((load, k) => {
-      const acts = state.loads[k], forces = load.forces ||= decoded(load.force, Float32Array), every = Math.ceil(load.particles.length / 40);
+      const acts = state.loads[k], forces = load.forces ||= decoded(load.force, Float32Array),
+          every = Math.ceil(load.particles.length / 40);
       if (!acts) return;
       for (let p = 0; p < load.particles.length; p += every) {
         const f = forces.subarray(3 * p, 3 * p + 3).map((v) => acts * v);
         if (Math.hypot(...f) > 0) add(x.subarray(3 * load.particles[p], 3 * load.particles[p] + 3), f, 0.09 * this.extent, t.series[2]);
       }
       for (const b of load.bodies)
-        if (Math.hypot(...load.on_body) > 0) add(this.bodies[b].localToWorld(vector(load.point)).toArray(), load.on_body.map((v) => acts * v), 0.12 * this.extent, t.series[2]);
+        if (Math.hypot(...load.on_body) > 0) add(this.bodies[b].localToWorld(vector(load.point)).toArray(), load.on_body
+            .map((v) => acts * v), 0.12 * this.extent, t.series[2]);
     });
   }
 
   /// Looks along an axis; "": across what is flat or slender, else from a corner.
   look(axis) {
-    const size = this.box.getSize(new THREE.Vector3()).toArray(), sorted = [1, 0, 2].sort((a, b) => size[a] - size[b]), most = size[sorted[2]];
+    const size = this.box.getSize(new THREE.Vector3()).toArray(), sorted = [1, 0, 2].sort((a, b) => size[a] - size[b]),
+        most = size[sorted[2]];
     const slender = size[sorted[0]] < 0.02 * most || size[sorted[1]] < 0.15 * most;
     const along = axis ? 'xyz'.indexOf(axis) : this.run.shape.flat ?? (slender ? sorted[0] : -1);
     const from = [[1, 0, 0], [0, -1, 0], [0, 0, 1]][along] || [0.55, -0.75, 0.4];
-    const back = vector(from).normalize(), high = new THREE.Vector3(...(along === 2 ? [0, 1, 0] : [0, 0, 1])), centre = this.box.getCenter(new THREE.Vector3());
+    const back = vector(from).normalize(), high = new THREE.Vector3(...(along === 2 ? [0, 1, 0] : [0, 0, 1])),
+        centre = this.box.getCenter(new THREE.Vector3());
     this.camera.up.copy(high);
     const right = high.clone().cross(back).normalize(), above = back.clone().cross(right);
     const span = (v) => size.reduce((sum, s, c) => sum + s * Math.abs(v.getComponent(c)), 0);     // of the box, along v
-    const tall = Math.tan(THREE.Math.degToRad(this.camera.fov / 2)), aspect = (this.canvas.clientWidth || 1) / (this.canvas.clientHeight || 1);
+    const tall = Math.tan(THREE.Math.degToRad(this.camera.fov / 2)), aspect = (this.canvas.clientWidth || 1) / (this.canvas.clientHeight
+        || 1);
     const away = 1.1 * Math.max(span(above) / 2 / tall, span(right) / 2 / (tall * aspect)) + span(back) / 2;
     this.camera.position.copy(centre).addScaledVector(back, Math.max(away, 1e-3 * this.extent));
     this.camera.near = this.extent / 500, this.camera.far = 40 * this.extent;
@@ -257,10 +278,12 @@ class ShapeView {
   }
   /// Turns (arrow keys) or comes nearer (+, −).
   key(name) {
-    const offset = this.camera.position.clone().sub(this.controls.target), spin = {ArrowLeft: 0.12, ArrowRight: -0.12}[name], tilt = {ArrowUp: -0.12, ArrowDown: 0.12}[name];
+    const offset = this.camera.position.clone().sub(this.controls.target), spin = {ArrowLeft: 0.12, ArrowRight: -0.12}[name],
+        tilt = {ArrowUp: -0.12, ArrowDown: 0.12}[name];
     const s = new THREE.Spherical(), turn = new THREE.Quaternion().setFromUnitVectors(this.camera.up, up);
     s.setFromVector3(offset.applyQuaternion(turn));
-    s.theta += spin || 0, s.phi = Math.min(Math.PI - 0.01, Math.max(0.01, s.phi + (tilt || 0))), s.radius *= {'+': 0.9, '-': 1.1}[name] || 1;
+    s.theta += spin || 0, s.phi = Math.min(Math.PI - 0.01, Math.max(0.01, s.phi + (tilt || 0))), s.radius *= {'+': 0.9, '-': 1.1}[name]
+        || 1;
     this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(s).applyQuaternion(turn.inverse()));
     this.controls.update();
     this.render();

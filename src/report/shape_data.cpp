@@ -5,6 +5,7 @@
 #include "input/state_tail.hpp"
 #include "report/base64.hpp"
 #include "results/body_picture.hpp"
+#include "results/fields.hpp"
 
 #include <fmt/format.h>
 
@@ -81,14 +82,24 @@ std::vector<double> amounts(const Problem& problem, const Model& model, const St
   return all;
 }
 
-std::string strains(const Model& model, const State& state) {
-  std::vector<float> all;
-  for (const Bond& b : model.bonds) {
-    const double rest = model.bond_types[b.type].rest_length;
-    const double length = (state.position.col(b.particles[1]) - state.position.col(b.particles[0])).norm();
-    all.push_back(rest > 0 ? static_cast<float>((length - rest) / rest) : 0);
+float finite_float(double v) { return std::isfinite(v) ? static_cast<float>(v) : 0; }
+
+// Of a particle the largest moment of the angles whose middle it is.
+Json fields_data(Energy& energy, const State& state) {
+  const Model& model = energy.model();
+  const Fields fields = fields_at(energy, state, {});
+  std::vector<float> tension, moment(model.particles()), energies;
+  for (const BondField& b : fields.bonds) tension.push_back(finite_float(b.tension));
+  for (std::size_t k = 0; k < fields.angles.size(); ++k) {
+    float &most = moment[model.angles[k].particles[1]], here = finite_float(fields.angles[k].moment);
+    if (std::abs(here) > std::abs(most)) most = here;
   }
-  return base64(all);
+  for (int i = 0; i < model.particles(); ++i) energies.push_back(finite_float(fields.energy[i]));
+  Json j = Json::object();
+  if (!model.bonds.empty()) j["tension"] = base64(tension);
+  if (!model.angles.empty()) j["moment"] = base64(moment);
+  if (model.particles() > 0) j["energy"] = base64(energies);
+  return j;
 }
 
 /// The rows of contacts.csv by the label of their state.
@@ -134,15 +145,17 @@ Json modes_data(const StoredRun& run, const StoredState& stored, const Model& mo
 }
 
 Json state_data(const StoredRun& run, const StoredState& stored, const std::vector<const Row*>& contacts, const Problem& problem,
-                const Model& model) {
-  const State state = read_state(stored, model);
-  const double load_factor = stored.file.ends_with(".data") ? state.load_factor : model.start.load_factor;
+                Energy& energy) {
+  const Model& model = energy.model();
+  State state = read_state(stored, model);
+  if (!stored.file.ends_with(".data")) state.load_factor = model.start.load_factor;
+  const double load_factor = state.load_factor;
   Json j{{"label", stored.label}, {"row", stored.row}, {"lambda", load_factor}, {"x", floats(state.position)}};
   Eigen::MatrixXd poses(7, static_cast<Eigen::Index>(state.bodies.size()));
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     poses.col(static_cast<Eigen::Index>(b)) << state.bodies[b].position.hi, state.bodies[b].rotation.coeffs();   // x, y, z, w
   j["poses"] = floats(poses);
-  j["fields"] = {{"strain", strains(model, state)}};
+  j["fields"] = fields_data(energy, state);
   j["contacts"] = contacts_data(contacts, model);
   const std::vector<double> acts = amounts(problem, model, stored, load_factor);
   j["loads"] = Json::array(), j["walls"] = Json::array();
@@ -201,8 +214,11 @@ Json structure_data(const Model& model) {
     j["loads"].push_back({{"group", l.group}, {"particles", l.particles}, {"force", floats(force)}, {"bodies", l.bodies},
                           {"on_body", numbers(l.force)}, {"point", numbers(l.point)}});
   }
-  j["fields"] = Json::array({{{"key", "strain"}, {"name", "strain of bonds"}, {"of", "bond"}}});
-  if (model.bonds.empty()) j["fields"] = Json::array();
+  j["fields"] = Json::array();
+  const auto field = [&](const char* key, const char* name, const char* of) { j["fields"].push_back({{"key", key}, {"name", name}, {"of", of}}); };
+  if (!model.bonds.empty()) field("tension", "tension of bonds", "bond");
+  if (!model.angles.empty()) field("moment", "bending moment", "particle");
+  if (model.particles() > 0) field("energy", "energy", "particle");
   j["flat"] = model.plane_normal ? Json(*model.plane_normal) : Json(nullptr);
   return j;
 }
@@ -213,13 +229,14 @@ Json states_data(const StoredRun& run, const Problem& problem, const Model& mode
   for (const StoredState& s : run.states) vectors += std::filesystem::exists(null_vectors_file(s.file));
   for (const auto& [label, rows] : contacts) longest = std::max(longest, rows.size());
   const std::size_t sites = model.start.position.cols() + 2 * model.bodies.size(), states = std::max<std::size_t>(1, run.states.size());
-  const std::size_t numbers = 3 * sites + 7 * model.bodies.size() + model.bonds.size() + 9 * longest + 3 * sites * vectors / states;
+  const std::size_t numbers = 3 * sites + 7 * model.bodies.size() + model.bonds.size() + 2 * model.particles() + 9 * longest + 3 * sites * vectors / states;
   const std::size_t bytes = 300 + 40 * model.walls.size() + 16 * numbers / 3;
   const std::vector<StoredState> taken = thinned(run.states, std::max<std::size_t>(1, most / bytes));
+  Energy energy(model);
   Json j{{"stored", run.states.size()}, {"kept", taken.size()}, {"missing", Json::array()}, {"list", Json::array()}};
   for (const StoredState& s : taken) {
     try {
-      j["list"].push_back(state_data(run, s, contacts[s.label], problem, model));
+      j["list"].push_back(state_data(run, s, contacts[s.label], problem, energy));
     } catch (const InputError& error) {
       j["missing"].push_back(error.what());
     }

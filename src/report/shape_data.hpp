@@ -13,7 +13,7 @@ namespace elamin {
 nlohmann::ordered_json structure_data(const Model& model);
 
 /// The states in JSON, `list`: label, row, lambda, `x` (3 × particles), `poses` (x, y, z, qx, qy, qz, qw of each body), `fields`
-/// by their keys, `contacts` (pairs of ids, of the wall k −1 − k; gap, force on the first, point, of each), `walls` (how far each has moved, how much its radius has grown), `loads` (how much of each acts), `modes` (name, `u` of
+/// by their keys (tension of bonds; moment and energy of particles), `contacts` (pairs of ids, of the wall k −1 − k; gap, force on the first, point, of each), `walls` (how far each has moved, how much its radius has grown), `loads` (how much of each acts), `modes` (name, `u` of
 /// particles, `v` of bodies: motion and turn). Of more bytes than `most` only some are taken, evenly, those with labels before others:
 /// `stored` and `kept` count them. A state that cannot be read is left out, and `missing` says why.
 nlohmann::ordered_json states_data(const StoredRun& run, const Problem& problem, const Model& model, std::size_t most);

@@ -165,6 +165,10 @@ TEST_CASE("a page holds the numbers of a run's files", "[report]") {
     const std::vector<float> shown = floats(state["x"]);
     REQUIRE(shown.size() >= static_cast<std::size_t>(x.size()));
     for (Eigen::Index i = 0; i < x.size(); ++i) CHECK(shown[i] == static_cast<float>(x.data()[i]));
+    std::string bonds = run.states[k].file;
+    const Table table = read_table(bonds.replace(bonds.rfind(".data"), 5, ".bonds.csv"));
+    const std::vector<float> tension = floats(state["fields"]["tension"]);
+    for (std::size_t b : {0, 1}) CHECK(tension[b] == Approx(*as_number(table.rows[b][column_index(table.columns, "tension")])).margin(1e-12));
   }
 
   const Json thin = run_data(directory, 1500);
