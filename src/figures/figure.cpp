@@ -1,10 +1,11 @@
 #include "figures/figure.hpp"
 
 #include "core/error.hpp"
+#include "core/text_file.hpp"
 #include "figures/diagram.hpp"
 #include "figures/shapes.hpp"
+#include "results/results_directory.hpp"
 #include "results/stored_run.hpp"
-#include "core/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,7 @@ std::string write_figure(const FigureOptions& options) {
   if (diagram) y = draw_diagram(drawing, *diagram, {margin, y}, page - 2 * margin, height);
   if (!scenes.empty()) y = draw_shapes(drawing, scenes, {margin, y + (diagram ? 6 : 0)}, page - 2 * margin);
   write_text(file, drawing.svg(page, y + margin, std::filesystem::path(options.directory).lexically_normal().filename().string()));
+  if (options.file.empty()) list_also(options.directory, "figure.svg");
   return file;
 }
 
