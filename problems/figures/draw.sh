@@ -1,18 +1,19 @@
 #!/bin/bash
-# Draws the figures of problems/README.md anew:  bash problems/figures/draw.sh [PROGRAM]   (default: ./elamin)
+# Draws the figures of problems/README.md and docs/studies.md anew:  bash problems/figures/draw.sh [PROGRAM]   (default: ./elamin)
 # A line for each: the problem; whose results, "." or of a sweep the run whose name begins so; what `elamin plot` is told.
 set -euo pipefail
+program=$(realpath "${1:-$(dirname "$0")/../../elamin}")
 cd "$(dirname "$0")"
-program=${1:-../../elamin}
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 
 while read -r problem run options; do
-  "$program" ../$problem.toml -o "$results/$problem" --threads 1 --quiet
-  directory=$results/$problem
+  name=$(basename "$problem")
+  directory=$results/$name
+  "$program" "../$problem.toml" -o "$directory" --threads 1 --quiet
   [ "$run" = . ] || directory=$(echo "$directory/$run"_*)
   # shellcheck disable=SC2086
-  "$program" plot "$directory" $options --out $problem.svg
+  "$program" plot "$directory" $options --out "$name.svg"
 done <<'LIST'
 column_cylindrical . --x deflection --y force --shapes initial,branch:1+mode,final
 column_square . --x lambda --y deflection --shapes initial,branch:1+mode,final
@@ -68,4 +69,6 @@ grains_relax .
 grain_bounces . --y height
 grains_settle . --y kinetic --shapes initial,final
 column_swings . --y deflection --shapes initial,final
+studies/grain_beam . --y force --shapes initial,final
+studies/on_top_glued . --no-diagram --shapes final
 LIST

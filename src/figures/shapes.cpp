@@ -108,7 +108,7 @@ class Panel {
     return on_page_ + Vec2(p.x(), -p.y());
   }
 
-  // From the back to the front; many, or small ones, as plain dots of a few sizes.
+  // From the back to the front; many, but for far larger ones among them, and small ones as plain dots.
   void particles(const Scene& scene) const {
     constexpr std::size_t many = 400;
     constexpr double visible = 0.5;                         // [pt]
@@ -117,15 +117,24 @@ class Panel {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return view_.w.dot(scene.particles[a].at) < view_.w.dot(scene.particles[b].at);
     });
-    std::map<long, std::vector<Vec2>> by_radius;                 // by radius, in hundredths
+    std::vector<double> radii;
+    for (const Scene::Particle& p : scene.particles) radii.push_back(p.radius);
+    std::sort(radii.begin(), radii.end());
+    const double middling = radii.empty() ? 0 : radii[radii.size() / 2];
+    std::vector<std::size_t> circles;
+    std::map<long, std::vector<Vec2>> by_radius;            // dots, in hundredths
     const bool in_bonds = scene.bonds.size() > many;        // a sheet: its bonds show it
     for (const std::size_t k : order) {
       const double radius = scale_ * scene.particles[k].radius;
-      const Vec2 place = at(scene.particles[k].at);
-      if (radius >= visible && order.size() <= many) drawing_.circle(place, radius, ground, {edge, std::min(0.4, radius / 5)});
-      else if (!in_bonds && (radius >= visible || scene.bonds.empty())) by_radius[std::lround(100 * std::max(radius, 0.2))].push_back(place);
+      if (radius >= visible && (order.size() <= many || scene.particles[k].radius > 2 * middling)) circles.push_back(k);
+      else if (!in_bonds && (radius >= visible || scene.bonds.empty()))
+        by_radius[std::lround(100 * std::max(radius, 0.2))].push_back(at(scene.particles[k].at));
     }
     for (const auto& [radius, centers] : by_radius) drawing_.discs(centers, 0.01 * static_cast<double>(radius), "#999999");
+    for (const std::size_t k : circles) {
+      const double radius = scale_ * scene.particles[k].radius;
+      drawing_.circle(at(scene.particles[k].at), radius, ground, {edge, std::min(0.4, radius / 5)});
+    }
   }
 
   void bonds(const Scene& scene) const {
