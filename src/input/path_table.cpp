@@ -21,7 +21,7 @@ constexpr Word<WhenUnstable> when_unstable_words[]{
 constexpr Word<const char*> event_words[]{{"limit", "limit"}, {"branch", "branch"}, {"contact", "contact"}};
 
 const char* const when_unstable_means =
-    "fall to the next minimum, as an experiment does, stay on the branch, or stop; by default jump, of arc_length follow";
+    "snap to the next minimum, as an experiment does, stay on the branch, or stop; by default jump, of arc_length follow";
 
 }  // namespace
 

@@ -155,7 +155,7 @@ std::optional<Resume> Continuation::resume_here(const Waypoint& waypoint) const 
   return r;
 }
 
-// Whether the path goes on along the branch behind an event; else it has ended or fallen.
+// Whether the path goes on along the branch behind an event; else it has ended or snapped.
 bool Continuation::goes_on_behind(Event& event) {
   const std::string at = fmt::format("{}, load factor {:.10g}", event.at.point.label.empty() ? "the loss of stability" : event.at.point.label,
                                      event.at.point.state.load_factor);
@@ -172,10 +172,10 @@ bool Continuation::goes_on_behind(Event& event) {
   return !ends;
 }
 
-// Just past the event the branch has turned unstable or ended: the state falls to the minimum below.
+// Just past the event the branch has turned unstable or ended: the state snaps to the minimum below.
 void Continuation::jump(const Event& event) {
   const double at = event.at.point.state.load_factor;
-  double way = continuation::fall_beyond * std::abs(range());                 // but not beyond what is to be hit
+  double way = continuation::snap_beyond * std::abs(range());                 // but not beyond what is to be hit
   for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
     if (const double ahead = (target - at) / range(); ahead > continuation::same_load) way = std::min(way, ahead * std::abs(range()) / 2);
   std::string what;
@@ -192,7 +192,7 @@ void Continuation::begin_at(Equilibrium& at) {
   at.point.resume = resume_here({at});
 }
 
-// The path goes on from where it has fallen to.
+// The path goes on from where it has snapped to.
 void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
   begin_at(at);
   emit_landing(std::move(at.point), what, before, parent);
@@ -201,18 +201,18 @@ void Continuation::land(Equilibrium at, const std::string& what, int before, con
 // The branch cannot be followed any further, or there is nothing left to hit.
 void Continuation::break_off() {
   if (steps_->status() != Status::not_converged) return end(steps_->status(), steps_->why());
-  std::string no_fall;
-  if (!arcs() && options_.when_unstable == WhenUnstable::jump && fall(no_fall)) return;
+  std::string no_snap;
+  if (!arcs() && options_.when_unstable == WhenUnstable::jump && snap(no_snap)) return;
   const State& last = steps_->at().point.state;
   if (const std::string together = collapsed(newton_.energy().model(), last); arcs() && !together.empty())
     return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", last.load_factor, together));
   const std::string cause = cause_at(newton_, steps_->at());
-  end(Status::not_converged, steps_->why() + no_fall + (cause.empty() ? "" : "; " + cause));
+  end(Status::not_converged, steps_->why() + no_snap + (cause.empty() ? "" : "; " + cause));
 }
 
 // Where the branch ends within the finest step, at an event that could not be resolved, or in more of them than steps can tell: the minimum
 // that is reached by going down from there, beyond.
-bool Continuation::fall(std::string& why) {
+bool Continuation::snap(std::string& why) {
   const Equilibrium last = steps_->at();
   const double at = last.point.state.load_factor, target = static_cast<const LoadSteps&>(*steps_).goal();
   State state = last.point.state;
@@ -229,7 +229,7 @@ bool Continuation::fall(std::string& why) {
     emit(std::move(landed.point));
     return true;
   }
-  note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: fall from energy {:.10g} to {:.10g}",
+  note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: snap from energy {:.10g} to {:.10g}",
                    at, before, report.energy));
   land(std::move(landed), fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target),
        steps_->negative(), "");

@@ -266,7 +266,7 @@ void HeldSteps::corner(Equilibrium at, const Contacts& slack) {
     const std::string why = "contacts change without end";
     if (options_.when_unstable == WhenUnstable::stop || interval_ == targets_.size())
       return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
-    return fall(targets_[interval_], why);
+    return snap(targets_[interval_], why);
   }
   std::optional<Contacts> now = equilibrium_.onward(at.point.state, slack, direction());
   if (!now) {
@@ -460,7 +460,7 @@ void HeldSteps::lose(Event event) {
     return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond", label, at));
   accept(whole, judge(whole, &current_).slack);
   if (limit || (loses && options_.when_unstable == WhenUnstable::jump)) {
-    if (interval_ < targets_.size()) fall(targets_[interval_], "stability is lost");
+    if (interval_ < targets_.size()) snap(targets_[interval_], "stability is lost");
     return;
   }
   current_.point.stability.negative = event.after;
@@ -480,7 +480,7 @@ void HeldSteps::miss(double target, int after) {
 void HeldSteps::leave_unstable() {
   if (options_.when_unstable == WhenUnstable::stop)
     return end(Status::converged, fmt::format("stopped where stability is lost, load factor {:.10g}", current_.point.state.load_factor));
-  if (options_.when_unstable == WhenUnstable::jump && interval_ < targets_.size()) fall(targets_[interval_], "stability is lost");
+  if (options_.when_unstable == WhenUnstable::jump && interval_ < targets_.size()) snap(targets_[interval_], "stability is lost");
 }
 
 void HeldSteps::halve(double target, const std::string& why) {
@@ -490,12 +490,12 @@ void HeldSteps::halve(double target, const std::string& why) {
   note(fmt::format("load factor {:.10g} could not be passed in steps of {:.3g}: {}", here, std::abs(target - here), why));
   if (options_.when_unstable == WhenUnstable::stop)
     return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
-  fall(targets_[interval_], why);
+  snap(targets_[interval_], why);
 }
 
 // A little farther on, the minimum that Ipopt finds from here. Where the branch goes on, unstable, it is left to both sides of its
 // critical mode, and the lower of two minima is taken; of two that are alike always the same, so that rounding does not choose.
-void HeldSteps::fall(double target, const std::string& why) {
+void HeldSteps::snap(double target, const std::string& why) {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
   const double here = current_.point.state.load_factor, past = here + direction() * std::min(held_steps::beyond_event * std::abs(options_.to - options_.from), held_steps::before_target * std::abs(target - here));

@@ -11,7 +11,7 @@ namespace elamin {
 /// vanishes where the path begins is none. What Newton's method does not find, Ipopt looks for.
 ///
 /// Steps that fail are halved, down to 2⁻¹² of a step. Where the branch turns unstable the branch point or limit point is located; what
-/// cannot be located, and where no step can be made, is told by a note. Under `jump` the state then falls to the minimum that Ipopt
+/// cannot be located, and where no step can be made, is told by a note. Under `jump` the state then snaps to the minimum that Ipopt
 /// finds a fixed part of the path beyond.
 class HeldSteps final : public Path {
  public:
@@ -44,7 +44,7 @@ class HeldSteps final : public Path {
   void miss(double target, int after);
   void leave_unstable();
   void halve(double target, const std::string& why);
-  void fall(double target, const std::string& why);
+  void snap(double target, const std::string& why);
   void accept(Equilibrium at, const Contacts& slack, const std::vector<Event>& passed = {});
   void tell(PathPoint point);
 

@@ -14,7 +14,7 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
   Energy& energy = newton.energy();
   const double at = event.at.point.state.load_factor;
   State state;
-  // From a branch point the fall begins at the unstable equilibrium beyond; where there is none so far away, nearer to the event.
+  // From a branch point the snap begins at the unstable equilibrium beyond; where there is none so far away, nearer to the event.
   for (int k = 0;; ++k, past = at + (past - at) / 4) {
     state = event.at.point.state;
     energy.kinematics().prescribe(state, past);

@@ -5,7 +5,7 @@
 
 namespace elamin {
 
-/// The minimum that the state falls to where a branch turns unstable or ends: from just past the event, at the load factor
+/// The minimum that the state snaps to where a branch turns unstable or ends: from just past the event, at the load factor
 /// `past`, along the critical mode, down. `what` tells what was released. Not converged: no minimum was found.
 Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what);
 

@@ -78,7 +78,7 @@ namespace load_steps {
 constexpr int first_detour = 3, next_detour = 6;  // halvings after which the branch is explored in arc length, and every so many more
 constexpr int longest_detour = 400;  // its steps
 constexpr double past_contact = 0.01;  // of a step: where the tangent behind a contact is taken
-constexpr int patience = 32;  // steps that are refused, of a path that may fall and whose contacts nobody asks for, …
+constexpr int patience = 32;  // steps that are refused, of a path that may snap and whose contacts nobody asks for, …
 constexpr double creep = 1.0 / 64;  // … on less than this part of a step
 constexpr int fine = 6;  // halvings after which bends are no reason to halve again
 constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents at both ends
@@ -119,7 +119,7 @@ constexpr double little = 1e-4;  // of the way: over which a gap's rate is taken
 
 /// What comes after events.
 namespace continuation {
-constexpr double fall_beyond = 1e-3;  // of the range of load factors: where a fall begins
+constexpr double snap_beyond = 1e-3;  // of the range of load factors: where a snap begins
 constexpr double same_load = 1e-9;  // of the range: load factors that are one, as exactly as events are located
 constexpr double same_point = 1e-6;  // of the structure's displacement scale: one branch point met twice
 constexpr double collapsed_bond = 1e-6;  // of the rest length: there its energy has a kink, and a branch its end
@@ -138,7 +138,7 @@ constexpr int most_in_row = 50;  // … or parts in a row move one after the oth
 
 /// Falls.
 namespace jump {
-constexpr int most_nearer = 4;  // times the fall begins nearer to its event, by a factor of four each
+constexpr int most_nearer = 4;  // times the snap begins nearer to its event, by a factor of four each
 constexpr int most_downhill = 50;  // iterations before long steps are allowed
 }
 
@@ -162,10 +162,10 @@ constexpr std::size_t most_near = 12;  // states that stand for the branches
 namespace held_steps {
 constexpr int finest = 12;  // halvings of a step
 constexpr int most_changes = 20;  // of contacts at one load factor
-constexpr double beyond_event = 1e-3;  // of the path: where a fall begins …
+constexpr double beyond_event = 1e-3;  // of the path: where a snap begins …
 constexpr double before_target = 0.5;  // … or of the way to the next step
-constexpr double aside = 1e-3;  // turn of what is glued, and way in diameters, to where a fall begins
-constexpr double nearest = 1e-5;  // the barrier where a fall begins, as small as leads to a minimum near by
+constexpr double aside = 1e-3;  // turn of what is glued, and way in diameters, to where a snap begins
+constexpr double nearest = 1e-5;  // the barrier where a snap begins, as small as leads to a minimum near by
 constexpr double alike = 1e-6;  // of the energy that is lost
 constexpr int look_for_limit = 3;  // after so many halvings, and again
 constexpr int most_crossings = 20;  // of modes in one step, before the first one is found

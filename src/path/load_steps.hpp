@@ -10,7 +10,7 @@ std::vector<double> load_targets(const PathOptions& options);
 /// A branch in steps of the load factor. Steps that fail are halved, down to 2⁻²⁰ of a step; halved steps double again, so
 /// that every multiple of the step is hit. Where steps fail, the branch is followed in arc length to see what is there: a limit point, a
 /// branch point that is reached along a side branch, or only a sharp bend. Where something touches and nobody asks for contacts, a path that may
-/// jump has no patience with what lies nearer together than steps can tell: it stops there, and falls.
+/// jump has no patience with what lies nearer together than steps can tell: it stops there, and snaps.
 class LoadSteps final : public Branch {
  public:
   LoadSteps(Newton& newton, Departure from, const PathOptions& options);

@@ -16,7 +16,7 @@ enum class PathMethod { load_steps, arc_length };
 
 /// What a path does where its equilibria lose stability.
 enum class WhenUnstable {
-  jump,      // fall to the next minimum, as an experiment does
+  jump,      // snap to the next minimum, as an experiment does
   follow,    // stay on the branch, stable or not
   stop
 };

@@ -41,7 +41,7 @@ class Path {
   void emit(PathPoint point);
   /// Labels an event and emits it.
   void emit(Event& event);
-  /// Labels where a fall has landed, on a branch of its own, and emits it; before: the Morse index where it fell.
+  /// Labels where a snap has ended, on a branch of its own, and emits it; before: the Morse index where it began.
   void emit_landing(PathPoint point, std::string what, int before, std::string parent);
   void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
   void end(Status status, std::string why);

@@ -21,7 +21,7 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
   if (report.converged()) {
     Equilibrium e = assess(newton, state, report);
     if (e.point.stability.negative == 0 || when_unstable != WhenUnstable::jump) return e;
-    note = fmt::format("the starting state is unstable ({} negative eigenvalues); it falls to a minimum", e.point.stability.negative);
+    note = fmt::format("the starting state is unstable ({} negative eigenvalues); it goes down to a minimum", e.point.stability.negative);
   } else {
     state = given;
   }

@@ -16,7 +16,7 @@ struct NewtonOptions {
 
 /// How minimise() goes. long_steps: as described at Newton, the fewest iterations. downhill: exact Hessian, the energy falls
 /// at every step, simplified Newton corrections bend a step back that stretched the structure; it stays in the valley that
-/// it starts in, which is what a fall from an unstable state wants. stationary: long steps that do not leave a saddle; converged means a small residual
+/// it starts in, which is what a snap from an unstable state wants. stationary: long steps that do not leave a saddle; converged means a small residual
 /// alone, which is what a branch wants that is about to lose stability.
 enum class Pace { long_steps, downhill, stationary };
 

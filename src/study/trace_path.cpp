@@ -116,7 +116,7 @@ class Headway {
  public:
   explicit Headway(const PathTable& path) : span_(std::abs(path.to - path.from)) {}
 
-  /// A sentence once `look_back` points have moved nothing, or as many falls have hardly changed the load factor; else "".
+  /// A sentence once `look_back` points have moved nothing, or as many snaps have hardly changed the load factor; else "".
   std::string lost(const PathPoint& point) {
     const double here = point.state.load_factor;
     if (!before_ || ++points_ == look_back) {
@@ -125,19 +125,19 @@ class Headway {
       before_ = point.state, points_ = 0;
     }
     if (!point.label.starts_with("jump:")) return "";
-    falls_.push_back(here);
-    if (falls_.size() <= look_back) return "";
-    falls_.pop_front();
-    const auto [least, most] = std::minmax_element(falls_.begin(), falls_.end());
+    snaps_.push_back(here);
+    if (snaps_.size() <= look_back) return "";
+    snaps_.pop_front();
+    const auto [least, most] = std::minmax_element(snaps_.begin(), snaps_.end());
     if (*most - *least > little * span_) return "";
-    return fmt::format("the structure falls again and again near load factor {:.10g}, {} times from {:.10g} on: something floats and is pushed along; "
+    return fmt::format("the structure snaps again and again near load factor {:.10g}, {} times from {:.10g} on: something floats and is pushed along; "
                        "hold it with a [[support]], or give it another [[contact]]", here, look_back, *least);
   }
 
  private:
   static constexpr std::size_t look_back = 200;      // far more points than the finest halving of a step asks for
   static constexpr double nothing = 1e-12;           // of the way from `from` to `to`, of the largest coordinate: a point's rounding
-  static constexpr double little = 1e-3;             // of the way: two hundred falls on it would be 10⁵ in all
+  static constexpr double little = 1e-3;             // of the way: two hundred snaps on it would be 10⁵ in all
 
   static double farthest(const State& a, const State& b) {
     double moved = a.position.size() ? displacement(a, b).cwiseAbs().maxCoeff() : 0, size = a.position.size() ? a.position.cwiseAbs().maxCoeff() : 0;
@@ -151,7 +151,7 @@ class Headway {
   double span_;
   std::optional<State> before_;
   std::size_t points_ = 0;
-  std::deque<double> falls_;
+  std::deque<double> snaps_;
 };
 
 }  // namespace
