@@ -86,7 +86,7 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
   std::map<std::string, Vec2> events;
   std::map<std::string, int> stages;
   const Row* before = nullptr;
-  int branches = 0;                                        // that no fall leads to
+  int branches = 0;                                        // that no snap leads to
   for (const Row& row : path.rows) {
     const auto here = at.at(row);
     if (!here) {
@@ -94,10 +94,10 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
       continue;
     }
     const std::string name = text_in(row, label), of_stage = text_in(row, stage);
-    const bool event = is_event(name), fall = name.starts_with("jump:");
+    const bool event = is_event(name), snap = name.starts_with("jump:");
     if (event) d.marks.push_back({name.substr(0, name.find(':')), *here}), events.insert_or_assign(name, *here);
     if (!of_stage.empty() && stages.try_emplace(of_stage, static_cast<int>(stages.size())).second) d.names.push_back(of_stage);
-    const bool new_branch = before && number_in(*before, branch) != number_in(row, branch) && !fall;
+    const bool new_branch = before && number_in(*before, branch) != number_in(row, branch) && !snap;
     if (new_branch) ++branches;
     const bool new_stage = before && text_in(*before, stage) != of_stage;
     const auto known_stable = [&](const Row& r) { return number_in(r, stable).value_or(0) != 0; };
@@ -109,7 +109,7 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
       from = origin == events.end() ? std::nullopt : std::optional(origin->second);
     }
     if (new_stage && axes.x == "lambda") from.reset();
-    const auto kind = fall ? Curve::Kind::fall : is_stable ? Curve::Kind::stable : Curve::Kind::unstable;
+    const auto kind = snap ? Curve::Kind::snap : is_stable ? Curve::Kind::stable : Curve::Kind::unstable;
     const int its_colour = of_stage.empty() ? branches : stages[of_stage];
     Curve* last = d.curves.empty() ? nullptr : &d.curves.back();
     const bool goes_on = last && from && !new_branch && last->kind == kind && last->colour == its_colour && last->points.back() == *from;

@@ -10,7 +10,7 @@
 namespace elamin {
 
 struct Curve {
-  enum class Kind { stable, unstable, fall, points };     // points: each by itself, of a sweep
+  enum class Kind { stable, unstable, snap, points };     // points: each by itself, of a sweep
   Polyline points;                                        // in the numbers of the columns
   Kind kind = Kind::stable;
   int colour = 0;
@@ -35,7 +35,7 @@ struct Axes {
   std::string x, y;
 };
 
-/// Of path.csv: a curve is stable or not, a fall leads from one to another, branches or stages have a colour each. Default axes: the load
+/// Of path.csv: a curve is stable or not, a snap leads from one to another, branches or stages have a colour each. Default axes: the load
 /// factor, and the first column observed that changes.
 Diagram path_diagram(const Table& path, const Axes& axes, const std::string& file);
 /// Of trajectory.csv: time, and the first column observed that changes, or the kinetic energy.

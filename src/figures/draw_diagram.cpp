@@ -49,7 +49,7 @@ std::vector<Entry> entries_of(const Diagram& d) {
     if (styles.count(Curve::Kind::stable)) line("stable", {any, thick});
     line("unstable", {any, thin, dashes});
   }
-  if (styles.count(Curve::Kind::fall)) line("fall", {"#555555", thin, dots});
+  if (styles.count(Curve::Kind::snap)) line("snap", {"#555555", thin, dots});
   constexpr std::size_t most = 8;
   for (std::size_t k = 0; k < d.names.size() && k < most; ++k)
     all.push_back({d.names[k], [k](Drawing& to, const Vec2& at) { to.lines({{at - Vec2(6, 0), at + Vec2(6, 0)}}, {colour(static_cast<int>(k)), thick}); }});

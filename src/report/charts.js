@@ -36,8 +36,8 @@ function key(chart, names, colours) {
   });
 }
 
-/// The energy that each fall set free: from what the program tells of it.
-function falls(run) {
+/// The energy that each snap set free: from what the program tells of it.
+function snaps(run) {
   const e = run.events, what = e.column('what'), all = [];
   for (let k = 0; k < e.rows; ++k) {
     const m = /from energy (\S+) to (\S+)/.exec(what[k] || '');
@@ -58,7 +58,7 @@ function drawEnergies(svg, run, row, choose) {
   const colours = names.map((_, k) => seriesColour(t, k));
   const band = d3.area().x((_, k) => sx(k)).y0((v) => sy(v[0])).y1((v) => sy(v[1]));
   layers.forEach((l, k) => area.append('path').attr('d', band(l)).attr('fill', colours[k]).attr('fill-opacity', 0.75));
-  const drops = falls(run).filter((f) => f.row >= 0);
+  const drops = snaps(run).filter((f) => f.row >= 0);
   for (const f of drops) {
     area.append('line').attr('x1', sx(f.row)).attr('x2', sx(f.row)).attr('y1', 20).attr('y2', chart.height - 34).attr('stroke', t.ink)
         .attr('stroke-dasharray', '2 3');

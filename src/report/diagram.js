@@ -4,7 +4,7 @@
 const symbols = {branch: d3.symbolDiamond, limit: d3.symbolTriangle, contact: d3.symbolCircle, jump: d3.symbolSquare, event: d3.symbolStar,
     initial: d3.symbolCross,
   final: d3.symbolWye};
-const kindNames = {branch: 'branch point', limit: 'limit point', contact: 'contact made or lost', jump: 'landing of a fall',
+const kindNames = {branch: 'branch point', limit: 'limit point', contact: 'contact made or lost', jump: 'end of a snap',
     event: 'event', initial: 'start', final: 'end'};
 
 /// The rows of a run that have both numbers: row, x, y, branch, negative, stable, label, kind.
@@ -21,10 +21,10 @@ function points(run, x, y) {
   return all;
 }
 
-/// The curve in pieces of one branch, stability and Morse index, and the falls between branches. At an event the stability is
+/// The curve in pieces of one branch, stability and Morse index, and the snaps between branches. At an event the stability is
 /// that of the other end.
 function pieces(all) {
-  const lines = [], falls = [], last = new Map(), named = new Map();
+  const lines = [], snaps = [], last = new Map(), named = new Map();
   const ordinary = (p) => !['branch', 'limit'].includes(p.kind);
   for (const p of all) {
     const same = (q) => (q && q.stage === p.stage ? q : null), before = same(last.get(p.branch)), from = before
@@ -32,7 +32,7 @@ function pieces(all) {
     if (from) {
       const q = ordinary(p) || !ordinary(from) ? p : from;
       const stable = q.stable || (!ordinary(q) && q.negative === 0), negative = stable ? 0 : Math.max(q.negative, ordinary(q) ? 0 : 1);
-      if (!before && p.kind === 'jump') falls.push([from, p]);
+      if (!before && p.kind === 'jump') snaps.push([from, p]);
       else {
         const piece = lines.length ? lines[lines.length - 1] : null;
         if (piece && piece.branch === p.branch && piece.stable === stable && piece.negative === negative
@@ -44,7 +44,7 @@ function pieces(all) {
     last.set(p.branch, p);
     if (p.label) named.set(p.label, p);
   }
-  return {lines, falls};
+  return {lines, snaps};
 }
 
 /// Draws into an svg of the given size; returns the scales. `view` is a zoom transform, `row` the chosen row.
@@ -73,8 +73,8 @@ function drawDiagram(svg, {run, others = [], x, y, width, height, view = d3.zoom
   for (const other of others)
     for (const l of pieces(points(other, x, y)).lines)
       inside.append('path').attr('d', line(l.points)).attr('fill', 'none').attr('stroke', t.rule).attr('stroke-width', 1.2);
-  const {lines, falls} = pieces(all);
-  for (const f of falls)
+  const {lines, snaps} = pieces(all);
+  for (const f of snaps)
     inside.append('path').attr('d', line(f)).attr('fill', 'none').attr('stroke', t.quiet).attr('stroke-width', 1.2)
         .attr('stroke-dasharray', '1.5 3');
   for (const l of lines)

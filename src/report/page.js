@@ -122,11 +122,11 @@ function showLegend(field) {
   $('legend').replaceChildren(...rows);
 }
 
-const sentences = {branch: 'a branch point', limit: 'a limit point: the load factor turns back', jump: 'it falls to another equilibrium',
+const sentences = {branch: 'a branch point', limit: 'a limit point: the load factor turns back', jump: 'it snaps to another equilibrium',
     initial: 'the start', final: 'the end'};
 
 function showEvents() {
-  const run = page.run, labels = run.path.column('label'), drops = new Map(falls(run).map((f) => [f.label, f.freed]));
+  const run = page.run, labels = run.path.column('label'), drops = new Map(snaps(run).map((f) => [f.label, f.freed]));
   const rows = d3.range(run.path.rows).filter((k) => labels[k]);
   $('events-part').hidden = !rows.length;
   const head = element('tr'), body = [];
@@ -148,7 +148,7 @@ function showEvents() {
     body.push(tr);
   }
   $('events').replaceChildren(head, ...body);
-  $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} falls set ${short(d3.sum([...drops.values()]))} of energy free.`
+  $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} snaps set ${short(d3.sum([...drops.values()]))} of energy free.`
       : '';
 }
 

@@ -17,7 +17,6 @@
 namespace elamin {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes_of_states = 14'000'000;   // of a page; the libraries take 1.2 MB, tables and texts the rest

@@ -8,29 +8,16 @@
 #include "results/expectations.hpp"
 #include "study/check_command.hpp"
 
-#include <cmath>
 #include <filesystem>
 
 namespace elamin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-
-Json value(const Cell& cell) {
-  if (const bool* b = std::get_if<bool>(&cell)) return *b;
-  if (const int* i = std::get_if<int>(&cell)) return *i;
-  if (const double* d = std::get_if<double>(&cell)) return number(*d);
-  if (const std::string* s = std::get_if<std::string>(&cell)) return *s;
-  return nullptr;
-}
-
 Json table_data(const Table& table) {
   Json values = Json::array();
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     Json column = Json::array();
-    for (const Row& row : table.rows) column.push_back(value(row[c]));
+    for (const Row& row : table.rows) column.push_back(json_of(row[c]));
     values.push_back(std::move(column));
   }
   return {{"columns", table.columns}, {"values", std::move(values)}};
@@ -38,7 +25,7 @@ Json table_data(const Table& table) {
 
 Json object(const std::vector<std::pair<std::string, double>>& entries) {
   Json all = Json::object();
-  for (const auto& [name, v] : entries) all[name] = number(v);
+  for (const auto& [name, v] : entries) all[name] = json_of(v);
   return all;
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 // Everything that a page tells of one run.
-#include <nlohmann/json.hpp>
-
-#include <string>
+#include "results/json.hpp"
 
 namespace elamin {
 
@@ -11,9 +9,9 @@ namespace elamin {
 /// `expected` (column, at, value, expected, allowed, met, source), the tables `path` and `events` (see
 /// table_data), `in_time`; `structure` and `states` (see shape_data.hpp; of at most so many bytes), or `no_shape`, why there is none.
 /// Throws InputError if the directory is none of a run.
-nlohmann::ordered_json run_data(const std::string& directory, std::size_t most_bytes);
+Json run_data(const std::string& directory, std::size_t most_bytes);
 
 /// A CSV file as {"columns": [name, …], "values": [[of the first column, …], …]}; what is empty is null.
-nlohmann::ordered_json table_data(const std::string& file);
+Json table_data(const std::string& file);
 
 }  // namespace elamin

@@ -17,11 +17,7 @@
 namespace elamin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json numbers(const Vec3& v) { return {v[0], v[1], v[2]}; }
-
-Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 std::string floats(const Eigen::Ref<const Eigen::MatrixXd>& m) {
   std::vector<float> all;
@@ -50,7 +46,7 @@ Json wall_data(const Wall& wall) {
     case Shape::cylinder:
     case Shape::cone: {
       const bool cone = r.shape == Shape::cone;
-      j.update({{"shape", "cone"}, {"center", numbers(r.center)}, {"axis", r.axis}, {"lo", finite(r.axial_lo)}, {"hi", finite(r.axial_hi)},
+      j.update({{"shape", "cone"}, {"center", numbers(r.center)}, {"axis", r.axis}, {"lo", json_of(r.axial_lo)}, {"hi", json_of(r.axial_hi)},
                 {"radius_lo", cone ? r.radius_lo : r.radius}, {"radius_hi", cone ? r.radius_hi : r.radius}});
     }
   }

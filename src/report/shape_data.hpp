@@ -1,21 +1,20 @@
 #pragma once
 // What a page draws: the structure, and the states of it that a run stored.
 #include "input/problem.hpp"
+#include "results/json.hpp"
 #include "results/stored_run.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace elamin {
 
 /// The structure in JSON: `id`, `radius`, `bonds` (pairs of particles from 0), `structures` (name, first, count, first_body,
 /// bodies), `surfaces` of the shapes of bodies (points, triangles) and `bodies` (shape), `walls`, `supports` and `loads` (who, which
 /// way), `fields` (what is known of each bond or particle: key, name, of), `flat`, the normal of the plane if there is one (0, 1, 2), or null. Arrays of numbers are base64 of float or int32.
-nlohmann::ordered_json structure_data(const Model& model);
+Json structure_data(const Model& model);
 
 /// The states in JSON, `list`: label, row, lambda, `x` (3 × particles), `poses` (x, y, z, qx, qy, qz, qw of each body), `fields`
 /// by their keys (tension of bonds; moment and energy of particles), `contacts` (pairs of ids, of the wall k −1 − k; gap, force on the first, point, of each), `walls` (how far each has moved, how much its radius has grown), `loads` (how much of each acts), `modes` (name, `u` of
 /// particles, `v` of bodies: motion and turn). Of more bytes than `most` only some are taken, evenly, those with labels before others:
 /// `stored` and `kept` count them. A state that cannot be read is left out, and `missing` says why.
-nlohmann::ordered_json states_data(const StoredRun& run, const Problem& problem, const Model& model, std::size_t most);
+Json states_data(const StoredRun& run, const Problem& problem, const Model& model, std::size_t most);
 
 }  // namespace elamin

@@ -1,35 +1,20 @@
 #include "results/summary.hpp"
 
 #include "core/text_file.hpp"
-
-#include <nlohmann/json.hpp>
-
-#include <cmath>
+#include "results/json.hpp"
 
 namespace elamin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json value(const Cell& cell) {
-  if (const bool* b = std::get_if<bool>(&cell)) return *b;
-  if (const int* i = std::get_if<int>(&cell)) return *i;
-  if (const double* d = std::get_if<double>(&cell)) return number(*d);
-  if (const std::string* s = std::get_if<std::string>(&cell)) return *s;
-  return nullptr;
-}
-
 Json object(const Table& table, const Row& row) {
   Json all = Json::object();
-  for (std::size_t i = 0; i < row.size(); ++i) all[table.columns[i]] = value(row[i]);
+  for (std::size_t i = 0; i < row.size(); ++i) all[table.columns[i]] = json_of(row[i]);
   return all;
 }
 
 Json object(const std::vector<std::pair<std::string, double>>& entries) {
   Json all = Json::object();
-  for (const auto& [name, v] : entries) all[name] = number(v);
+  for (const auto& [name, v] : entries) all[name] = json_of(v);
   return all;
 }
 

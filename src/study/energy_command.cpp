@@ -4,12 +4,11 @@
 #include "energy/energy.hpp"
 #include "input/build.hpp"
 #include "input/read.hpp"
-#include "results/table.hpp"
+#include "results/json.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -98,12 +97,11 @@ int energy_command(const EnergyOptions& options) {
     return exit_not_converged;
   };
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:24.17g}", v) : fmt::format("{:>24}", "not finite"); };
-  const auto finite = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); };
   if (options.json) {
-    nlohmann::ordered_json out;
-    out["energy"]["total"] = finite(terms.total());
-    terms.for_each([&](const auto& name, double value) { out["energy"][name] = finite(value); });
-    out["max_force"] = finite(max_force);
+    Json out;
+    out["energy"]["total"] = json_of(terms.total());
+    terms.for_each([&](const auto& name, double value) { out["energy"][name] = json_of(value); });
+    out["max_force"] = json_of(max_force);
     out["particles"] = model.particles(), out["bodies"] = model.bodies.size(), out["dofs"] = energy.dofs();
     fmt::print("{}\n", out.dump());
     return status();

@@ -13,7 +13,7 @@ using namespace elamin;
 
 namespace {
 
-// A path that loses stability at a branch point, goes on, and where it ends falls; a second branch leaves the branch point.
+// A path that loses stability at a branch point, goes on, and where it ends snaps; a second branch leaves the branch point.
 const std::string path_csv =
     "step,label,branch,lambda,energy,negative,stable,odd_name,height,parent,negative_rigid\n"
     "0,initial,0,0,0,0,true,1,0,,0\n"
@@ -54,7 +54,7 @@ TEST_CASE("a line loses only what is not seen", "[figures]") {
   CHECK(thinned(line, 0).size() > 90);
 }
 
-TEST_CASE("a path as curves: stable, unstable, a fall, a branch from where it left", "[figures]") {
+TEST_CASE("a path as curves: stable, unstable, a snap, a branch from where it left", "[figures]") {
   ScratchDirectory scratch;
   const Table path = read_table(scratch.file("path.csv", path_csv));
   const Diagram d = path_diagram(path, {}, "path.csv");
@@ -65,7 +65,7 @@ TEST_CASE("a path as curves: stable, unstable, a fall, a branch from where it le
   CHECK(d.curves[0].points == Polyline{{0, 0}, {0.1, 0.1}, {0.2, 0.2}});
   CHECK(d.curves[1].kind == Curve::Kind::unstable);
   CHECK(d.curves[1].points == Polyline{{0.2, 0.2}, {0.3, 0.4}});
-  CHECK(d.curves[2].kind == Curve::Kind::fall);
+  CHECK(d.curves[2].kind == Curve::Kind::snap);
   CHECK(d.curves[2].points == Polyline{{0.3, 0.4}, {0.3, 2}});
   CHECK(d.curves[3].points == Polyline{{0.2, 0.2}, {0.25, 1}, {0.35, 1.5}});
   CHECK((d.curves[3].colour == 1 && d.curves[2].colour == 0));

@@ -8,6 +8,7 @@
 #include "results/stored_run.hpp"
 #include "scratch_directory.hpp"
 #include "study/run.hpp"
+#include "study/truss.hpp"
 
 #include <openssl/sha.h>
 
@@ -22,40 +23,14 @@ namespace {
 
 const std::string hostile = "</script><script>alert(1)</script><!-- & \"b\" 'c'";
 
-/// A low truss of two bars that snaps through.
-const std::string problem = R"(title = "</script><script>alert(1)</script><!-- & \"b\" 'c'"
-plane = "xz"
-[[grains]]
-name = "truss"
-positions = [[-1, 0, 0], [0, 0, 0.36], [1, 0, 0]]
-diameter = 0.1
-[[connect]]
-between = ["feet", "apex"]
-within = 1.1
-bond_stiffness = 0.47
-[[group]]
-name = "feet"
-of = "truss"
-ids = [1, 3]
-[[group]]
-name = "apex"
-of = "truss"
-ids = [2]
-[[support]]
-group = "feet"
-[[load]]
-group = "apex"
-force = [0, 0, -1]
+/// A truss that snaps through.
+const std::string problem = R"(title = "</script><script>alert(1)</script><!-- & \"b\" 'c'")" + truss + R"(
 [path]
 method = "arc_length"
 steps = 10
-to = 0.05
-[[observe]]
-name = "height"
-group = "apex"
-quantity = "position.z"
+to = 0.15
 [[expect]]
-observable = "height"
+observable = "z"
 at = "final"
 value = 12345
 )";
