@@ -49,19 +49,21 @@ double stiffest(const Model& model) {
   return most;
 }
 
-// Of a group the largest entry of an element's Hessian times the distance of its sites, or 1 where that is none.
-double stiffest(const ElementGroup& group, const State& state) {
+// Of a group the largest entry of an element's Hessian times its extent: the distance of its sites, or their size.
+double stiffest(const ElementGroup& group, const Kinematics& kinematics, const State& state) {
   std::vector<double> value(group.elements()), gradient(std::size_t(group.elements()) * group.gradient_size()),
       hessian(std::size_t(group.elements()) * group.hessian_size());
   group.derivatives(state, {}, value.data(), gradient.data(), hessian.data());
   double most = 0;
   for (int e = 0; e < group.elements(); ++e) {
     double extent = 0, largest = 0;
-    for (const int a : group.stencil(e))
+    for (const int a : group.stencil(e)) {
+      if (a >= 0) extent = std::max(extent, kinematics.size(a));
       for (const int b : group.stencil(e))
         if (a >= 0 && b >= 0 && std::max(a, b) < state.particles()) extent = std::max(extent, (state.at(b) - state.at(a)).hi.norm());
+    }
     for (int k = 0; k < group.hessian_size(); ++k) largest = std::max(largest, std::abs(hessian[std::size_t(e) * group.hessian_size() + k]));
-    if (std::isfinite(largest)) most = std::max(most, largest * (extent > 0 ? extent : 1.0));
+    if (std::isfinite(largest)) most = std::max(most, largest * extent);
   }
   return most;
 }
@@ -141,7 +143,7 @@ void Energy::add(const std::string& term, std::unique_ptr<ElementGroup> group) {
       if (site >= 0) held[site] = true;
     }
   std::erase_if(loose_, [&](int d) { return held[kinematics_.site_of(d)]; });
-  force_floor_ = std::max(force_floor_, epsilon * stiffest(*group, model_.start));
+  force_floor_ = std::max(force_floor_, epsilon * stiffest(*group, kinematics_, model_.start));
   own_.push_back(term), groups_.push_back(std::move(group));
   assemble_groups();
 }
