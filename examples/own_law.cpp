@@ -1,6 +1,8 @@
 // A law of one's own: a bond that stiffens, U = K (r − r₀)² + Q (r − r₀)⁴, in a chain of three particles that a force pulls at its end. The
 // formula and its derivatives are all it takes: Newton's method finds the equilibrium, a path would follow it.
 #include "energy/energy.hpp"
+#include "energy/law_group.hpp"
+#include "laws/radial.hpp"
 #include "solve/newton.hpp"
 
 #include <cstdio>

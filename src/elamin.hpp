@@ -4,6 +4,7 @@
 #include "energy/law_group.hpp"
 #include "input/build.hpp"
 #include "input/read.hpp"
+#include "laws/radial.hpp"
 #include "laws/section.hpp"
 #include "model/beam.hpp"
 #include "model/connect.hpp"

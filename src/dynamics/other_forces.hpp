@@ -2,7 +2,7 @@
 // What has no fast way of its own: rest angles, pressures, angles that share an edge's end with another one.
 #include "dynamics/columns.hpp"
 #include "dynamics/edge_order.hpp"
-#include "energy/law_group.hpp"
+#include "energy/element_group.hpp"
 
 #include <memory>
 

@@ -155,15 +155,15 @@ void PairForces::add(const Cohesive& pairs, const Movement& movement, Pushes& pu
     const int first[4] = {pairs.first[c[0]], pairs.first[c[1]], pairs.first[c[2]], pairs.first[c[3]]};
     const int second[4] = {pairs.second[c[0]], pairs.second[c[1]], pairs.second[c[2]], pairs.second[c[3]]};
     const Triple<Lanes> d = differences(movement.position, first, second);
-    const Lanes q = dot(d, d), epsilon = Lanes::gather(pairs.epsilon.data(), c), sigma = Lanes::gather(pairs.sigma.data(), c);
+    const Lanes q = dot(d, d), depth = Lanes::gather(pairs.epsilon.data(), c), sigma = Lanes::gather(pairs.sigma.data(), c);
     Lanes f;
     if constexpr (smooth) {                                     // the shell's force, and what the other adds to it inside
       const Lanes r = sqrt(q), inner = Lanes::gather(pairs.inner.data(), c), cutoff = Lanes::gather(pairs.cutoff.data(), c), within = min(r, inner);
       const Lanes u = min(max(cutoff - r, Lanes(0.0)), cutoff - inner);
       const Lanes shell = u * u * (Lanes::gather(pairs.a.data(), c) + Lanes::gather(pairs.b.data(), c) * u);
-      f = (Cohesion::push(within * within, epsilon, sigma) * within - Lanes::gather(pairs.force.data(), c) + shell) / r;
+      f = (Cohesion::push(within * within, depth, sigma) * within - Lanes::gather(pairs.force.data(), c) + shell) / r;
     } else {
-      f = Cohesion::push(q, epsilon, sigma);
+      f = Cohesion::push(q, depth, sigma);
     }
     push(pushes.force, f * d, first, second, std::min(count - at, 4));
   }

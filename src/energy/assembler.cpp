@@ -1,5 +1,7 @@
 #include "energy/assembler.hpp"
 
+#include "core/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 

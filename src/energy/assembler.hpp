@@ -1,6 +1,6 @@
 #pragma once
 // From element buffers to a gradient on all sites, a sparse Hessian on the free dofs, and ∂g/∂λ.
-#include "energy/law_group.hpp"
+#include "energy/element_group.hpp"
 #include "energy/kinematics.hpp"
 
 #include <memory>

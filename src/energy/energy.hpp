@@ -4,7 +4,6 @@
 #include "energy/body_neighbours.hpp"
 #include "energy/hard_gaps.hpp"
 #include "energy/neighbours.hpp"
-#include "energy/groups.hpp"
 #include "energy/passage.hpp"
 #include "energy/terms.hpp"
 #include "energy/touch.hpp"
@@ -12,6 +11,8 @@
 #include <utility>
 
 namespace elamin {
+
+struct Parts;
 
 /// E(q, λ) = Σ U_bond + Σ U_angle + Σ U_contact + Σ U_cohesion + Σ U_body + Σ U_wall(λ) + Σ p(λ) A − Σ F(λ)·x − Σ τ(λ)·φ,
 /// and what a program adds; F(λ) = F₀ + λ F₁ (dead loads and weights); of bonds and angles that changes act on, r₀, K and B depend on λ too. Rounded

@@ -6,7 +6,10 @@
 #include "energy/hard_group.hpp"
 #include "energy/wall_group.hpp"
 #include "laws/cohesion.hpp"
+#include "laws/cosine_angle.hpp"
 #include "laws/edge_pressure.hpp"
+#include "laws/harmonic_bond.hpp"
+#include "laws/hertz_contact.hpp"
 
 #include <algorithm>
 #include <numeric>

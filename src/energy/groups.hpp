@@ -2,15 +2,16 @@
 // From the lists of a model to the element groups of its energy.
 #include "energy/body_neighbours.hpp"
 #include "energy/kinematics.hpp"
-#include "energy/law_group.hpp"
+#include "energy/element_group.hpp"
 #include "energy/neighbours.hpp"
-#include "laws/cosine_angle.hpp"
-#include "laws/harmonic_bond.hpp"
-#include "laws/hertz_contact.hpp"
 
 #include <memory>
 
 namespace elamin {
+
+struct CosineAngle;
+struct HarmonicBond;
+struct HertzContact;
 
 /// The elements without glued particles, and those with (see CarriedGroup).
 struct Parts {

@@ -4,6 +4,7 @@
 #include "energy/groups.hpp"
 #include "energy/hard_gaps.hpp"
 #include "energy/wall_group.hpp"
+#include "laws/hertz_contact.hpp"
 
 #include <algorithm>
 #include <array>

@@ -65,11 +65,11 @@ void take_velocities(LammpsData& data, Model& model) {
 /// The rotation R with R r = v for all vertices, in the sense of least squares.
 Eigen::Quaterniond rotation_between(const std::vector<Vec3>& r, const std::vector<Vec3>& v) {
   if (r.size() < 2) return Eigen::Quaterniond::Identity();
-  if (r.size() == 2) return Eigen::Quaterniond::FromTwoVectors(r[1] - r[0], v[1] - v[0]);   // a rod: without a turn about itself
+  if (r.size() == 2) return shortest_rotation(Vec3(r[1] - r[0]), Vec3(v[1] - v[0]));   // a rod: without a turn about itself
   Mat3 m = Mat3::Zero();
   for (std::size_t k = 0; k < r.size(); ++k) m += v[k] * r[k].transpose();
   const Singular svd = singular_values(m);
-  const Mat3 flip = Vec3(1, 1, (svd.u * svd.v.transpose()).determinant() < 0 ? -1 : 1).asDiagonal();
+  const Mat3 flip = Vec3(1, 1, Mat3(svd.u * svd.v.transpose()).determinant() < 0 ? -1 : 1).asDiagonal();
   return Eigen::Quaterniond(Mat3(svd.u * flip * svd.v.transpose())).normalized();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "laws/law.hpp"
+#include "laws/radial.hpp"
 
 namespace elamin {
 

@@ -33,32 +33,6 @@ struct Local {
   auto block(int i, int j) { return hessian.template block<3, 3>(3 * i, 3 * j); }
 };
 
-/// Of a law of d = x₁ − x₀ alone:  ∇₁U = g = −∇₀U,   ∇₁∇₁U = a n nᵀ + b I = ∇₀∇₀U = −∇₀∇₁U.
-inline Local<2> of_difference(double value, const Vec3& g, const Vec3& n, double a, double b) {
-  Local<2> u;
-  u.value = value;
-  u.force_part(1) = g;
-  u.force_part(0) = -g;
-  Mat3 h = n * n.transpose();
-  h *= a;
-  h.diagonal().array() += b;
-  u.block(0, 0) = u.block(1, 1) = h;
-  u.block(0, 1) = u.block(1, 0) = -h;
-  return u;
-}
-
-/// Of a radial law f(r), r = |d|, n = d/r:  ∇₁U = f′ n,   ∇₁∇₁U = f″ n nᵀ + f′/r (I − n nᵀ). `across` [force/length] stands for f′/r where a law
-/// takes another one. Where the sites meet, r = 0, there is no direction: no force, and f″ I.
-inline Local<2> radial(const Vec3& d, double value, double first, double second, double across) {
-  const double r = d.norm();
-  if (r == 0) return of_difference(value, Vec3::Zero(), Vec3::Zero(), 0, second);
-  return of_difference(value, first * Vec3(d / r), d / r, second - across, across);
-}
-inline Local<2> radial(const Vec3& d, double value, double first, double second) {
-  const double r = d.norm();
-  return radial(d, value, first, second, r > 0 ? first / r : 0.0);
-}
-
 /// uᵀHv, a sum over the elements, and the sum of the sizes of all that is added to form it,
 ///   size = Σ_e |u_e|ᵀ |H_e| |v_e|,   u_e, v_e the parts of u and v that the element sees:
 /// a few ε times it bound what rounding does to the value, however much of it cancels (Higham 2002, Accuracy and Stability of

@@ -163,7 +163,7 @@ std::vector<RigidMotion> combined(const std::vector<RigidMotion>& motions, const
     RigidMotion motion = first;
     motion.twist = t, motion.translation = t.tail<3>().norm() < 1e-6;
     motion.name = name_of(first.part, t, first.mid, first.size);
-    const Eigen::VectorXd c = of.colPivHouseholderQr().solve(t);
+    const Vector c = least_squares(of, t);
     motion.part_velocity.setZero();
     for (std::size_t k = 0; k < motions.size(); ++k) motion.part_velocity += c[static_cast<Eigen::Index>(k)] * motions[k].part_velocity;
     found.push_back(std::move(motion));

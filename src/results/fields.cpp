@@ -1,6 +1,9 @@
 #include "results/fields.hpp"
 
+#include "energy/groups.hpp"
 #include "energy/wall_group.hpp"
+#include "laws/cosine_angle.hpp"
+#include "laws/harmonic_bond.hpp"
 #include "model/entities.hpp"
 
 namespace elamin {

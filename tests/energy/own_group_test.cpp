@@ -1,6 +1,7 @@
 // Groups that a program adds to an energy.
 #include "catch.hpp"
 #include "energy/energy.hpp"
+#include "energy/law_group.hpp"
 #include "laws/harmonic_bond.hpp"
 #include "solve/newton.hpp"
 

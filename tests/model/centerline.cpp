@@ -23,7 +23,7 @@ double uneven(const Centerline& line) {
 Vec3 centre_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   Eigen::Matrix2d m;
   m.row(0) = (b - a).head<2>(), m.row(1) = (c - a).head<2>();
-  const Eigen::Vector2d x = m.fullPivLu().solve(Eigen::Vector2d((b - a).squaredNorm() / 2, (c - a).squaredNorm() / 2));
+  const Eigen::Vector2d x = m.inverse() * Eigen::Vector2d((b - a).squaredNorm() / 2, (c - a).squaredNorm() / 2);
   return a + Vec3(x[0], x[1], 0);
 }
 

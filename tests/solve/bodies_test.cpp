@@ -107,7 +107,7 @@ TEST_CASE("what bodies are free to do is named", "[solve][bodies]") {
   add_body(m, point_core(), 0.5, pose(Vec3(9, 0, 0.499)));
   add_contacts(m, {100, 0, 0, RoundedKernel::Form::coded});
   const Vec3 n = GENERATE(Vec3(0, 0, 1), Vec3(0.6, 0, 0.8));
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), n);
+  const Eigen::Quaterniond q = shortest_rotation(Vec3(0, 0, 1), n);
   for (Pose& p : m.start.bodies) p.position.hi = q * p.position.hi, p.rotation = q * p.rotation;
   add_plane(m, Vec3::Zero(), n, 100);
   add_weight(m, -n);

@@ -1,5 +1,6 @@
 // Every event that the problems of problems/ run into, held against its own equations.
 #include "catch.hpp"
+#include "core/dense.hpp"
 #include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
 #include "path/arc.hpp"
@@ -52,7 +53,7 @@ Vector beside_contacts(const Energy& energy, const State& state, Vector force) {
     gradients.conservativeResize(Eigen::NoChange, gradients.cols() + 1);
     gradients.rightCols(1) = energy.kinematics().restrict(g);
   }
-  if (gradients.cols() > 0) force -= gradients * gradients.colPivHouseholderQr().solve(force);
+  if (gradients.cols() > 0) force -= gradients * least_squares(gradients, force);
   return force;
 }
 

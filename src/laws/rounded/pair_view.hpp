@@ -1,6 +1,7 @@
 #pragma once
 // Two bodies as they see each other: what both potentials of rounded bodies are built on.
 #include "laws/rounded/core_distance.hpp"
+#include "laws/rounded/carried.hpp"
 #include "laws/rounded/pose.hpp"
 #include "laws/rounded/wrench.hpp"
 

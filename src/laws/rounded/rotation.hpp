@@ -1,5 +1,6 @@
 #pragma once
 // Rotation vectors: where a turn leads to, and how that varies.
+#include "laws/rounded/carried.hpp"
 #include "laws/rounded/pose.hpp"
 
 #include <cmath>

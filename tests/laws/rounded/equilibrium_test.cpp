@@ -1,5 +1,6 @@
 // The derivatives of pairs and walls together find equilibria, as a solver would.
 #include "catch.hpp"
+#include "core/dense.hpp"
 #include "laws/rounded/bodies.hpp"
 #include "laws/rounded/multi.hpp"
 #include "laws/rounded/wall.hpp"
@@ -41,7 +42,7 @@ TEST_CASE("Newton's method finds a stack of two boxes on a floor and their overl
   for (int step = 0; step < 10; ++step) {
     PairLocal u = stack.derivatives(c);
     Eigen::Matrix<double, 12, 1> move = Eigen::Matrix<double, 12, 1>::Zero();
-    move(free) = -Eigen::MatrixXd(u.hessian(free, free)).llt().solve(u.gradient(free));
+    move(free) = -solved(u.hessian(free, free), u.gradient(free));
     c = moved(c, move);
     u = stack.derivatives(c);
     const double residual = u.gradient(free).norm();

@@ -1,6 +1,7 @@
 #pragma once
 // The cases of data/polyhedra: bodies from LAMMPS's data file, settings and answers from expected.json.
 #include "laws/rounded/kernel.hpp"
+#include "laws/rounded/carried.hpp"
 #include "laws/rounded/pose.hpp"
 #include "reference.hpp"
 

@@ -1,0 +1,51 @@
+#pragma once
+// What the assembler sees of the elements of one law: stencils, and buffers that each element fills at its own place.
+#include "laws/law.hpp"
+#include "model/state.hpp"
+
+#include <span>
+
+namespace elamin {
+
+/// Which Hessian is asked for. With `from`, the state that a step came from: the one whose forces are predicted there, where the law does that
+/// (PredictingLaw). `convex`, in [0, 1]: the part of what compression, or a cohesion that gives way, takes away that is left out, where the law knows that (ConvexLaw); with
+/// all of it left out an element's Hessian is positive semidefinite.
+struct Tangent {
+  const State* from = nullptr;
+  double convex = 0;
+};
+
+/// One virtual call a group, none an element.
+class ElementGroup {
+ public:
+  virtual ~ElementGroup() = default;
+  virtual int elements() const = 0;
+  virtual int sites() const = 0;
+  /// The element's sites; −1: none, whose derivatives are left out.
+  virtual std::span<const int> stencil(int element) const = 0;
+  /// The sites between which the element's energy is, where they are not those of its derivatives.
+  virtual std::span<const int> between(int element) const { return stencil(element); }
+  /// Energy of every element.
+  virtual void values(const State& state, double* value) const = 0;
+  /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element.
+  virtual void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const = 0;
+  /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
+  virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
+
+  /// Adds uᵀHv at the state, and its size, for fields of all sites (see BilinearForm); false if the entries of the Hessian are as good.
+  virtual bool forms(const State&, const Field&, const Field&, ExactSum&, double&) const { return false; }
+
+  /// Whether the energy of an element is another one where the element is moved as a whole.
+  virtual bool anchored() const { return sites() == 1; }
+  /// Whether the energy depends on the load factor by itself, not through the sites: a moving wall, growth. Then
+  /// load_rates gives ∂(∇U)/∂λ of every element (3·sites each).
+  virtual bool moves() const { return false; }
+  virtual void load_rates(const State&, double*) const {}
+
+  int gradient_size() const { return 3 * sites(); }
+  int hessian_size() const { return 3 * sites() * (3 * sites() + 1) / 2; }
+  /// Place of the entry (row ≥ column) in an element's packed Hessian.
+  static int packed(int row, int column) { return row * (row + 1) / 2 + column; }
+};
+
+}  // namespace elamin
