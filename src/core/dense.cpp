@@ -5,14 +5,18 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include <cassert>
+
 namespace elamin {
 
 EigenPairs symmetric_eigen(const Eigen::MatrixXd& a) {
+  assert(a.rows() == a.cols());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 EigenPairs tridiagonal_eigen(const Vector& diagonal, const Vector& beside) {
+  assert(beside.size() + 1 == diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(diagonal, beside);
   return {solver.eigenvalues(), solver.eigenvectors()};
@@ -24,21 +28,30 @@ Singular singular_values(const Eigen::MatrixXd& a) {
 }
 
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a) {
+  assert(a.cols() <= a.rows());
   return Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
 }
 
 Eigen::MatrixXd complement(const Eigen::MatrixXd& a) {
+  assert(a.cols() <= a.rows());
   const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ();
   return q.rightCols(a.rows() - a.cols());
 }
 
 Eigen::MatrixXd triangle(const Eigen::MatrixXd& a) {
+  assert(a.cols() <= a.rows());
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
   return qr.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>();
 }
 
-Vector least_squares(const Eigen::MatrixXd& a, const Vector& b) { return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a).solve(b); }
+Vector least_squares(const Eigen::MatrixXd& a, const Vector& b) {
+  assert(a.rows() == b.size());
+  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a).solve(b);
+}
 
-Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return Eigen::FullPivLU<Eigen::MatrixXd>(a).solve(b); }
+Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  assert(a.rows() == a.cols() && a.rows() == b.rows());
+  return Eigen::FullPivLU<Eigen::MatrixXd>(a).solve(b);
+}
 
 }  // namespace elamin

@@ -16,7 +16,7 @@ void add_body_touches(const Model& model, const BodyRules& rules, const State& s
 
 /// One of them at any state, near or far: its gap, point and normal, without force. Nothing where it is no contact: two edges
 /// whose common perpendicular lies beyond their ends, a vertex outside of a region.
-std::optional<Touch> body_touch(const Model& model, const BodyRules& rules, const TouchKey& key, const State& state);
+[[nodiscard]] std::optional<Touch> body_touch(const Model& model, const BodyRules& rules, const TouchKey& key, const State& state);
 
 /// r_c of the table or wall of a contact with a body in it where it attracts, else 0. [length]
 double attraction_range(const Model& model, const BodyRules& rules, const TouchKey& key);

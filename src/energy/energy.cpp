@@ -7,6 +7,7 @@
 #include "model/entities.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace elamin {
@@ -164,6 +165,7 @@ void Energy::assemble_groups() {
 }
 
 void Energy::cover(const State& state) {
+  assert(state.position.cols() == model_.particles() && state.bodies.size() == model_.bodies.size());
   const bool particles = !neighbours_.covers(state) && neighbours_.refresh(state);
   const bool bodies = !body_neighbours_.covers(state) && body_neighbours_.refresh(state);
   if (particles || bodies) assemble_groups();
@@ -285,6 +287,7 @@ Vector Energy::multiply(const Vector& v, bool anchored) const {
 }
 
 BilinearForm Energy::form(const Vector& u, const Vector& v) const {
+  assert(evaluated_.position.cols() == model_.particles());                 // with Hessian
   BilinearForm form = assembler_->form(kinematics_.extend(u), kinematics_.extend(v), predicted_ ? nullptr : &evaluated_);
   const SparseMatrix& h = hessian();
   for (const int d : idle_) {

@@ -3,6 +3,7 @@
 #include "laws/rounded/rotation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace elamin {
@@ -99,6 +100,7 @@ void Kinematics::prescribe(State& state, double load_factor) const {
 }
 
 void Kinematics::retract(State& state, const Vector& step, double scale) const {
+  assert(step.size() == dofs() && state.position.cols() == particles());
   const auto go = [&](int s, ExactVector x) {
     for (int c = 0; c < 3; ++c)
       if (dof_(c, s) >= 0) x.set(c, x[c] + scale * step[dof_(c, s)]);
@@ -123,6 +125,7 @@ Vec3 Kinematics::turned_by(const Vector& y, int body) const {
 }
 
 Field Kinematics::displacement(const State& a, const State& b) const {
+  assert(a.position.cols() == particles() && b.position.cols() == particles() && a.bodies.size() == lever_.size() && b.bodies.size() == lever_.size());
   Field u(3, sites());
   u.leftCols(particles()) = elamin::displacement(a, b);
   for (std::size_t k = 0; k < lever_.size(); ++k) {
@@ -183,6 +186,7 @@ void Kinematics::pull_back(SparseMatrix& hessian, const Vector& gradient, const 
 }
 
 void Kinematics::restrict(const Field& field, Vector& out) const {
+  assert(field.cols() == sites());
   out.resize(dofs());
   for (int s = 0; s < sites(); ++s)
     for (int c = 0; c < 3; ++c)
@@ -196,6 +200,7 @@ Vector Kinematics::restrict(const Field& field) const {
 }
 
 Field Kinematics::extend(const Vector& v) const {
+  assert(v.size() == dofs());
   Field field = Field::Zero(3, sites());
   for (int s = 0; s < sites(); ++s)
     for (int c = 0; c < 3; ++c)

@@ -33,7 +33,7 @@ class LammpsBodiesSection {
 };
 
 /// The columns of atom style body, word i of a line: the flag must be 1, the mass positive. Else that is noted.
-std::optional<bool> body_flag(LammpsLines& lines, const DataLine& line, std::size_t i);
-std::optional<double> body_mass(LammpsLines& lines, const DataLine& line, std::size_t i);
+[[nodiscard]] std::optional<bool> body_flag(LammpsLines& lines, const DataLine& line, std::size_t i);
+[[nodiscard]] std::optional<double> body_mass(LammpsLines& lines, const DataLine& line, std::size_t i);
 
 }  // namespace elamin

@@ -21,7 +21,7 @@ struct BodyForm {
 /// diameter. Of spheres (N = 1) and rods (N = 2) edges and faces may be announced and left out; if they are there they say
 /// nothing. Everything that is wrong is told, a sentence each; then there is no form.
 /// Source: LAMMPS manual, Howto body; LAMMPS 29 Sep 2021.
-std::optional<BodyForm> body_form(const std::array<int, 3>& counts, const std::vector<double>& numbers,
+[[nodiscard]] std::optional<BodyForm> body_form(const std::array<int, 3>& counts, const std::vector<double>& numbers,
                                   std::vector<std::string>& wrong);
 
 /// What is wrong with a tensor of inertia, or "": its principal moments are not negative, and none exceeds the sum of the

@@ -10,6 +10,6 @@ enum class AtomColumn { id, type, molecule, diameter, density, charge, bodyflag,
 
 /// Columns of an atom style, image flags left out. Nothing: not known; why not is written to *why (a sentence's end).
 /// Source: LAMMPS manual, read_data; a hybrid has id type x y z, then every sub-style's own columns in order.
-std::optional<std::vector<AtomColumn>> atom_columns(const std::string& style, std::string* why);
+[[nodiscard]] std::optional<std::vector<AtomColumn>> atom_columns(const std::string& style, std::string* why);
 
 }  // namespace elamin

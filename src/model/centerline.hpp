@@ -35,7 +35,7 @@ Centerline row(const ExactVector& from, const ExactVector& to, int particles, Cl
 
 /// Evenly along straight pieces from corner to corner, at least two corners, a particle on every one between the ends.
 /// None if that number of particles puts none there (to 1e-12 of the whole length), or less than one bond between two.
-std::optional<Centerline> polyline(const std::vector<Vec3>& corners, int particles, Clamped clamped = {});
+[[nodiscard]] std::optional<Centerline> polyline(const std::vector<Vec3>& corners, int particles, Clamped clamped = {});
 
 /// The nearest numbers of particles below and above that `polyline` takes; 0: none as far as 10⁴ particles away.
 std::array<int, 2> fitting(const std::vector<Vec3>& corners, int particles, Clamped clamped = {});
@@ -57,6 +57,6 @@ Exact turns_of_rise(double chord, double rise);
 
 /// On half a sine wave from end to end, y = h sin(πx/c), h the rise (negative: to the other side), with equal distances
 /// between neighbours. None if no such points are found.
-std::optional<Centerline> half_sine(const Arch& arch, double rise, int particles);
+[[nodiscard]] std::optional<Centerline> half_sine(const Arch& arch, double rise, int particles);
 
 }  // namespace elamin

@@ -51,11 +51,11 @@ class ArcSteps final : public Branch {
   double longest() const;
   bool still_closed(const Equilibrium& e);
   bool over_bend(const Candidate& c);
-  std::optional<Candidate> attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why);
-  std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
-  std::optional<Candidate> reach_corner(const Arc& arc, double s);
+  [[nodiscard]] std::optional<Candidate> attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why);
+  [[nodiscard]] std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
+  [[nodiscard]] std::optional<Candidate> reach_corner(const Arc& arc, double s);
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
-  bool look_beyond(const Arc& arc, const Candidate& c);
+  [[nodiscard]] bool look_beyond(const Arc& arc, const Candidate& c);
   void carry_neutral(Equilibrium& e);
   bool joins(const Arc& arc, const Equilibrium& start, const Equilibrium& end) const;
   double next_load(double part) const;
@@ -63,7 +63,7 @@ class ArcSteps final : public Branch {
   Equilibrium at_load(const Equilibrium& from, double load_factor);
   Waypoint accept(Candidate c);
   void rotate(const Candidate& c);
-  std::optional<Direction> along_contact();
+  [[nodiscard]] std::optional<Direction> along_contact();
   void weigh(const Equilibrium& e);
 
   Metric metric_;

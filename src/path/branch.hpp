@@ -61,17 +61,17 @@ class Branch {
   static bool is_critical(const Event* event) { return event && !event->beyond && (event->kind == EventKind::limit || event->kind == EventKind::branch); }
 
   /// The equilibrium at a load factor, if it is on the same branch, or what happens before.
-  std::optional<Candidate> reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
+  [[nodiscard]] std::optional<Candidate> reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
   /// Where the branch is, with the tangent behind a contact that has just changed: that of an equilibrium which is farther by `way` of the load factor, or less.
   Equilibrium past_contact(double way);
   /// Equilibria between here and the candidate lie beside the chord.
   Segment beside(Segment segment, const Candidate& c) const;
   Candidate with_contact(Candidate c, ContactChange change) const;
   void look_behind(Event& contact, double way);
-  bool find_contact(const Segment& segment, Candidate& c, std::string& why);
-  bool find_critical(Segment segment, Candidate& c, std::string& why);
+  [[nodiscard]] bool find_contact(const Segment& segment, Candidate& c, std::string& why);
+  [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;
-  bool find_watches(Segment segment, Candidate& c, std::string& why);
+  [[nodiscard]] bool find_watches(Segment segment, Candidate& c, std::string& why);
   /// The branch is at the candidate from now on.
   void take(const Candidate& c);
   void stop_here(Status status, std::string why) { status_ = status, why_ = std::move(why); }

@@ -37,13 +37,13 @@ struct ContactChange {
 /// The first change of the closed contacts on a segment from `a` to `b`, located at the zero of the gap that changes sign,
 /// to rounding. `before`: what is closed from `a` on, which at an event differs from what overlaps at `a` itself.
 /// Contacts that change together are one event. Nothing if none changes.
-std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
+[[nodiscard]] std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
                                             const Equilibrium& b);
 
 /// A corner that is ahead: the equilibrium at which the first contact changes on the way along the tangent of `a`, up to the
 /// part 1 of the way (dofs) and change of the load factor, found without equilibria beyond, of which there may be none: by
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
-std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
+[[nodiscard]] std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
 
 /// Those of the closed contacts whose gap is none: made where the state is, or next to rigid.
 std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed);
@@ -54,6 +54,6 @@ std::vector<ContactKey> just_touching(const Energy& energy, const State& state, 
 /// Where nᵀH⁻¹n < 0, as on an unstable branch, the load factor turns. Nothing where some contacts would open again.
 /// `load`: the scale of the load factor. Behind contacts much stiffer than what they press on the branch takes this direction after an overlap that is next to nothing.
 struct Rates { Vector x; double load; };
-std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load);
+[[nodiscard]] std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load);
 
 }  // namespace elamin

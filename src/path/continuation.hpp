@@ -44,7 +44,7 @@ class Continuation : public Path {
   void begin_at(Equilibrium& at);
   void land(Equilibrium at, const std::string& what, int before, const std::string& parent);
   void break_off();
-  bool snap(std::string& why);
+  [[nodiscard]] bool snap(std::string& why);
   bool meets_known(const Waypoint& waypoint, const Event& event);
   bool closes_loop(const Waypoint& waypoint);
 

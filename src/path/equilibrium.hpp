@@ -29,10 +29,10 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// Whether two equilibria lie on one branch: what is between them is what the tangent at one end, at the other, or both
 /// tell, but for a part (a branch that bends like a parabola into a limit point, from there to its vertex, has one half); and
 /// where nothing touches, the tangents do not turn far, as they do over a pitchfork that is all but perfect. Two slack ones do.
-bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
+[[nodiscard]] bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b);
 
 /// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.
-bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
+[[nodiscard]] bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
 
 /// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it. In a plane
 /// they are those of ∇c,  c = Σ_k q_k ω_k,  ω_k the angles' changes and q_k those that the mode makes, which supports do not enter: with

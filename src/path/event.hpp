@@ -30,7 +30,7 @@ Resume resume_of(const Event& event, const ContactSet& closed);
 void store(const ContactSet& closed, Resume& resume);
 
 /// The limit point or branch point that a path is taken up at, with its equilibrium; nothing if it was none.
-std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at);
+[[nodiscard]] std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at);
 
 /// The contacts that a path was taken up with.
 ContactSet resumed_contacts(const Resume& resume);

@@ -29,16 +29,16 @@ class HeldSteps final : public Path {
   Equilibrium follow(const Equilibrium& from, const Contacts& closed, double load_factor);
   Judgement judge(const Equilibrium& e, const Equilibrium* before);
   double margin(const HardForce& contact, const Equilibrium& e) const;
-  std::optional<Equilibrium> first_change(const Contacts& wrong, const Equilibrium& candidate);
-  bool turn_back(const HardForce& contact);
+  [[nodiscard]] std::optional<Equilibrium> first_change(const Contacts& wrong, const Equilibrium& candidate);
+  [[nodiscard]] bool turn_back(const HardForce& contact);
   void corner(Equilibrium at, const Contacts& slack);
   void change(Equilibrium at, Contacts now, const Contacts& slack);
   void go_on(Equilibrium from);
   double direction() const { return options_.to < options_.from ? -1 : 1; }
   struct Vanishing { Equilibrium at; double scale; };          // of a mode's curvature, and how large it is beside that
-  std::optional<Event> branch_point(Equilibrium candidate);
-  std::optional<Vanishing> crossing(const Equilibrium& candidate);
-  std::optional<Event> limit_point(double target);
+  [[nodiscard]] std::optional<Event> branch_point(Equilibrium candidate);
+  [[nodiscard]] std::optional<Vanishing> crossing(const Equilibrium& candidate);
+  [[nodiscard]] std::optional<Event> limit_point(double target);
   Event critical(Equilibrium at, EventKind kind, int after, double scale);
   void lose(Event event);
   void miss(double target, int after);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
 #include <utility>
 
 namespace elamin {
@@ -26,7 +27,7 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
     if (found || k == jump::most_nearer) break;
   }
   const State from = state;
-  if (event.kind == EventKind::branch) newton.leave_saddle(state, event.modes.col(0));
+  if (event.kind == EventKind::branch) std::ignore = newton.leave_saddle(state, event.modes.col(0));   // where not, minimise looks for a way itself
   energy.evaluate(from);
   const double before = energy.last_terms().total();
   // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.

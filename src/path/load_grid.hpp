@@ -17,7 +17,7 @@ class LoadGrid {
   double next() const;
   int halvings() const { return halvings_; }
   /// False where it is as fine as it may be.
-  bool halve();
+  [[nodiscard]] bool halve();
   /// The step led there.
   void arrive();
   /// Something happened at a load factor: the way to the next target counts from there.

@@ -20,10 +20,10 @@ class LoadSteps final : public Branch {
   double goal() const { return grid_.done() ? current_.point.state.load_factor : grid_.next(); }
 
  private:
-  std::optional<Candidate> reach(double target, std::string& why);
+  [[nodiscard]] std::optional<Candidate> reach(double target, std::string& why);
   Waypoint accept(Candidate c);
   void set_out_on_detour();
-  std::optional<Waypoint> on_detour();
+  [[nodiscard]] std::optional<Waypoint> on_detour();
   void arrived(const Candidate& c);
   bool patient() const { return patience_.most == 0 || patience_.refused < patience_.most; }
 

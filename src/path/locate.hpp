@@ -12,7 +12,7 @@ namespace elamin {
 /// bracketed) on the sorted eigenvalue that changes sign, at equilibria that the corrector itself computes. A limit point if
 /// the load factor turns on the segment, else a branch point; where that is not known, or may be both, because the index changes by more
 /// than one, a limit point if the load does work along the critical mode. Nothing if the eigenvalue jumps over zero: the ends are on different branches.
-std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b,
+[[nodiscard]] std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b,
                                      std::optional<bool> turns);
 
 /// Equilibria between two load factors.
@@ -26,7 +26,7 @@ inline Event event_at(const Equilibrium& e, double parameter) {
 }
 
 /// The root of a function of the equilibria of a segment that has different signs at its ends, or nothing.
-std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
+[[nodiscard]] std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                  const std::function<double(const Equilibrium&)>& f);
 
 /// The watches whose observables pass their values first on the segment: several where they coincide. sides: of each the sign of
@@ -42,7 +42,7 @@ void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& p
 /// changes sign. `slope`: dλ/ds, which changes sign. On the side branch the equations are singular there; so the place is
 /// told from equilibria beside it (cubic Hermite interpolation), the branch that is met is stepped on by holding the
 /// critical mode, and the zero of the eigenvalue located along that one.
-std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
+[[nodiscard]] std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                     const std::function<double(const Equilibrium&)>& slope);
 
 }  // namespace elamin

@@ -2,6 +2,7 @@
 
 #include "path/limits.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace elamin {
@@ -10,6 +11,7 @@ using namespace limits;
 
 std::optional<Sample> find_zero(Sample a, Sample b, double resolution,
                                 const std::function<std::optional<Sample>(double, const Sample&)>& evaluate) {
+  assert((a.f <= 0) != (b.f <= 0) || a.f == 0 || b.f == 0);
   double weight_a = a.f, weight_b = b.f;
   for (int k = 0; k < root::most_evaluations; ++k) {
     const double width = b.t - a.t;

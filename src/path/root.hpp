@@ -16,7 +16,7 @@ struct Sample {
 /// slow. `evaluate(t, nearest)` computes the sample at t, from the one of the bracket that is nearest. Stops when the
 /// secant through the bracket predicts a change below `resolution`, or the bracket is that small; the better end of it.
 /// Nothing if an evaluation fails.  Source: Dowell & Jarratt 1971, BIT 11.
-std::optional<Sample> find_zero(Sample a, Sample b, double resolution,
+[[nodiscard]] std::optional<Sample> find_zero(Sample a, Sample b, double resolution,
                                 const std::function<std::optional<Sample>(double, const Sample&)>& evaluate);
 
 }  // namespace elamin

@@ -29,7 +29,7 @@ Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, c
                          double t);
 
 /// Whether an equilibrium computed between two of a branch lies beside their chord: on another branch it would not.
-inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, const State& between) {
+[[nodiscard]] inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, const State& between) {
   const Vector chord = kinematics.difference(a, b), way = kinematics.difference(a, between);
   const double length = chord.norm(), along = length > 0 ? way.dot(chord) / (length * length) : 0.0;
   return along >= -limits::segment::widest && along <= 1 + limits::segment::widest && (way - along * chord).norm() <= limits::segment::widest * length;
@@ -37,7 +37,7 @@ inline bool beside_chord(const Kinematics& kinematics, const State& a, const Sta
 
 /// Whether the way between two equilibria is by more than `most` of it another one than the mean of their tangents, as it is of a parabola: a step over a
 /// bend, where what the corrector finds may belong to another branch, as over a pitchfork, one branch of which is as stable as what is before.
-inline bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b, double most) {
+[[nodiscard]] inline bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b, double most) {
   const Vector moved = kinematics.difference(a.point.state, b.point.state);
   const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = 1e-12 * b.point.state.position.norm();
   return !((moved - change / 2 * (a.tangent + b.tangent)).norm() <= most * moved.norm() + rounding);

@@ -7,6 +7,7 @@
 
 extern "C" void openblas_set_num_threads(int);
 
+#include <cassert>
 #include <stdexcept>
 
 namespace elamin {
@@ -71,6 +72,7 @@ void Cholesky::analyze(const SparseMatrix& pattern) {
 
 bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
   if (hessian.cols() == 0) return true;
+  assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   const Timed timed(seconds_);
   const OneThread one;
   cholmod_sparse a = view(hessian);
@@ -83,6 +85,7 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
 // One of CHOLMOD's systems with the factor: A x = b, or a part of it.
 Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) {
   if (b.rows() == 0) return b;
+  assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(b.rows()));
   const Timed timed(seconds_);
   const OneThread one;
   cholmod_dense rhs{};

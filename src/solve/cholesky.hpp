@@ -17,7 +17,7 @@ class Cholesky {
   /// Takes the pattern (lower triangle); it must stay the same until the next call.
   void analyze(const SparseMatrix& pattern);
   /// True if H + shift·I is positive definite; then solve() may be called.  shift [force/length]
-  bool factorize(const SparseMatrix& hessian, double shift = 0);
+  [[nodiscard]] bool factorize(const SparseMatrix& hessian, double shift = 0);
   /// (H + shift·I)⁻¹ b.
   Vector solve(const Vector& b);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b);

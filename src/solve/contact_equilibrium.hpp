@@ -61,7 +61,7 @@ class ContactEquilibrium {
   /// a linear complementarity problem: all that are wrong change sides, and where that does not lead on the first one alone, which
   /// comes to an end at a stable equilibrium. Nothing if none are right: there the equilibrium ends.
   /// Source: Júdice & Pires 1994, Computers Ops Res. 21, 587 (block principal pivoting); Murty 1974, Linear Algebra Appl. 9.
-  std::optional<std::vector<HardForce>> onward(State state, const std::vector<HardForce>& slack, double direction);
+  [[nodiscard]] std::optional<std::vector<HardForce>> onward(State state, const std::vector<HardForce>& slack, double direction);
 
   /// The `count` lowest eigenpairs of the Hessian of L among the motions that keep the closed gaps, by block inverse iteration; good
   /// to about 1e-6 of the largest of them.
@@ -71,8 +71,8 @@ class ContactEquilibrium {
   struct Step { Vector p, force; double border = 0; };         // of the last of the directions held
   Report newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held, const HardForce* changing);
   void linearise(const State& state, const State* from, const Eigen::MatrixXd& held = {});
-  bool factorize(double shift);
-  bool factorize_near(double shift);
+  [[nodiscard]] bool factorize(double shift);
+  [[nodiscard]] bool factorize_near(double shift);
   Step solve(const Vector& b, const Vector& c, double along = 0);
   double worst_gap(const State& state) const;
   double rate(const HardGap& gap) const;

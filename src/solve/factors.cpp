@@ -5,6 +5,7 @@
 #include "solve/ritz.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -60,6 +61,7 @@ bool Factors::factorize_beside(const Eigen::MatrixXd& held, std::unique_ptr<Pivo
 }
 
 bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
+  assert(held.cols() == 0 || held.rows() == energy_.dofs());
   if (held.cols() > 0) {
     holder_ = factorize_beside(held, bordered_, bordered_version_, borders_) ? Holder::bordered : Holder::none;
   } else if (!indefinite_ && try_cholesky(0)) {
@@ -71,6 +73,7 @@ bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
 }
 
 Vector Factors::solve_holding(const Vector& b) {
+  assert(b.size() == energy_.dofs());
   switch (holder_) {
     case Holder::none: return Vector::Zero(b.size());
     case Holder::cholesky: return cholesky_.solve(b);
@@ -82,6 +85,7 @@ Vector Factors::solve_holding(const Vector& b) {
 }
 
 Factors::Bordered Factors::solve_bordered(const Vector& column, const Vector& row, double corner, const Vector& b, double beta) {
+  assert(column.size() == energy_.dofs() && row.size() == energy_.dofs());
   const Vector left = solve_holding(row), right = solve_holding(column);
   const double left_pivot = corner - left.dot(column), right_pivot = corner - row.dot(right);
   const double first = (beta - left.dot(b)) / left_pivot;
@@ -113,6 +117,7 @@ std::optional<double> Factors::make_positive_from(double shift, double growth) {
 }
 
 EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held) {
+  assert(start.rows() == energy_.dofs() && start.cols() > 0);
   const Eigen::Index block = start.cols();
   if (!factorize_holding(held)) return {Vector::Zero(block), start};
   Eigen::MatrixXd x = start;
@@ -132,6 +137,7 @@ EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::Matr
 
 EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen::MatrixXd& start) {
   const int n = energy_.dofs();
+  assert(count > 0 && (start.cols() == 0 || start.rows() == n));
   count = std::min(count, n);
   const int block = std::min(n, count + 4);
   if (count == 0) return {Vector(0), Eigen::MatrixXd(n, 0)};

@@ -34,9 +34,9 @@ class Factors {
   void expect(bool indefinite) { indefinite_ = indefinite; }
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
   /// it positive definite; returns τ.  The factor is then in cholesky(). None where there is no such thing: see why_none().
-  std::optional<double> make_positive(double guess);
+  [[nodiscard]] std::optional<double> make_positive(double guess);
   /// The same from `shift` on, `growth` times larger each time: first_shift() of try_cholesky().
-  std::optional<double> make_positive_from(double shift, double growth = 2);
+  [[nodiscard]] std::optional<double> make_positive_from(double shift, double growth = 2);
   /// Why no factor of the Hessian can be made, of whatever shift: "" if one can.
   std::string why_none() const;
   /// The `count` lowest eigenpairs, by block inverse iteration with Rayleigh–Ritz on a few guard vectors more, which
@@ -59,7 +59,7 @@ class Factors {
   /// p of |H| p = b, |H| being H with the signs of its negative eigenvalues changed, where the last inertia() had to tell signs that a factor
   /// cannot; none elsewhere. Along zero eigenvalues motions are
   /// held as by hold_zero_modes. cholesky() then holds H + σI.
-  std::optional<Vector> solve_convex(const Vector& b);
+  [[nodiscard]] std::optional<Vector> solve_convex(const Vector& b);
   /// (p, δ) of the system that has one row and one column more, in the space orthogonal to `held`,
   ///   H p + c δ = b,   r·p + d δ = β,
   /// with the factors of factorize_holding: mixed block elimination, which is stable although H be singular to rounding,
@@ -75,15 +75,15 @@ class Factors {
     return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0) + (bordered_ ? bordered_->seconds() : 0.0) +
            (beside_ ? beside_->seconds() : 0.0);
   }
-  bool try_cholesky(double shift);
-  bool try_pivoted(double shift);
+  [[nodiscard]] bool try_cholesky(double shift);
+  [[nodiscard]] bool try_pivoted(double shift);
 
  private:
-  bool pivot_near(double first, double next);
-  bool factorize_beside(const Eigen::MatrixXd& held, std::unique_ptr<PivotedFactor>& factor, int& version, Eigen::Index& borders);
+  [[nodiscard]] bool pivot_near(double first, double next);
+  [[nodiscard]] bool factorize_beside(const Eigen::MatrixXd& held, std::unique_ptr<PivotedFactor>& factor, int& version, Eigen::Index& borders);
   using Solve = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
-  std::optional<Eigen::MatrixXd> soft_modes(double reach, const Solve& solve);
-  std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
+  [[nodiscard]] std::optional<Eigen::MatrixXd> soft_modes(double reach, const Solve& solve);
+  [[nodiscard]] std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
   Vector solve_resolved(const Vector& b);
   double smallest();
   Energy& energy_;

@@ -45,22 +45,22 @@ class IpoptProblem final : public Ipopt::TNLP {
   bool eval_grad_f(Index n, const Number* y, bool renewed, Number* g) override;
   bool eval_g(Index, const Number* y, bool renewed, Index m, Number* gap) override;
   bool eval_jac_g(Index, const Number* y, bool renewed, Index, Index, Index* row, Index* column, Number* value) override;
-  bool eval_h(Index, const Number* y, bool renewed, Number factor, Index m, const Number* multiplier, bool, Index entries,
+  [[nodiscard]] bool eval_h(Index, const Number* y, bool renewed, Number factor, Index m, const Number* multiplier, bool, Index entries,
               Index* row, Index* column, Number* value) override;
-  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number, Number, Number, Number mu, Number, Number shift,
+  [[nodiscard]] bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number, Number, Number, Number mu, Number, Number shift,
                              Number, Number, Index, const Ipopt::IpoptData* data, Ipopt::IpoptCalculatedQuantities*) override;
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*, Index, const Number*,
                          const Number*, Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {}
 
  private:
-  bool move(const Number* y, bool renewed);
+  [[nodiscard]] bool move(const Number* y, bool renewed);
   bool passes() const;
-  bool differentiate(const Number* y, bool renewed);
-  bool measure(const Number* y, bool renewed);
+  [[nodiscard]] bool differentiate(const Number* y, bool renewed);
+  [[nodiscard]] bool measure(const Number* y, bool renewed);
   void remember(const State& accepted);
   double force_scale() const;
   void look(double moved);
-  bool settle();
+  [[nodiscard]] bool settle();
 
   Energy& energy_;
   ContactEquilibrium& equilibrium_;

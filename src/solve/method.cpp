@@ -28,7 +28,7 @@ void add(Report& total, const Report& part) {
 int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
   Energy& energy = newton.energy();
   Factors& factors = newton.factors();
-  factors.try_cholesky(zero_modes ? 100 * factors.zero_level() : 0.0);
+  if (!factors.try_cholesky(zero_modes ? 100 * factors.zero_level() : 0.0)) return 0;
   for (int k = 0; k < limits::most_polishing; ++k) {
     if (energy.relative(energy.gradient()) <= 4 * epsilon) return k;
     State next = state;

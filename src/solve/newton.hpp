@@ -70,7 +70,7 @@ class Newton {
 
   /// Moves the state from a saddle down along ± direction (dofs), sign as given, until the energy rises or what is
   /// glued turns by a third of a radian. False if no lower energy is found.
-  bool leave_saddle(State& state, const Vector& direction);
+  [[nodiscard]] bool leave_saddle(State& state, const Vector& direction);
 
   Energy& energy() { return energy_; }
   Factors& factors() { return factors_; }
@@ -113,11 +113,11 @@ class Newton {
   /// Of a step: how much of it may be tried first, and how much of that what is in the way has left.
   struct Part { double first, free; };
   class Effort;
-  std::optional<Halt> iterate(State& state, Descent& descent);
+  [[nodiscard]] std::optional<Halt> iterate(State& state, Descent& descent);
   void look(const State& state, Descent& descent);
   bool is_minimum(State& state, Descent& descent);
-  std::optional<Halt> advance(State& state, Descent& descent, Step step);
-  std::optional<Step> shorter_step(const State& state, Descent& descent, const Step& step, double alpha);
+  [[nodiscard]] std::optional<Halt> advance(State& state, Descent& descent, Step step);
+  [[nodiscard]] std::optional<Step> shorter_step(const State& state, Descent& descent, const Step& step, double alpha);
   Part part_of(const State& state, const Step& step) const;
   double residual() const;
   void record(Report& report, double step, double shift) const;
@@ -128,14 +128,14 @@ class Newton {
   double part_within_turn(const State& state, const Vector& p, double load_change = 0) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
-  std::optional<Step> step_within(double reach, const Vector& g, double& shift);
-  bool resolve_softest(const Vector& g, double shift, Step& step);
+  [[nodiscard]] std::optional<Step> step_within(double reach, const Vector& g, double& shift);
+  [[nodiscard]] bool resolve_softest(const Vector& g, double shift, Step& step);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
-  bool comes_nearer(const Step& step, double alpha);
-  bool take_downhill(const State& from, const Step& step, double alpha, State& to);
-  bool take_long(const State& from, const Step& step, double alpha, State& to);
-  std::optional<double> without_compression(const State& state, const Vector& g, Descent& descent);
-  std::optional<double> make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left);
+  [[nodiscard]] bool comes_nearer(const Step& step, double alpha);
+  [[nodiscard]] bool take_downhill(const State& from, const Step& step, double alpha, State& to);
+  [[nodiscard]] bool take_long(const State& from, const Step& step, double alpha, State& to);
+  [[nodiscard]] std::optional<double> without_compression(const State& state, const Vector& g, Descent& descent);
+  [[nodiscard]] std::optional<double> make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left);
   void polish(State& state, Report& report, const std::function<void(State&)>& step);
 
   Energy& energy_;

@@ -163,13 +163,13 @@ std::optional<Newton::Step> Newton::step_within(double reach, const Vector& g, d
 }
 
 // Where a step goes along motions that are softer than the shift that makes a factor, it is by far too short: slender structures bend that
-// softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp).
+// softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp). False: there is no factor any more.
 bool Newton::resolve_softest(const Vector& g, double shift, Step& step) {
-  if (energy_.model().bonds.empty() || !(shift > 0 && shift <= limits::hold_zero_modes * factors_.zero_level())) return false;
-  if (energy_.quadratic_form(step.p) > shift * step.p.squaredNorm()) return false;
+  if (energy_.model().bonds.empty() || !(shift > 0 && shift <= limits::hold_zero_modes * factors_.zero_level())) return true;
+  if (energy_.quadratic_form(step.p) > shift * step.p.squaredNorm()) return true;
   factors_.inertia();
   std::optional<Vector> p = factors_.solve_convex(-g);
-  if (!p || !p->allFinite()) return factors_.make_positive_from(shift), false;
+  if (!p || !p->allFinite()) return factors_.make_positive_from(shift).has_value();
   step.resolved = true, step.p = std::move(*p), step.hp = energy_.multiply(step.p);
   step.slope = g.dot(step.p), step.curvature = step.p.dot(step.hp);
   return true;

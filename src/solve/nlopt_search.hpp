@@ -41,9 +41,9 @@ class NloptSearch {
   Vector step(const Vector& z);
   Vector slope(const Vector& g);
   bool begin_round(bool from_forces);
-  std::optional<double> factorise(const Vector& g);
+  [[nodiscard]] std::optional<double> factorise(const Vector& g);
   void optimise(nlopt_opt optimiser);
-  bool must_stop();
+  [[nodiscard]] bool must_stop();
   void keep(const State& state, double f, double residual);
   void end(Status status, std::string why);
 

@@ -5,6 +5,7 @@
 #include <dmumps_c.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -83,6 +84,7 @@ bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const E
   const std::lock_guard lock(one_at_a_time());
   Mumps& m = *mumps_;
   const std::size_t entries = static_cast<std::size_t>(hessian.nonZeros());
+  assert(entries <= m.values.size() && (borders.cols() == 0 || borders.rows() == hessian.rows()));    // analysed with as many borders
   double largest = std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < entries; ++k) {
     m.values[k] = hessian.valuePtr()[k] + (m.rows[k] == m.columns[k] ? shift : 0.0);
@@ -108,6 +110,7 @@ Vector PivotedFactor::solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).
 
 Eigen::MatrixXd PivotedFactor::solve(const Eigen::MatrixXd& b) {
   if (b.size() == 0) return b;
+  assert(b.rows() <= mumps_->id.n);
   const Timed timed(seconds_);
   const std::lock_guard lock(one_at_a_time());
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mumps_->id.n, b.cols());

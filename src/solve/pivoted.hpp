@@ -24,7 +24,7 @@ class PivotedFactor {
   /// Takes the pattern (lower triangle with full diagonal), and how many borders there will be.
   void analyze(const SparseMatrix& pattern, int borders = 0);
   /// Factorises H + shift·I. False if it is singular to rounding: negative() and solve() then mean nothing.
-  bool factorize(const SparseMatrix& hessian, double shift = 0, const Eigen::MatrixXd& borders = {});
+  [[nodiscard]] bool factorize(const SparseMatrix& hessian, double shift = 0, const Eigen::MatrixXd& borders = {});
   /// Number of negative eigenvalues of the matrix factorised last. With borders that are independent, m of them belong to
   /// the borders: the others are those of H among the vectors orthogonal to Z.
   int negative() const;

@@ -22,7 +22,7 @@ struct RunOptions {
 };
 
 /// What a run came to.
-struct RunResult {
+struct [[nodiscard]] RunResult {
   int exit_status = exit_done;
   std::string directory;
   std::vector<Verdict> verdicts;       // of its [[expect]]

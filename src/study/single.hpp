@@ -8,7 +8,7 @@
 
 namespace elamin {
 
-struct SingleResult {
+struct [[nodiscard]] SingleResult {
   Status status = Status::converged;
   std::string why;
   Table path, events;

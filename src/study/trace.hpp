@@ -12,7 +12,7 @@
 namespace elamin {
 
 /// How a study ended.
-struct Outcome {
+struct [[nodiscard]] Outcome {
   Status status = Status::converged;
   std::string why;
 };

@@ -38,7 +38,7 @@ value = 12345
 std::string made(const ScratchDirectory& scratch) {
   RunOptions options;
   options.file = scratch.file("p.toml", problem), options.directory = scratch / "run", options.threads = 1, options.quiet = true;
-  run(options);
+  REQUIRE(run(options).exit_status == exit_done);
   return options.directory;
 }
 
