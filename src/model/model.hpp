@@ -193,6 +193,7 @@ struct Structure {
   double youngs_modulus = 0;                    // 0: not known
   int bond_type = -1, angle_type = -1;          // its first ones, or none
   int first_body = 0, bodies = 0;
+  Vec3 up = Vec3::Zero();                       // of a sheet the second of its axes, of length 1: see Sheet
 };
 
 struct Model {

@@ -147,6 +147,8 @@ void add_sheets(Model& model, const std::vector<Sheet>& sheets) {
       }
     });
     model.structures.push_back({s.name, "sheet", first, patch.size(), s.youngs_modulus, types.bond, types.angle});
+    const Frame frame = frame_of(s.normal);
+    model.structures.back().up = s.shape == Sheet::Shape::cylinder ? frame.n.hi : frame.e2.hi;
   }
 }
 

@@ -27,7 +27,7 @@ std::string open_faces(const Region& region) {
   static const std::array<const char*, 6> of_block{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"}, of_others{"lo", "hi", "side", "", "", ""};
   std::string open;
   for (std::size_t k = 0; k < 6; ++k)
-    if (region.open[k]) open += (open.empty() ? "" : " ") + std::string((region.shape == Shape::block ? of_block : of_others)[k]);
+    if (region.open[k]) open.append(open.empty() ? "" : " ").append((region.shape == Shape::block ? of_block : of_others)[k]);
   return open;
 }
 
@@ -56,37 +56,55 @@ Table walls_of(const Model& model, double load_factor) {
 
 }  // namespace
 
+std::vector<BondField> bond_fields(const Model& model, const State& state) {
+  const std::vector<HarmonicBond> laws = bond_laws(model, state.load_factor);
+  std::vector<BondField> fields;
+  for (std::size_t b = 0; b < laws.size(); ++b) {
+    const Points<2> x = points<2>(state, model.bonds[b].particles);
+    fields.push_back({x.edge(0, 1).hi.norm(), laws[b].strain(x), laws[b].tension(x)});
+  }
+  return fields;
+}
+
+std::vector<AngleField> angle_fields(const Model& model, const State& state) {
+  const std::vector<CosineAngle> laws = angle_laws(model, state.load_factor);
+  std::vector<AngleField> fields;
+  for (std::size_t a = 0; a < laws.size(); ++a) {
+    const std::array<int, 3> sites = angle_sites(model, model.angles[a]);
+    fields.push_back(field_of(laws[a], points<3>(state, sites), sites != model.angles[a].particles, model.plane_normal));
+  }
+  return fields;
+}
+
+Field contact_forces(const Model& model, const std::vector<Touch>& touches) {
+  Field forces = Field::Zero(3, entities(model));
+  for (const Touch& t : touches) {
+    forces.col(t.particle) += t.force;
+    if (t.other >= 0) forces.col(t.other) -= t.force;
+  }
+  return forces;
+}
+
 Fields fields_at(Energy& energy, const State& state, const std::vector<Touch>& touches) {
   const Model& model = energy.model();
-  Fields fields;
-  const std::vector<HarmonicBond> bonds = bond_laws(model, state.load_factor);
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const Points<2> x = points<2>(state, model.bonds[b].particles);
-    fields.bonds.push_back({x.edge(0, 1).hi.norm(), bonds[b].strain(x), bonds[b].tension(x)});
-  }
-  const std::vector<CosineAngle> angles = angle_laws(model, state.load_factor);
-  for (std::size_t a = 0; a < angles.size(); ++a) {
-    const std::array<int, 3> sites = angle_sites(model, model.angles[a]);
-    fields.angles.push_back(field_of(angles[a], points<3>(state, sites), sites != model.angles[a].particles, model.plane_normal));
-  }
-  fields.energy = energy.shares(state);
-  fields.contact_force = Field::Zero(3, entities(model));
-  for (const Touch& t : touches) {
-    fields.contact_force.col(t.particle) += t.force;
-    if (t.other >= 0) fields.contact_force.col(t.other) -= t.force;
-  }
+  Fields fields{bond_fields(model, state), angle_fields(model, state), energy.shares(state), contact_forces(model, touches), {}};
+  fields.sheets = stress_resultants(model, state, fields.bonds, fields.angles);
   return fields;
 }
 
 std::vector<std::pair<std::string, Table>> field_tables(const Model& model, const State& state, const Fields& fields) {
   std::vector<std::pair<std::string, Table>> all;
   Table particles{{"id", "kind", "x", "y", "z", "radius", "energy", "fx", "fy", "fz"}, {}};
+  if (!fields.sheets.empty()) particles.columns.insert(particles.columns.end(), {"N11", "N22", "N12", "M11", "M22", "M12"});
   for (int e = 0; e < entities(model); ++e) {
     const bool body = is_body(model, e);
     Row row{id_of(model, e), body ? "body" : "particle"};
     add_components(row, body ? state.bodies[e - model.particles()].position.hi : Vec3(state.position.col(e)));
     row.insert(row.end(), {size_of(model, e) / 2, fields.energy[e]});
     add_components(row, fields.contact_force.col(e));
+    if (!body && !fields.sheets.empty() && fields.sheets[e].known)
+      for (const Vec3& resultant : {fields.sheets[e].N, fields.sheets[e].M}) add_components(row, resultant);
+    row.resize(particles.columns.size());
     particles.rows.push_back(std::move(row));
   }
   all.emplace_back(".particles.csv", std::move(particles));

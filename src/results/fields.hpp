@@ -1,6 +1,7 @@
 #pragma once
 // What a state is like inside: forces, strains and moments of every bond and angle, energies and contact forces of every particle.
 #include "energy/energy.hpp"
+#include "results/stress_resultants.hpp"
 #include "results/table.hpp"
 
 #include <string>
@@ -29,16 +30,23 @@ struct Fields {
   std::vector<AngleField> angles;      // of Model::angles
   Vector energy;                       // of particles and bodies (see model/entities.hpp), see Energy::shares
   Field contact_force;                 // 3 × the same: sum of the forces of all contacts and walls on each [force]; cohesion is not in it
+  std::vector<StressResultants> sheets;   // of every particle; empty where there is no sheet
 };
+
+/// Those of all bonds and of all angles of a state, and the contact forces of everything that its contacts have on it.
+std::vector<BondField> bond_fields(const Model& model, const State& state);
+std::vector<AngleField> angle_fields(const Model& model, const State& state);
+Field contact_forces(const Model& model, const std::vector<Touch>& touches);
 
 /// The fields of a state at its load factor; touches: its contacts, see Energy::touches.
 Fields fields_at(Energy& energy, const State& state, const std::vector<Touch>& touches);
 
 /// The fields as tables, each with the end of its file's name. ".particles.csv": id, kind ("particle" or "body"), x, y, z, radius (of a
-/// body: bounding), energy, fx, fy, fz (contact force); ".bonds.csv": first, second (ids), length, strain, tension; ".angles.csv": first,
-/// middle, third, turn, curvature, moment, mx, my, mz; ".walls.csv", where the walls are at the load factor: name, shape, x, y, z (a
-/// plane's point, the centre or a point of the axis), nx, ny, nz (normal or axis), xlo … zhi (block), lo, hi (ends along the axis, empty:
-/// infinite), radius_lo, radius_hi, open. The last three only where there are any.
+/// body: bounding), energy, fx, fy, fz (contact force), and where there are sheets N11, N22, N12, M11, M22, M12 (empty beside them, see
+/// StressResultants); ".bonds.csv": first, second (ids), length, strain, tension; ".angles.csv": first, middle, third, turn, curvature, moment,
+/// mx, my, mz; ".walls.csv", where the walls are at the load factor: name, shape, x, y, z (a plane's point, the centre or a point of the
+/// axis), nx, ny, nz (normal or axis), xlo … zhi (block), lo, hi (ends along the axis, empty: infinite), radius_lo, radius_hi, open. The
+/// last three only where there are any.
 std::vector<std::pair<std::string, Table>> field_tables(const Model& model, const State& state, const Fields& fields);
 
 }  // namespace elamin
