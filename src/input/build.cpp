@@ -37,7 +37,9 @@ class Builder {
     if (p_.in_time()) need_masses(p_, model_, mistakes_);
     holding = add_supports(p_, groups, model_, mistakes_) && holding;
     add_loads(p_, groups, model_, mistakes_);
-    holding = add_contacts(p_, groups, model_, mistakes_) && holding;
+    const bool contacts = add_contacts(p_, groups, model_, mistakes_);
+    if (contacts) check_observed(p_, groups, model_, mistakes_);
+    holding = contacts && holding;
     model_.groups = groups.groups();
     if (holding && whole_) check_bodies_built(p_, model_, mistakes_);
     if (holding && whole_) check_all_held();

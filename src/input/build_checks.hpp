@@ -1,8 +1,7 @@
 #pragma once
 // What must hold of the structure as a whole before anything is computed with it.
 #include "model/model.hpp"
-#include "input/mistakes.hpp"
-#include "input/problem.hpp"
+#include "input/groups.hpp"
 
 namespace elamin {
 
@@ -21,6 +20,10 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes);
 
 /// A study cannot have more modes or eigenvalues than there are free coordinates.
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes);
+
+/// What is observed of a group that has it not: a gap of what touches nothing, a tension without bonds, a slope of one particle. Bonds that
+/// come with a stage are not known yet, then nothing is said of them.
+void check_observed(const Problem& problem, Groups& groups, const Model& model, Mistakes& mistakes);
 
 /// Of dynamics: the timestep must be a stable one at the starting state, or be allowed not to be.
 void check_timestep(const Problem& problem, const Model& model, Mistakes& mistakes);

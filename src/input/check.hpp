@@ -17,6 +17,9 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
 /// Columns that the tables of every run have; an observable may not take one of these names.
 const std::vector<std::string>& standing_columns();
 
+/// Those, or in time those of trajectory.csv, and the eigenvalues that a problem asks for.
+std::vector<std::string> columns_of(const Problem& problem);
+
 /// Columns that a study of modes and a path with `eigenvalues` have besides: eigenvalue_1, …
 std::vector<std::string> eigenvalue_columns(const Problem& problem);
 

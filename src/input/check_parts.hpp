@@ -30,5 +30,6 @@ void check_path(Problem& problem, Mistakes& mistakes);
 
 /// What is observed and expected.
 void check_results(Problem& problem, Names& names, Mistakes& mistakes);
+void check_expectations(Problem& problem, Mistakes& mistakes);
 
 }  // namespace elamin

@@ -305,37 +305,6 @@ class CheckInteractions {
   Mistakes& mistakes_;
 };
 
-/// A gap is to something.
-void check_gaps(const Problem& problem, Groups& groups, const Model& model, Mistakes& mistakes) {
-  std::vector<bool> touches(model.particles(), false);
-  std::vector<bool> bodies(model.bodies.size(), false);
-  for (const PairContact& c : model.contacts)
-    for (const auto& side : c.particles)
-      for (const int i : side) touches[i] = true;
-  for (const RoundedPair& r : model.rounded)
-    for (int side = 0; side < 2; ++side) {
-      for (const int i : r.particles[side]) touches[i] = true;
-      for (const int b : r.bodies[side]) bodies[b] = true;
-    }
-  for (const Wall& w : model.walls) {
-    for (const int i : w.particles) touches[i] = true;
-    for (const int b : w.bodies) bodies[b] = true;
-  }
-  const auto is_wall = [&](const std::string& name) {
-    return std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& w) { return w.name == name; });
-  };
-  for (const ObserveTable& o : problem.observe) {
-    if (o.place.broken || o.quantity != Quantity::gap || is_wall(o.group)) continue;
-    const Members* of = groups.find(o.place, "group", o.group);
-    if (of && std::none_of(of->particles.begin(), of->particles.end(), [&](int i) { return touches[i]; }) &&
-        std::none_of(of->bodies.begin(), of->bodies.end(), [&](int b) { return bodies[b]; }))
-      mistakes.add(
-          o.place, "quantity",
-          fmt::format("there is no [[contact]] and no [[wall]] for \"{}\"; a gap is to something that may touch",
-                      o.group));
-  }
-}
-
 }  // namespace
 
 Connection connection_of(const ConnectTable& t) {
@@ -361,7 +330,6 @@ bool add_contacts(const Problem& problem, Groups& groups, Model& model, Mistakes
   for (const ContactTable& t : problem.contacts) whole = builder.add(t) && whole;
   for (std::size_t k = 0; k < problem.walls.size(); ++k)
     whole = builder.add(problem.walls[k], scaling_of(problem, condition_of("wall", problem.walls, k))) && whole;
-  if (whole) check_gaps(problem, groups, model, mistakes);
   return whole;
 }
 

@@ -12,7 +12,7 @@ Connection connection_of(const ConnectTable& table);
 bool add_connections(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
 /// Adds contacts, of rounded bodies too, and walls. A mistake: groups without what a law is between; particles without diameter
-/// that would touch; a wall without the numbers of what its group has; a gap to observe where nothing touches. Returns whether all could be built.
+/// that would touch; a wall without the numbers of what its group has. Returns whether all could be built.
 bool add_contacts(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
 /// Particles and bodies whose centres start on the wrong side of their wall are a mistake: nothing would push them back. A wall

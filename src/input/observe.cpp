@@ -1,25 +1,27 @@
-#include "input/check.hpp"
+#include "input/observe.hpp"
 
 #include "core/suggest.hpp"
-#include "energy/terms.hpp"
+#include "input/build_checks.hpp"
+#include "input/check.hpp"
 #include "input/check_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <array>
+#include <set>
 
 namespace elamin {
 
 namespace {
 
 constexpr Word<Reduce> reduce_words[]{{"mean", Reduce::mean}, {"sum", Reduce::sum}, {"min", Reduce::min}, {"max", Reduce::max}};
+constexpr Word<RowEnd> end_words[]{{"first", RowEnd::first}, {"last", RowEnd::last}};
 
-/// What is observed: quantity and component in one word; a gap and contacts have no components.
+/// What is observed: quantity and component in one word.
 struct Observed {
   Quantity quantity;
-  Component component;
+  Component component = Component::x;
   bool operator==(const Observed&) const = default;
 };
 constexpr Word<Observed> observed_words[]{
@@ -36,198 +38,236 @@ constexpr Word<Observed> observed_words[]{
     {"velocity.x", {Quantity::velocity, Component::x}}, {"velocity.y", {Quantity::velocity, Component::y}},
     {"velocity.z", {Quantity::velocity, Component::z}}, {"velocity.norm", {Quantity::velocity, Component::norm}},
     {"spin.x", {Quantity::spin, Component::x}}, {"spin.y", {Quantity::spin, Component::y}}, {"spin.z", {Quantity::spin, Component::z}},
-    {"spin.norm", {Quantity::spin, Component::norm}}, {"gap", {Quantity::gap, Component::x}},
-    {"contacts", {Quantity::contacts, Component::x}}};
+    {"spin.norm", {Quantity::spin, Component::norm}}, {"gap", {Quantity::gap}}, {"contacts", {Quantity::contacts}},
+    {"contact_force.x", {Quantity::contact_force, Component::x}}, {"contact_force.y", {Quantity::contact_force, Component::y}},
+    {"contact_force.z", {Quantity::contact_force, Component::z}}, {"contact_force.norm", {Quantity::contact_force, Component::norm}},
+    {"energy", {Quantity::energy}}, {"tension", {Quantity::tension}}, {"strain", {Quantity::strain}}, {"moment", {Quantity::moment}},
+    {"curvature", {Quantity::curvature}}, {"N.11", {Quantity::membrane_force, Component::c11}},
+    {"N.22", {Quantity::membrane_force, Component::c22}}, {"N.12", {Quantity::membrane_force, Component::c12}},
+    {"N.max", {Quantity::membrane_force, Component::most}}, {"N.min", {Quantity::membrane_force, Component::least}},
+    {"M.11", {Quantity::bending_moment, Component::c11}}, {"M.22", {Quantity::bending_moment, Component::c22}},
+    {"M.12", {Quantity::bending_moment, Component::c12}}, {"M.max", {Quantity::bending_moment, Component::most}},
+    {"M.min", {Quantity::bending_moment, Component::least}}, {"distance", {Quantity::distance}}, {"angle", {Quantity::angle}},
+    {"slope", {Quantity::slope}}, {"extent.x", {Quantity::extent, Component::x}}, {"extent.y", {Quantity::extent, Component::y}},
+    {"extent.z", {Quantity::extent, Component::z}}, {"end_to_end", {Quantity::end_to_end}}, {"area", {Quantity::area}},
+    {"difference", {Quantity::difference}}, {"derivative", {Quantity::derivative}}};
+
+Keys::Names words_of(bool (*chosen)(Quantity)) {
+  Keys::Names words;
+  for (const auto& w : observed_words)
+    if (chosen(w.value.quantity)) words.push_back(w.text);
+  return words;
+}
 
 }  // namespace
 
 void describe(Keys& keys, ObserveTable& t) {
   keys.about("A column of the results.");
   keys.name("name", t.name, "its name");
-  keys.must("group", t.group, "of what; or a wall, which has a reaction, a gap and contacts");
   Observed observed{t.quantity, t.component};
-  keys.must_word("quantity", observed, observed_words, "of each particle and body");
+  const bool known = keys.must_word("quantity", observed, observed_words, "what is observed, see docs/results.md");
   t.quantity = observed.quantity, t.component = observed.component;
-  keys.word("reduce", t.reduce, reduce_words,
-            "how the values become one; by default the mean, of reactions, torques and contacts the sum, of gaps the least");
+  const auto group = [&] { keys.must("group", t.group, "of what; of a reaction, a gap and contacts a wall too"); };
+  const auto reduce = [&] {
+    keys.word("reduce", t.reduce, reduce_words,
+              "how the values become one; by default the mean, of reactions, torques, contacts, their forces and energies the sum, of gaps the "
+              "least");
+  };
+  const auto to = [&] { keys.must("to", t.to, "… to this group; of several particles or bodies the mean of their places counts"); };
+  const auto of = [&] {
+    keys.must_one_or_more("of", t.of, "of which other [[observe]], further up; of a difference two, the first less the second");
+  };
+  const auto axis = [&] { keys.may("axis", t.axis, "the direction that an angle is counted from"); };
+  const auto about = [&] {
+    keys.may("about", t.about, "the axis that an angle is counted about; by default the normal of the plane; without either an angle has no sign");
+  };
+  if (!known) return keys.may("group", t.group, ""), reduce(), keys.skip_the_rest();
+  const auto is = [&](Quantity q) { return t.quantity == q; };
+  using Q = Quantity;
+  keys.either("quantity",
+              {{words_of(is_reduced), "a field of a group", is_reduced(t.quantity), [&] { group(), reduce(); }},
+               {{"distance"}, "a distance", is(Q::distance), [&] { group(), to(); }},
+               {{"angle"}, "an angle", is(Q::angle),
+                [&] {
+                  group(), to();
+                  keys.may_name("through", t.through, "the group that the angle is at, between the lines to the other two");
+                  axis(), about();
+                }},
+               {{"slope"}, "a slope", is(Q::slope),
+                [&] {
+                  group();
+                  keys.word("end", t.end, end_words, "the end of a row of particles whose last bond it is");
+                  axis(), about();
+                }},
+               {words_of([](Q q) { return q == Q::extent || q == Q::end_to_end || q == Q::area; }), "a measure of one group",
+                is(Q::extent) || is(Q::end_to_end) || is(Q::area), group},
+               {{"difference"}, "a difference", is(Q::difference), of},
+               {{"derivative"}, "a derivative", is(Q::derivative), [&] {
+                  of();
+                  keys.may("by", t.by, "by which other one, or by the load factor, along the path of equilibria");
+                }}});
 }
 
-void describe(Keys& keys, ExpectTable& t) {
-  keys.about("What the results are held against by `elamin verify`.");
-  keys.must("observable", t.observable, "a column of path.csv");
-  keys.may("at", t.at, "its row: final, initial, an event such as branch:1, a stage, lambda=0.5, in dynamics step=100, or sweep");
-  keys.must("value", t.value, "what it should be");
-  keys.may("rtol", t.rtol, "how far off it may be, relative to the value", range::not_negative);
-  keys.may("atol", t.atol, "… and besides", range::not_negative);
-  keys.may("source", t.source, "where the value is from");
-  keys.may("extrapolate", t.extrapolate,
-           "over the runs of a sweep, each with half the spacing of the one before, errors in powers of the spacing: 1: all of them, 2: even ones",
-           Range{1, 2});
+std::vector<std::size_t> made_of(const std::vector<ObserveTable>& all, std::size_t number) {
+  std::set<std::size_t> parts{number};
+  for (std::size_t k = number + 1; k-- > 0;) {
+    if (!parts.count(k) || !of_observables(all[k].quantity)) continue;
+    for (std::size_t i = 0; i < k; ++i)
+      if (all[i].name == all[k].by || std::find(all[k].of.begin(), all[k].of.end(), all[i].name) != all[k].of.end()) parts.insert(i);
+  }
+  return {parts.begin(), parts.end()};
 }
 
 namespace {
 
-/// The columns of energies between others.
-std::vector<std::string> around_energies(std::vector<std::string> columns, const std::vector<std::string>& behind) {
-  for (const auto& more : {energy_columns(), behind}) columns.insert(columns.end(), more.begin(), more.end());
-  return columns;
-}
-
-}  // namespace
-
-const std::vector<std::string>& trajectory_standing_columns() {
-  static const std::vector<std::string> columns =
-      around_energies({"step", "label", "time"}, {"kinetic", "work", "dissipation", "balance", "status"});
-  return columns;
-}
-
-const std::vector<std::string>& standing_columns() {
-  static const std::vector<std::string> columns = around_energies(
-      {"step", "label", "branch", "lambda"}, {"residual", "iterations", "negative", "stable", "multiplicity", "status", "parent", "negative_rigid",
-                                              "negative_before", "negative_after", "what", "stage"});
-  return columns;
-}
-
-std::vector<std::string> eigenvalue_columns(const Problem& p) {
-  const int count = p.study == StudyType::modes ? p.modes.count : p.study == StudyType::path ? p.path.eigenvalues : 0;
-  std::vector<std::string> columns;
-  for (int i = 1; i <= count; ++i) columns.push_back(fmt::format("eigenvalue_{}", i));
-  return columns;
-}
-
-namespace {
-
-bool is_in(const std::vector<std::string>& list, const std::string& word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-/// The columns of a problem's tables besides its observables.
-std::vector<std::string> columns_of(const Problem& p) {
-  std::vector<std::string> columns = p.in_time() ? trajectory_standing_columns() : standing_columns();
-  const std::vector<std::string> eigenvalues = eigenvalue_columns(p);
-  columns.insert(columns.end(), eigenvalues.begin(), eigenvalues.end());
-  return columns;
-}
-
-class CheckResults {
+class CheckObserved {
  public:
-  CheckResults(const Problem& problem, Names& names, Mistakes& mistakes)
+  CheckObserved(const Problem& problem, Names& names, Mistakes& mistakes)
       : p_(problem), names_(names), mistakes_(mistakes), columns_(columns_of(problem)) {}
 
   void check(ObserveTable& o) {
     names_.refer(o.place, "group", o.group, true);
+    names_.refer(o.place, "to", o.to), names_.refer(o.place, "through", o.through);
     if (names_.is_wall(o.group) && !o.place.broken) wall(o);
+    if (!o.place.broken) directions(o);
+    if (of_observables(o.quantity)) others(o);
     if (o.name.empty()) return;
     if (is_in(columns_, o.name))
-      mistakes_.add(o.place, "name",
-                    in_quotes(o.name) + " is a column of the results already; taken are: " + listed(columns_));
-    else if (is_in(observables_, o.name))
+      mistakes_.add(o.place, "name", in_quotes(o.name) + " is a column of the results already; taken are: " + listed(columns_));
+    else if (is_in(before_, o.name))
       mistakes_.add(o.place, "name", in_quotes(o.name) + " is the name of another [[observe]]; names are unique");
     else
-      observables_.push_back(o.name);
-  }
-
-  void check(ExpectTable& e) {
-    if (e.place.keys.count("observable") && !(e.observable.empty() && e.place.broken))
-      if (const std::string wrong = wrong_observable(p_, e.observable, e.at); !wrong.empty())
-        mistakes_.add(e.place, "observable", wrong);
-    if (const std::string wrong = wrong_at(p_, e.at); !wrong.empty()) mistakes_.add(e.place, "at", wrong);
+      before_.push_back(o.name);
   }
 
  private:
+  static bool is_in(const std::vector<std::string>& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  }
+
   /// A wall is one thing: it has a reaction, a smallest gap and a number of contacts.
   void wall(ObserveTable& o) {
     if (o.quantity != Quantity::reaction && o.quantity != Quantity::gap && o.quantity != Quantity::contacts)
       mistakes_.add(o.place, "quantity",
-                    in_quotes(o.group) + " is a wall; it has reaction.x, reaction.y, reaction.z, reaction.norm, gap and "
-                                      "contacts");
+                    in_quotes(o.group) + " is a wall; it has reaction.x, reaction.y, reaction.z, reaction.norm, gap and contacts");
     else if (o.reduce != default_reduce(o.quantity))
       mistakes_.add(o.place, "reduce", in_quotes(o.group) + " is a wall, which has one value; leave reduce out");
+  }
+
+  /// What an angle is counted from, and about.
+  void directions(ObserveTable& o) {
+    const bool slope = o.quantity == Quantity::slope;
+    if (!slope && o.quantity != Quantity::angle) return;
+    for (const auto& [key, vector] : {std::pair("axis", o.axis), {"about", o.about}})
+      if (vector && vector->isZero(0)) return mistakes_.add(o.place, key, "must not be [0, 0, 0]; it is a direction");
+    if (slope && !o.axis) return mistakes_.add(o.place, "axis", "is missing; it must be a list of three numbers [x, y, z]");
+    if (!slope && o.axis && !o.through.empty()) return mistakes_.add(o.place, "axis", "through is there too; give one of them");
+    if (!slope && !o.axis && o.through.empty())
+      return mistakes_.add(o.place, "through is missing, the group that the angle is at; or axis, the direction that the way from group to `to` makes "
+                                    "an angle with");
+    if (!o.axis || (!o.about && p_.plane.empty())) return;
+    const Vec3 about = o.about ? *o.about : Vec3::Unit(p_.plane == "yz" ? 0 : p_.plane == "xz" ? 1 : 2);
+    if (o.axis->normalized().cross(about.normalized()).norm() < 1e-9)
+      mistakes_.add(o.place, "axis", o.about ? "is along about; an angle is counted from another direction"
+                                             : "is normal to the plane; an angle is counted from a direction in it");
+  }
+
+  /// What a difference or a derivative is made of.
+  void others(ObserveTable& o) {
+    const bool derivative = o.quantity == Quantity::derivative;
+    if (derivative && (p_.in_time() || p_.study == StudyType::energy))
+      mistakes_.add(o.place, "quantity", std::string("a derivative is along a path of equilibria; ") +
+                                             (p_.in_time() ? "what moves in time has none" : "a study of an energy has none"));
+    if (o.of.empty()) return;                          // missing, and told
+    if (const std::size_t count = o.of.size(); count != (derivative ? 1 : 2))
+      return mistakes_.add(o.place, "of", fmt::format("must be the {} [[observe]], is {} name{}", derivative ? "name of one" : "names of two", count,
+                                                      count == 1 ? "" : "s"));
+    for (const std::string& name : o.of) known(o, "of", name);
+    if (derivative && o.by != "lambda") known(o, "by", o.by);
+  }
+
+  void known(ObserveTable& o, const char* key, const std::string& name) {
+    if (!is_in(before_, name))
+      return mistakes_.add(o.place, key,
+                           in_quotes(name) + " is no [[observe]] further up; " +
+                               (before_.empty() ? "there is none" : "there are: " + listed(before_)) + did_you_mean(name, before_));
+    if (o.quantity != Quantity::derivative) return;
+    for (std::size_t k = 0; k < p_.observe.size(); ++k)
+      if (p_.observe[k].name == name)
+        for (const std::size_t part : made_of(p_.observe, k))
+          if (p_.observe[part].quantity == Quantity::derivative)
+            return mistakes_.add(o.place, key, in_quotes(name) + " is made of a derivative; there are first ones only");
   }
 
   const Problem& p_;
   Names& names_;
   Mistakes& mistakes_;
-  std::vector<std::string> columns_, observables_;
+  std::vector<std::string> columns_, before_;
 };
 
-}  // namespace
-
-std::optional<double> load_factor_of(const std::string& at) {
-  double lambda = 0;
-  if (at.compare(0, 7, "lambda=") != 0) return std::nullopt;
-  const auto [end, error] = std::from_chars(at.data() + 7, at.data() + at.size(), lambda);
-  if (error != std::errc() || end != at.data() + at.size() || !std::isfinite(lambda)) return std::nullopt;
-  return lambda;
+bool any_is(const std::vector<int>& members, const std::vector<bool>& are) {
+  return std::any_of(members.begin(), members.end(), [&](int i) { return are[i]; });
 }
 
-std::optional<int> step_of(const std::string& at) {
-  int step = 0;
-  if (at.compare(0, 5, "step=") != 0) return std::nullopt;
-  const auto [end, error] = std::from_chars(at.data() + 5, at.data() + at.size(), step);
-  if (error != std::errc() || end != at.data() + at.size() || step < 0) return std::nullopt;
-  return step;
+/// Which particles and which bodies may touch anything.
+std::array<std::vector<bool>, 2> touching(const Model& model) {
+  std::vector<bool> particles(model.particles(), false), bodies(model.bodies.size(), false);
+  const auto mark = [](std::vector<bool>& marked, const std::vector<int>& members) {
+    for (const int i : members) marked[i] = true;
+  };
+  for (const PairContact& c : model.contacts)
+    for (const auto& side : c.particles) mark(particles, side);
+  for (const RoundedPair& r : model.rounded)
+    for (int side = 0; side < 2; ++side) mark(particles, r.particles[side]), mark(bodies, r.bodies[side]);
+  for (const Wall& w : model.walls) mark(particles, w.particles), mark(bodies, w.bodies);
+  return {particles, bodies};
 }
 
-std::string wrong_observable(const Problem& p, const std::string& observable, const std::string& at) {
-  const std::vector<std::string> no_numbers{"label", "status", "parent", "what", "stage"},
-      of_events{"multiplicity", "negative_before", "negative_after"};
-  if (at == at_sweep) return observable == "threshold" ? "" : "must be \"threshold\" at = \"sweep\", is " + in_quotes(observable);
-  const bool event = at.find(':') != std::string::npos;
-  std::vector<std::string> columns;
-  for (const std::string& c : columns_of(p))
-    if (!is_in(no_numbers, c) && (event || !is_in(of_events, c))) columns.push_back(c);
-  for (const ObserveTable& o : p.observe)
-    if (!o.name.empty() && !is_in(columns, o.name)) columns.push_back(o.name);
-  if (is_in(columns, observable)) return "";
-  return in_quotes(observable) + " is no column of numbers there; there are: " + listed(columns) + did_you_mean(observable, columns);
-}
-
-std::string wrong_at(const Problem& p, const std::string& at) {
-  if (at == at_sweep || at == "final" || (at == "initial" && p.study == StudyType::path)) return "";
-  if (p.in_time()) {
-    if (const auto step = step_of(at); step && *step > p.dynamics.steps)
-      return fmt::format("lies behind the last step, {}", p.dynamics.steps);
-    else if (at == "initial" || step)
-      return "";
-    return "must be \"initial\", \"final\" or a step such as \"step=100\" in dynamics, is " + in_quotes(at);
-  }
-  if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + in_quotes(at);
-  const std::string allowed =
-      "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", " +
-      std::string(p.stages.empty() ? "" : "a stage's name, ") + "or \"lambda=0.5\", is " + in_quotes(at);
-  if (at.compare(0, 7, "lambda=") == 0) {
-    const auto lambda = load_factor_of(at);
-    if (!lambda) return allowed;
-    if (p.path.method == PathMethod::arc_length || !p.stages.empty()) return "";
-    const auto [lo, hi] = std::minmax(p.path.from, p.path.to);
-    if (lo < hi && (*lambda < lo || *lambda > hi))
-      return fmt::format("lies outside the path, whose load factors run from {} to {}", lo, hi);
-    return "";
-  }
-  for (const StageTable& s : p.stages)
-    if (at == s.name) return "";
-  const std::size_t colon = at.find(':');
-  std::vector<std::string> labels{"initial", "final", "branch:1", "limit:1", "contact:1"};
-  for (const EventTable& e : p.events) labels.push_back(e.name + ":1");
-  for (const StageTable& s : p.stages) labels.push_back(s.name);
-  if (colon == std::string::npos) return allowed + did_you_mean(at, labels);
-  const std::string kind = at.substr(0, colon), number = at.substr(colon + 1);
-  const bool watched = std::any_of(p.events.begin(), p.events.end(), [&](const EventTable& e) { return e.name == kind; });
-  if (!watched && kind != "branch" && kind != "limit" && kind != "contact" && kind != "jump" && kind != "deflated")
-    return allowed + did_you_mean(at, labels);
-  if (number.empty() || number.size() > 9 || number[0] == '0' ||
-      number.find_first_not_of("0123456789") != std::string::npos)
-    return allowed;
-  if (!watched && kind != "jump" && kind != "deflated" && !p.path.place.broken && !is_in(p.path.locate, kind))
-    return in_quotes(kind) + " is not among path.locate; only located events have a row";
+/// Why a group has not what is observed of it, or "".
+std::string lacking(const ObserveTable& o, const Members& of, const Model& model, const std::array<std::vector<bool>, 2>& may_touch,
+                    bool bonds_known) {
+  const auto has = [&](int i) { return std::binary_search(of.particles.begin(), of.particles.end(), i); };
+  const std::string group = in_quotes(o.group);
+  const bool gap = o.quantity == Quantity::gap;
+  if ((gap || o.quantity == Quantity::contact_force) && !any_is(of.particles, may_touch[0]) && !any_is(of.bodies, may_touch[1]))
+    return "there is no [[contact]] and no [[wall]] for " + group + (gap ? "; a gap is to something that may touch" : "; nothing may touch it");
+  if (of_bonds(o.quantity) && bonds_known &&
+      std::none_of(model.bonds.begin(), model.bonds.end(), [&](const Bond& b) { return has(b.particles[0]) && has(b.particles[1]); }))
+    return group + " has no two particles with a bond between them; tension and strain are of bonds";
+  if (of_angles(o.quantity) && bonds_known &&
+      std::none_of(model.angles.begin(), model.angles.end(), [&](const Angle& a) { return has(a.particles[1]); }))
+    return group + " has no particle in the middle of an angle; moment and curvature are of angles";
+  const auto is_within = [&](const Structure& s) {
+    return s.kind == "sheet" && std::any_of(of.particles.begin(), of.particles.end(), [&](int i) { return i >= s.first && i < s.first + s.count; });
+  };
+  if (of_sheets(o.quantity) && std::none_of(model.structures.begin(), model.structures.end(), is_within))
+    return group + " has no particle of a [[sheet]]; N and M are of sheets";
+  const std::size_t count = of.particles.size(), least = least_row(o.quantity);
+  if (count < least) return fmt::format("{} has {} particle{}; {} are needed at least", group, count, count == 1 ? "" : "s", least);
   return "";
 }
 
+}  // namespace
+
 void check_results(Problem& problem, Names& names, Mistakes& mistakes) {
-  CheckResults results(problem, names, mistakes);
-  for (ObserveTable& o : problem.observe) results.check(o);
-  for (ExpectTable& e : problem.expect) results.check(e);
+  CheckObserved observed(problem, names, mistakes);
+  for (ObserveTable& o : problem.observe) observed.check(o);
+  check_expectations(problem, mistakes);
+}
+
+void check_observed(const Problem& problem, Groups& groups, const Model& model, Mistakes& mistakes) {
+  if (problem.observe.empty()) return;
+  const auto may_touch = touching(model);
+  const auto& connections = problem.connections;
+  const bool bonds_known = std::all_of(connections.begin(), connections.end(), [](const ConnectTable& c) { return c.from_stage.empty(); });
+  for (const ObserveTable& o : problem.observe) {
+    const bool wall = std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& w) { return w.name == o.group; });
+    if (o.place.broken || wall || of_observables(o.quantity)) continue;
+    for (const auto& [key, name] : {std::pair("to", o.to), {"through", o.through}})
+      if (!name.empty()) groups.find(o.place, key, name);
+    if (const Members* of = groups.find(o.place, "group", o.group))
+      if (const std::string why = lacking(o, *of, model, may_touch, bonds_known); !why.empty()) mistakes.add(o.place, "quantity", why);
+  }
 }
 
 }  // namespace elamin

@@ -4,14 +4,19 @@
 #include "laws/rounded/rigid_step.hpp"
 #include "laws/rounded/rotation.hpp"
 #include "model/entities.hpp"
+#include "results/fields.hpp"
+#include "results/path_rates.hpp"
+#include "results/shape_measures.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace elamin {
 namespace {
 
+constexpr double flat = 1e-12;                        // an area of the square of all there is
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double component(const Vec3& v, Component c) {
@@ -20,6 +25,11 @@ double component(const Vec3& v, Component c) {
     case Component::y: return v[1];
     case Component::z: return v[2];
     case Component::norm: return v.stableNorm();
+    case Component::c11: return v[0];
+    case Component::c22: return v[1];
+    case Component::c12: return v[2];
+    case Component::most: return principal(v)[0];
+    case Component::least: return principal(v)[1];
   }
   return 0;
 }
@@ -30,11 +40,11 @@ bool closed(const Model& model, const Touch& t) {
   return t.bears || t.gap < -rounding * size_of(model, t.particle);
 }
 
-bool scalar(Quantity q) { return q == Quantity::gap || q == Quantity::contacts; }
+bool is_number(Quantity q) { return q > Quantity::spin && q != Quantity::contact_force && !of_sheets(q); }
 bool of_bodies(Quantity q) { return q == Quantity::rotation || q == Quantity::torque || q == Quantity::spin; }
 Vec3 as_vector(double scalar) { return {scalar, 0, 0}; }
 
-/// One number of many; a scalar quantity stands in x.
+/// One number of many; what is a number stands in x.
 double reduced(const std::vector<Vec3>& values, Component c, Reduce reduce) {
   double least = infinity, most = -infinity;
   ExactSum all;
@@ -61,44 +71,110 @@ Vec3 spin_of(const Body& body, const Pose& pose, const Vec3& momentum) {
 
 }  // namespace
 
+/// What the observables of one state have in common, computed when first asked for.
+struct Observables::Seen {
+  const Model& model;
+  const State& state;
+  const Field& forces;
+  const std::vector<Touch>& touches;
+  const Motion* moving;
+  std::vector<double> values = {};                    // so far
+  std::optional<std::vector<BondField>> of_bonds = {};
+  std::optional<std::vector<AngleField>> of_angles = {};
+  std::optional<std::vector<StressResultants>> of_sheets = {};
+  std::optional<Field> of_contacts = {};
+  std::optional<std::vector<double>> rates = {};
+
+  const std::vector<BondField>& bonds() { return of_bonds ? *of_bonds : of_bonds.emplace(bond_fields(model, state)); }
+  const std::vector<AngleField>& angles() { return of_angles ? *of_angles : of_angles.emplace(angle_fields(model, state)); }
+  const std::vector<StressResultants>& sheets() {
+    return of_sheets ? *of_sheets : of_sheets.emplace(stress_resultants(model, state, bonds(), angles()));
+  }
+  const Field& contacts() { return of_contacts ? *of_contacts : of_contacts.emplace(contact_forces(model, touches)); }
+};
+
 Observables::Observables(const Problem& problem, const Model& model)
     : problem_(problem), model_(model), held_(decltype(held_)::Constant(3, model.particles() + 2 * static_cast<int>(model.bodies.size()), false)) {
   std::vector<Mistake> mistakes;
-  const auto wrong = [&](const ObserveTable& o, const char* key, const std::string& what) {
-    mistakes.push_back({problem.file, o.place.line, o.place.column, key, what});
-  };
-  for (const ObserveTable& o : problem.observe) {
-    Subject subject;
-    const auto take = [&](const auto& of, int wall) {
-      if (subject.known) return;
-      subject.known = true, subject.wall = wall;
-      if (!of_bodies(o.quantity)) subject.entities = of.particles;
-      for (const int body : of.bodies) subject.entities.push_back(model.particles() + body);
-    };
-    for (const Group& g : model.groups)
-      if (g.name == o.group) take(g, -1);
-    for (std::size_t w = 0; w < model.walls.size(); ++w)
-      if (model.walls[w].name == o.group) take(model.walls[w], static_cast<int>(w));
-    if (!subject.known) {
-      std::string known;
-      for (const Group& g : model.groups) known += (known.empty() ? "" : ", ") + g.name;
-      for (const Wall& w : model.walls) known += ", " + w.name;
-      wrong(o, "observe.group", "there is no group \"" + o.group + "\"; there are " + known);
-    } else if (subject.wall >= 0 && o.quantity != Quantity::reaction && !scalar(o.quantity)) {
-      wrong(o, "observe.quantity", "\"" + o.group + "\" is a wall; it has a reaction, gap and contacts only");
-    } else if (subject.entities.empty() && subject.wall < 0) {
-      wrong(o, "observe.group", of_bodies(o.quantity) ? "the group \"" + o.group + "\" has no body; particles have no rotation, torque and spin"
-                                                      : "the group \"" + o.group + "\" has no particle and no body; at least one is needed");
-    }
-    subjects_.push_back(subject);
+  std::set<std::size_t> parts;                        // of derivatives
+  for (std::size_t k = 0; k < problem.observe.size(); ++k) {
+    const ObserveTable& o = problem.observe[k];
+    subjects_.push_back(subject_of(o, mistakes));
+    if (o.quantity == Quantity::energy && !energy_) energy_ = std::make_unique<Energy>(model);
+    if (o.quantity != Quantity::derivative) continue;
+    for (const std::size_t part : made_of(problem.observe, k))
+      if (part != k) parts.insert(part);
   }
   if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  if (!parts.empty()) rates_ = std::make_unique<PathRates>(problem, model, std::vector(parts.begin(), parts.end()));
+  hold_supports();
+}
+
+Observables::~Observables() = default;
+
+Observables::Subject Observables::subject_of(const ObserveTable& o, std::vector<Mistake>& mistakes) const {
+  const auto wrong = [&](const char* key, const std::string& what) {
+    mistakes.push_back({problem_.file, o.place.line, o.place.column, key, what});
+  };
+  Subject subject;
+  if (of_observables(o.quantity)) return subject;
+  const auto members = [&](const auto& of) {
+    std::vector<int> entities;
+    if (!of_bodies(o.quantity)) entities = of.particles;
+    for (const int body : of.bodies) entities.push_back(model_.particles() + body);
+    return entities;
+  };
+  const auto find = [&](const char* key, const std::string& name, std::vector<int>& entities) {
+    const auto group = std::find_if(model_.groups.begin(), model_.groups.end(), [&](const Group& g) { return g.name == name; });
+    if (group != model_.groups.end()) return entities = members(*group), true;
+    const auto wall = std::find_if(model_.walls.begin(), model_.walls.end(), [&](const Wall& w) { return w.name == name; });
+    if (wall != model_.walls.end() && &entities == &subject.entities)
+      return entities = members(*wall), subject.wall = static_cast<int>(wall - model_.walls.begin()), true;
+    std::string known;
+    for (const Group& g : model_.groups) known += (known.empty() ? "" : ", ") + g.name;
+    for (const Wall& w : model_.walls) known += ", " + w.name;
+    wrong(key, "there is no group \"" + name + "\"; there are " + known);
+    return false;
+  };
+  subject.known = find("observe.group", o.group, subject.entities);
+  if (!o.to.empty()) find("observe.to", o.to, subject.to);
+  if (!o.through.empty()) find("observe.through", o.through, subject.through);
+  if (!subject.known) return subject;
+  if (subject.wall >= 0 && o.quantity != Quantity::reaction && o.quantity != Quantity::gap && o.quantity != Quantity::contacts) {
+    wrong("observe.quantity", "\"" + o.group + "\" is a wall; it has a reaction, gap and contacts only");
+  } else if (subject.entities.empty() && subject.wall < 0) {
+    wrong("observe.group", of_bodies(o.quantity) ? "the group \"" + o.group + "\" has no body; particles have no rotation, torque and spin"
+                                                 : "the group \"" + o.group + "\" has no particle and no body; at least one is needed");
+  }
+  const auto has = [&](int i) { return std::binary_search(subject.entities.begin(), subject.entities.end(), i); };
+  for (std::size_t b = 0; of_bonds(o.quantity) && b < model_.bonds.size(); ++b)
+    if (has(model_.bonds[b].particles[0]) && has(model_.bonds[b].particles[1])) subject.inside.push_back(static_cast<int>(b));
+  for (std::size_t a = 0; of_angles(o.quantity) && a < model_.angles.size(); ++a)
+    if (has(model_.angles[a].particles[1])) subject.inside.push_back(static_cast<int>(a));
+  if (o.about) subject.about = *o.about;
+  else if (model_.plane_normal) subject.about = Vec3::Unit(*model_.plane_normal);
+  if (const std::size_t least = least_row(o.quantity); least > 0) {
+    const auto bodies = std::lower_bound(subject.entities.begin(), subject.entities.end(), model_.particles());
+    subject.entities.erase(bodies, subject.entities.end());
+    if (subject.entities.size() < least)
+      wrong("observe.group", "the group \"" + o.group + "\" has too few particles for a row; it must have " + std::to_string(least));
+    else if (o.quantity == Quantity::area) {
+      const Vec3 area = vector_area(model_.start, subject.entities);
+      subject.about = area.normalized();
+      if (!(area.stableNorm() > flat * std::pow(sides_of(model_.start).maxCoeff(), 2)))
+        wrong("observe.group", "the group \"" + o.group + "\" encloses no area at the start, along whose normal it could be counted");
+    }
+  }
+  return subject;
+}
+
+void Observables::hold_supports() {
   const auto hold = [&](int site, const std::array<bool, 3>& held) {
     for (int c = 0; c < 3; ++c) held_(c, site) = held_(c, site) || held[c];
   };
-  for (const Support& s : model.supports) {
+  for (const Support& s : model_.supports) {
     for (const int i : s.particles) hold(i, s.held);
-    for (const int b : s.bodies) hold(model.particles() + 2 * b, s.held), hold(model.particles() + 2 * b + 1, s.turns_held);
+    for (const int b : s.bodies) hold(model_.particles() + 2 * b, s.held), hold(model_.particles() + 2 * b + 1, s.turns_held);
   }
 }
 
@@ -124,52 +200,114 @@ bool Observables::sufficient(const std::vector<Touch>& touches) const {
 
 std::vector<double> Observables::evaluate(const State& state, const Field& forces, const std::vector<Touch>& touches,
                                           const Motion* moving) const {
-  std::vector<double> values;
+  Seen seen{model_, state, forces, touches, moving};
   for (std::size_t k = 0; k < subjects_.size(); ++k) {
     const ObserveTable& o = problem_.observe[k];
     const Subject& subject = subjects_[k];
-    const std::vector<Vec3> all = subject.wall >= 0 ? of_wall(o, subject, touches) : of_group(o, subject, state, forces, touches, moving);
-    values.push_back(reduced(all, scalar(o.quantity) ? Component::x : o.component, o.reduce));
+    double value = 0;
+    if (o.quantity == Quantity::difference) value = number(o.of[0], seen.values) - number(o.of[1], seen.values);
+    else if (o.quantity == Quantity::derivative) value = derivative(o, seen);
+    else if (elamin::of_shape(o.quantity)) value = of_shape(o, subject, state);
+    else value = reduced(subject.wall >= 0 ? of_wall(o, subject, touches) : of_group(o, subject, seen),
+                         is_number(o.quantity) ? Component::x : o.component, o.reduce);
+    seen.values.push_back(value);
   }
-  return values;
+  return seen.values;
 }
 
-std::vector<Vec3> Observables::of_group(const ObserveTable& o, const Subject& subject, const State& state,
-                                        const Field& forces, const std::vector<Touch>& touches, const Motion* moving) const {
-  std::vector<double> scalars;                        // of all entities
-  if (o.quantity == Quantity::gap) scalars = gaps(-1, touches);
-  if (o.quantity == Quantity::contacts) {
-    scalars.resize(entities(model_));
-    for (const Touch& t : touches)
-      if (closed(model_, t)) {
-        ++scalars[t.particle];
-        if (t.other >= 0) ++scalars[t.other];
-      }
+/// The value of an observable further up.
+double Observables::number(const std::string& name, const std::vector<double>& values) const {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (problem_.observe[k].name == name) return values[k];
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double Observables::derivative(const ObserveTable& o, Seen& seen) const {
+  if (!seen.rates) seen.rates = rates_->at(seen.state);
+  const auto rate = [&](const std::string& name) {
+    for (std::size_t k = 0; k < rates_->observed().size(); ++k)
+      if (rates_->observed()[k].name == name) return (*seen.rates)[k + 1];
+    return seen.rates->front();                       // of the load factor
+  };
+  return rate(o.of[0]) / rate(o.by);
+}
+
+double Observables::of_shape(const ObserveTable& o, const Subject& subject, const State& state) const {
+  const std::vector<int>& of = subject.entities;
+  switch (o.quantity) {
+    case Quantity::distance: return way(state, of, subject.to).stableNorm();
+    case Quantity::angle:
+      if (subject.through.empty()) return angle(*o.axis, way(state, of, subject.to), subject.about);
+      return opening(way(state, subject.through, of), way(state, subject.through, subject.to), subject.about);
+    case Quantity::slope: return angle(*o.axis, end_bond(state, of, o.end == RowEnd::last), subject.about);
+    case Quantity::extent: return extent(state, of, static_cast<int>(o.component));
+    case Quantity::end_to_end: return way(state, {of.front()}, {of.back()}).stableNorm();
+    case Quantity::area: return vector_area(state, of).dot(*subject.about);
+    default: return 0;
   }
+}
+
+std::vector<Vec3> Observables::of_group(const ObserveTable& o, const Subject& subject, Seen& seen) const {
   std::vector<Vec3> values;
-  for (const int e : subject.entities) {
-    if (scalar(o.quantity)) values.push_back(as_vector(scalars[e]));
-    else if (is_body(model_, e)) values.push_back(of_body(o.quantity, e - model_.particles(), state, forces, moving));
-    else values.push_back(of_particle(o.quantity, e, state, forces, moving));
+  if (of_bonds(o.quantity) || of_angles(o.quantity) || of_sheets(o.quantity)) return of_inside(o, subject, seen);
+  const auto take = [&](const auto& of_all) {
+    for (const int e : subject.entities) values.push_back(of_all(e));
+    return values;
+  };
+  if (o.quantity == Quantity::contact_force) return take([&](int e) -> Vec3 { return seen.contacts().col(e); });
+  if (o.quantity == Quantity::energy) {
+    const Vector shares = energy_->shares(seen.state);
+    return take([&](int e) { return as_vector(shares[e]); });
   }
+  if (o.quantity == Quantity::gap) {
+    const std::vector<double> all = gaps(-1, seen.touches);
+    return take([&](int e) { return as_vector(all[e]); });
+  }
+  if (o.quantity == Quantity::contacts) {
+    std::vector<int> all(entities(model_), 0);
+    for (const Touch& t : seen.touches)
+      if (closed(model_, t)) {
+        ++all[t.particle];
+        if (t.other >= 0) ++all[t.other];
+      }
+    return take([&](int e) { return as_vector(all[e]); });
+  }
+  return take([&](int e) {
+    return is_body(model_, e) ? of_body(o.quantity, e - model_.particles(), seen) : of_particle(o.quantity, e, seen);
+  });
+}
+
+std::vector<Vec3> Observables::of_inside(const ObserveTable& o, const Subject& subject, Seen& seen) const {
+  std::vector<Vec3> values;
+  for (const int k : subject.inside) {
+    if (o.quantity == Quantity::tension) values.push_back(as_vector(seen.bonds()[k].tension));
+    if (o.quantity == Quantity::strain) values.push_back(as_vector(seen.bonds()[k].strain));
+    if (o.quantity == Quantity::moment) values.push_back(as_vector(seen.angles()[k].moment));
+    if (o.quantity == Quantity::curvature) values.push_back(as_vector(seen.angles()[k].curvature));
+  }
+  if (!of_sheets(o.quantity) || seen.sheets().empty()) return values;
+  for (const int e : subject.entities)
+    if (const bool N = o.quantity == Quantity::membrane_force; !is_body(model_, e) && seen.sheets()[e].known)
+      values.push_back(N ? seen.sheets()[e].N : seen.sheets()[e].M);
   return values;
 }
 
-Vec3 Observables::of_particle(Quantity q, int i, const State& state, const Field& forces, const Motion* moving) const {
-  if (q == Quantity::position) return state.position.col(i);
+Vec3 Observables::of_particle(Quantity q, int i, const Seen& seen) const {
+  if (q == Quantity::position) return seen.state.position.col(i);
   if (q == Quantity::displacement) {
-    const ExactVector d = state.at(i) - model_.start.at(i);
+    const ExactVector d = seen.state.at(i) - model_.start.at(i);
     return d.hi + d.lo;
   }
-  if (q == Quantity::reaction) return held_.col(i).select(-forces.col(i), Vec3::Zero());
-  const Field& velocity = moving ? moving->velocity : model_.velocity;
+  if (q == Quantity::reaction) return held_.col(i).select(-seen.forces.col(i), Vec3::Zero());
+  const Field& velocity = seen.moving ? seen.moving->velocity : model_.velocity;
   return velocity.cols() > 0 ? Vec3(velocity.col(i)) : Vec3(Vec3::Zero());
 }
 
-Vec3 Observables::of_body(Quantity q, int b, const State& state, const Field& forces, const Motion* moving) const {
-  const Pose &pose = state.bodies[b], &start = model_.start.bodies[b];
+Vec3 Observables::of_body(Quantity q, int b, const Seen& seen) const {
+  const Pose &pose = seen.state.bodies[b], &start = model_.start.bodies[b];
   const int place = model_.particles() + 2 * b, turn = place + 1;
-  const Field &velocity = moving ? moving->body_velocity : model_.body_velocity, &momentum = moving ? moving->angular_momentum : model_.angular_momentum;
+  const Field &velocity = seen.moving ? seen.moving->body_velocity : model_.body_velocity,
+              &momentum = seen.moving ? seen.moving->angular_momentum : model_.angular_momentum;
   switch (q) {
     case Quantity::position: return pose.position.hi + pose.position.lo;
     case Quantity::displacement: {
@@ -177,15 +315,13 @@ Vec3 Observables::of_body(Quantity q, int b, const State& state, const Field& fo
       return d.hi + d.lo;
     }
     case Quantity::rotation: return rotation_vector(pose.rotation * start.rotation.conjugate());
-    case Quantity::reaction: return held_.col(place).select(-forces.col(place), Vec3::Zero());
+    case Quantity::reaction: return held_.col(place).select(-seen.forces.col(place), Vec3::Zero());
     case Quantity::torque:
-      return held_.col(turn).select(-size_of(model_, model_.particles() + b) / 2 * forces.col(turn), Vec3::Zero());
+      return held_.col(turn).select(-size_of(model_, model_.particles() + b) / 2 * seen.forces.col(turn), Vec3::Zero());
     case Quantity::velocity: return velocity.cols() > 0 ? Vec3(velocity.col(b)) : Vec3(Vec3::Zero());
     case Quantity::spin: return momentum.cols() > 0 ? spin_of(model_.bodies[b], pose, momentum.col(b)) : Vec3(Vec3::Zero());
-    case Quantity::gap:
-    case Quantity::contacts: break;
+    default: return Vec3::Zero();
   }
-  return Vec3::Zero();
 }
 
 std::vector<Vec3> Observables::of_wall(const ObserveTable& o, const Subject& subject,

@@ -1,14 +1,20 @@
 #pragma once
-// What [[observe]] asks for: numbers taken from the particles and bodies of a group, or from a wall.
+// What [[observe]] asks for: numbers taken from the particles and bodies of a group, from what is inside it, from a wall.
 #include "dynamics/motion.hpp"
 #include "energy/touch.hpp"
 #include "model/model.hpp"
 #include "input/problem.hpp"
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace elamin {
+
+class Energy;
+class PathRates;
+struct Mistake;
 
 /// Quantities of a particle or body [length, rad, force, force·length, length/time, rad/time]; x of a body: its centre of mass
 ///   position      x
@@ -24,6 +30,12 @@ namespace elamin {
 ///                 there is none
 ///   contacts      how many contacts of it are closed (gap < 0 by more than rounding); a pair within the group counts for both, a block's wall
 ///                 once for each of its faces; bodies may touch at several places
+///   contact_force the sum of the forces of contacts and walls on it; cohesion, damping and friction are not in it
+///   energy        its share of the energy of all laws, see Energy::shares; of a group the sum
+/// of what is inside a group, see Fields, scalars:
+///   tension, strain     of the bonds between two of its particles
+///   moment, curvature   of the angles that have one of its particles in the middle
+///   N, M                stress resultants at its particles that are of a sheet, 11, 22, 12 and principal: max, min
 /// Component x, y, z or norm = √(x² + y² + z²), over the particles and bodies of the group: mean, sum, min, max.
 /// sum and norm: the norm of the summed vector (of a reaction: of the resultant). mean, min, max and norm: of the norms
 /// of the particles.
@@ -34,11 +46,25 @@ namespace elamin {
 ///   gap           of every particle of the wall's group to the wall
 /// reaction and contacts are reduced over the particles that touch the wall: mean, min and max are nothing where none
 /// does, sums are 0.
+///
+/// Quantities of the shape of a group, from the places of its particles and bodies (see shape_measures.hpp):
+///   distance      of its mean place from that of `to`
+///   angle         at `through` from the way to the group to that to `to`, or from the direction `axis` to the way from the group to `to`.
+///                 Counted about `about`, or about the normal of the plane: 0 to 2π at `through`, −π to π from `axis`; without either 0 to π
+///   slope         the angle from `axis` to the bond of its first or last two particles, in the same way
+///   extent        along x, y, z, of the places
+///   end_to_end    from its first particle to its last one
+///   area          inside of its particles as a closed row, along the normal it has at the start, and positive there
+///
+/// Quantities of others:
+///   difference    the first less the second
+///   derivative    by the load factor or by another one along the path of equilibria, see PathRates
 class Observables {
  public:
   /// Both must outlive this. Throws InputError for a group that is not there or has nothing in it, for a quantity
   /// that a wall has not, and for one of bodies where there are none.
   Observables(const Problem& problem, const Model& model);
+  ~Observables();
 
   std::vector<std::string> names() const;
 
@@ -57,18 +83,29 @@ class Observables {
     std::vector<int> entities = {};                   // of the group, or of the wall's group: see model/entities.hpp
     bool known = false;
     int wall = -1;                                    // of Model::walls; −1: it is a group
+    std::vector<int> inside = {};                     // bonds or angles of the group
+    std::vector<int> to = {}, through = {};           // of other groups
+    std::optional<Vec3> about = {};                   // of an angle; of an area its normal
   };
-  std::vector<Vec3> of_group(const ObserveTable& o, const Subject& subject, const State& state, const Field& forces,
-                             const std::vector<Touch>& touches, const Motion* moving) const;
-  Vec3 of_particle(Quantity q, int particle, const State& state, const Field& forces, const Motion* moving) const;
-  Vec3 of_body(Quantity q, int body, const State& state, const Field& forces, const Motion* moving) const;
+  struct Seen;                                        // a state with what is computed from it once
+  Subject subject_of(const ObserveTable& o, std::vector<Mistake>& mistakes) const;
+  void hold_supports();
+  double of_shape(const ObserveTable& o, const Subject& subject, const State& state) const;
+  std::vector<Vec3> of_group(const ObserveTable& o, const Subject& subject, Seen& seen) const;
+  std::vector<Vec3> of_inside(const ObserveTable& o, const Subject& subject, Seen& seen) const;
+  Vec3 of_particle(Quantity q, int particle, const Seen& seen) const;
+  Vec3 of_body(Quantity q, int body, const Seen& seen) const;
   std::vector<Vec3> of_wall(const ObserveTable& o, const Subject& subject, const std::vector<Touch>& touches) const;
   std::vector<double> gaps(int wall, const std::vector<Touch>& touches) const;
+  double number(const std::string& name, const std::vector<double>& values) const;
+  double derivative(const ObserveTable& o, Seen& seen) const;
 
   const Problem& problem_;
   const Model& model_;
   std::vector<Subject> subjects_;                     // of every [[observe]]
   Eigen::Matrix<bool, 3, Eigen::Dynamic> held_;       // by supports: 3 × sites
+  std::unique_ptr<Energy> energy_;                    // where an energy is observed
+  std::unique_ptr<PathRates> rates_;                  // where a derivative is
 };
 
 }  // namespace elamin

@@ -323,7 +323,7 @@ quantity = "displacement.z"
 }
 
 TEST_CASE("a run that starts from a state in its own directory keeps that state", "[study][ends]") {
-  const std::string snapping = R"(
+  const std::string toml = R"(
 plane = "xz"
 [[grains]]
 name = "truss"
@@ -352,7 +352,7 @@ steps = 20
 to = 0.05
 )";
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("p.toml", snapping);
+  const std::string file = scratch.file("p.toml", toml);
   const std::string out = "' --quiet -o '" + (scratch / "p") + "' ";
   for (const std::string label : {"limit-1", "final"}) {
     REQUIRE(elamin_says("'" + file + out).status == 0);
