@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace elamin {
 namespace {
@@ -26,23 +27,66 @@ int edit_distance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
-}  // namespace
+// The parts between '.', '_' and '-'.
+std::vector<std::string> parts_of(const std::string& word) {
+  std::vector<std::string> parts(1);
+  for (const char c : word)
+    if (c == '.' || c == '_' || c == '-') parts.emplace_back();
+    else parts.back() += c;
+  return parts;
+}
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+/// "disp.x" for "displacement.x", "tol" for "tolerance": each part begins one of the other word's, in their order.
+bool abbreviates(const std::string& word, const std::string& candidate) {
+  const std::vector<std::string> parts = parts_of(word), whole = parts_of(candidate);
+  if (word.size() < 3 || parts.size() > whole.size()) return false;
+  return std::equal(parts.begin(), parts.end(), whole.begin(), [](const std::string& p, const std::string& w) { return w.starts_with(p); });
+}
+
+/// "modulus" for "youngs_modulus".
+bool is_part(const std::string& word, const std::string& candidate) {
+  const std::vector<std::string> whole = parts_of(candidate);
+  return word.size() >= 3 && std::find(whole.begin(), whole.end(), word) != whole.end();
+}
+
+/// The letters of papers.
+constexpr std::pair<const char*, const char*> letters[]{
+    {"E", "youngs_modulus"}, {"nu", "poissons_ratio"}, {"rho", "density"}, {"mu", "friction"}, {"K", "bond_stiffness"}, {"B", "angle_stiffness"},
+    {"EA", "axial_stiffness"}, {"EI", "bending_stiffness"}, {"N", "particles"}, {"d", "diameter"}, {"D", "diameter"}, {"t", "thickness"},
+    {"r", "radius"}, {"R", "radius"}, {"F", "force"}, {"g", "acceleration"}, {"p", "pressure"}, {"dt", "timestep"}, {"r0", "rest_length"},
+    {"x", "position.x"}, {"y", "position.y"}, {"z", "position.z"}, {"ux", "displacement.x"}, {"uy", "displacement.y"}, {"uz", "displacement.z"},
+    {"fx", "reaction.x"}, {"fy", "reaction.y"}, {"fz", "reaction.z"}, {"vx", "velocity.x"}, {"vy", "velocity.y"}, {"vz", "velocity.z"}};
+
+const std::string* meant(const std::string& word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64, most = 1000;
-  if (word.empty() || word.size() > longest) return "";
+  if (word.empty() || word.size() > longest) return nullptr;
+  const std::size_t count = std::min(candidates.size(), most);
   const std::string sought = lower(word);
-  const int allowed = std::max(1, static_cast<int>(word.size()) / 3);
-  int nearest = allowed + 1;
+  const auto first = [&](const auto& is_meant) {
+    for (std::size_t i = 0; i < count; ++i)
+      if (candidates[i].size() <= longest && is_meant(candidates[i])) return &candidates[i];
+    return static_cast<const std::string*>(nullptr);
+  };
+  for (const auto& [letter, name] : letters)
+    if (word == letter)
+      if (const auto* found = first([&](const std::string& c) { return c == name; })) return found;
+  if (const auto* found = first([&](const std::string& c) { return abbreviates(sought, lower(c)); })) return found;
+  int nearest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   const std::string* best = nullptr;
-  for (std::size_t i = 0; i < std::min(candidates.size(), most); ++i) {
-    const std::string& candidate = candidates[i];
-    if (candidate.size() > longest) continue;
+  first([&](const std::string& candidate) {
     const int distance = edit_distance(sought, lower(candidate));
     // A word of which nothing is left is no help: "x" for "y".
     if (distance < nearest && distance < static_cast<int>(std::max(sought.size(), candidate.size())))
       nearest = distance, best = &candidate;
-  }
+    return false;
+  });
+  return best ? best : first([&](const std::string& c) { return is_part(sought, lower(c)); });
+}
+
+}  // namespace
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string* best = meant(word, candidates);
   return best ? "; did you mean \"" + *best + "\"?" : "";
 }
 

@@ -36,11 +36,15 @@ std::size_t length_of_text(const std::string& bytes) {
   return i;
 }
 
+constexpr std::string_view mark_of_utf8 = "\xEF\xBB\xBF";
+
 [[noreturn]] void refuse(const std::string& file, const std::string& what, int line = 0, int column = 0) {
   throw InputError({Mistake{file, line, column, {}, what}});
 }
 
 }  // namespace
+
+std::string_view without_mark(std::string_view text) { return text.substr(text.starts_with(mark_of_utf8) ? mark_of_utf8.size() : 0); }
 
 bool is_text(const std::string& bytes) { return length_of_text(bytes) == bytes.size(); }
 
@@ -62,6 +66,7 @@ std::string read_text(const std::string& file) {
   }
   if (in.bad()) refuse(file, std::string("cannot be read: ") + std::strerror(errno));
 
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) refuse(file, "is a text in UTF-16; save it in UTF-8", 1, 1);
   const std::size_t good = length_of_text(bytes);
   if (good < bytes.size()) {
     const Place at = place_in(bytes, good);
@@ -92,7 +97,7 @@ std::string read_data(const std::string& file, const std::string& kind, const st
     refuse(file, "does not fit into the memory");
   }
   if (in.bad()) refuse(file, "cannot be read to its end");
-  return text;
+  return text.starts_with(mark_of_utf8) ? text.substr(mark_of_utf8.size()) : text;
 }
 
 Place place_in(const std::string& text, std::size_t offset) {

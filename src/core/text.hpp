@@ -3,6 +3,7 @@
 #include "core/place.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace elamin {
 
@@ -17,6 +18,9 @@ std::string read_text(const std::string& file);
 /// it is not there, is no regular file, cannot be read, or holds control characters, as binary files do (and then the
 /// `hint` follows).
 std::string read_data(const std::string& file, const std::string& kind, const std::string& hint = "");
+
+/// The text without the byte-order mark that some editors put before it.
+std::string_view without_mark(std::string_view text);
 
 /// Whether the bytes are well-formed UTF-8 without the character 0.
 bool is_text(const std::string& bytes);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace elamin {
 
@@ -159,6 +160,19 @@ std::optional<Centerline> arch_of(const BeamTable& table, const std::string& pla
   return arc(a, turns_of_rise(chord, std::abs(*table.rise)), table.particles, clamped_ends(table));
 }
 
+/// What can be done where no number of particles has one on every corner: the lengths as they are, and what they could be if the shortest
+/// stays.
+std::string common_measure(const BeamTable& table) {
+  const std::vector<Vec3>& corners = *table.through;
+  std::vector<double> are, could;
+  for (std::size_t i = 1; i < corners.size(); ++i) are.push_back((corners[i] - corners[i - 1]).norm());
+  const double length = std::accumulate(are.begin(), are.end(), 0.0), shortest = *std::min_element(are.begin(), are.end());
+  const double spacing = shortest / std::max(1.0, std::round(shortest * (table.particles - 1) / length));
+  for (const double l : are) could.push_back(std::round(l / spacing) * spacing);
+  return fmt::format("the lengths between corners must have a common measure; they are {:.6g}, while {:.6g} would do; or give every piece a [[beam]] of "
+                     "its own and join them with [[connect]]", fmt::join(are, ", "), fmt::join(could, ", "));
+}
+
 void not_on_corners(const BeamTable& table, Mistakes& mistakes) {
   const auto [below, above] = fitting(*table.through, table.particles, clamped_ends(table));
   std::string nearest;
@@ -166,9 +180,7 @@ void not_on_corners(const BeamTable& table, Mistakes& mistakes) {
     if (n > 0) nearest += fmt::format("{}{}", nearest.empty() ? "" : " and ", n);
   mistakes.add(table.place, "particles",
                fmt::format("{} evenly along through put none on a corner; {}", table.particles,
-                           nearest.empty()
-                               ? "no number near it does: the lengths between corners must have a common measure"
-                               : "the nearest that do: " + nearest));
+                           nearest.empty() ? "no number near it does: " + common_measure(table) : "the nearest that do: " + nearest));
 }
 
 /// Where the particles of a beam are; none, and said why, if they cannot be there.

@@ -102,7 +102,7 @@ void set_place(Node& node, Place place) {
 
 Document read_document(const std::string& file) {
   const std::string text = read_text(file);
-  return {file, sha256(text), parse(text, file)};
+  return {file, sha256(text), parse(std::string(without_mark(text)), file)};
 }
 
 Node parse_value(const std::string& text, Place place) {

@@ -130,9 +130,13 @@ void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
                  fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
   if (t.start_lambda && t.start.empty())
     mistakes.add(t.place, "start_lambda", "is of no use without start, the state to start from");
-  if (is_path && !staged && t.start_lambda && *t.start_lambda == t.to && t.from != t.to)
-    mistakes.add(t.place, t.place.keys.count("start_lambda") ? "start_lambda" : "start",
-                 fmt::format("is at the load factor where the path ends, {}; a path leads from one to another", t.to));
+  if (is_path && !staged && t.start_lambda && *t.start_lambda == t.to && t.from != t.to) {
+    const bool given = t.place.written("start_lambda");
+    mistakes.add(t.place, given ? "start_lambda" : "start",
+                 fmt::format("is at the load factor where the path ends, {}; {}", t.to,
+                             given ? "a path leads from one to another"
+                                   : fmt::format("start_lambda = {} begins a new path from this state, another `to` goes on with the old one", t.from)));
+  }
   check_method(t, mistakes);
   check_range(t, mistakes);
   check_stops(t, staged, mistakes);

@@ -102,7 +102,8 @@ std::optional<int> LammpsLines::integer(const DataLine& line, std::size_t i, con
   else if (error != std::errc{} || value < lo || value > hi)
     mistake(line, i, key,
             hi < lo ? in_quotes(std::string(line[i])) + " is out of range; the header of the file announces none"
-                    : fmt::format("{} is out of range; {} to {} is allowed", in_quotes(std::string(line[i])), lo, hi));
+                    : fmt::format("{} is out of range; {} is allowed", in_quotes(std::string(line[i])),
+                                  lo == hi ? std::to_string(lo) : fmt::format("{} to {}", lo, hi)));
   else
     return static_cast<int>(value);
   return std::nullopt;

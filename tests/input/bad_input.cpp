@@ -4,6 +4,7 @@
 #include "catch.hpp"
 
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 #include "study/prepare.hpp"
 #include "scratch_directory.hpp"
 
@@ -85,6 +86,46 @@ TEST_CASE("Files that are no text at all") {
   CHECK(said("title = \"Säule\" # Säule\nSäule = 1") ==
         file + ":2:2: not TOML: outside of quotes there are only ASCII characters");
   CHECK(said("title = \"a\\u0000b\"\n[[beam]]").find(file + ":1:9: title: must not hold the character 0\n") == 0);
+}
+
+TEST_CASE("A byte-order mark is no letter") {
+  const ScratchDirectory scratch;
+  const auto said = [&](const std::string& bytes) { return mistakes_of(scratch.file("bad.toml", bytes)); };
+  const std::string file = scratch / "bad.toml", column = text_of(ELAMIN_ROOT "/tests/input/good/column.toml");
+  CHECK(said("\xEF\xBB\xBF" + column) == "");
+  CHECK(said("\xEF\xBB\xBF" "tilte = \"a\"\n" + column).find(file + ":1:1: tilte: unknown key") == 0);
+  CHECK(said("a = 1\xEF\xBB\xBF\n") == file + ":1:6: not TOML: outside of quotes there are only ASCII characters");
+  CHECK(said("\xFF\xFEt\0i\0"s) == file + ":1:1: is a text in UTF-16; save it in UTF-8");
+  CHECK(said("\xFE\xFF\0t\0i"s) == file + ":1:1: is a text in UTF-16; save it in UTF-8");
+  scratch.file("grains.csv", "\xEF\xBB\xBFx,y,z\n0,0,0\n");
+  CHECK(said("[[grains]]\nname = \"g\"\nfile = \"grains.csv\"\ndiameter = 1\n[study]\ntype = \"energy\"\n") == "");
+}
+
+TEST_CASE("The word that was meant") {
+  const std::vector<std::string> beam{"name", "particles", "from", "to", "diameter", "thickness", "youngs_modulus", "density", "bond_stiffness"};
+  const auto meant = [](const std::string& word, const std::vector<std::string>& words) {
+    const std::string text = elamin::did_you_mean(word, words);
+    return text.empty() ? text : text.substr(16, text.size() - 18);
+  };
+  CHECK(meant("E", beam) == "youngs_modulus");                 // letters of papers
+  CHECK(meant("rho", beam) == "density");
+  CHECK(meant("E", {"name", "radius"}) == "");
+  CHECK(meant("tol", {"method", "tolerance", "max_iterations"}) == "tolerance");            // abbreviations, part by part
+  CHECK(meant("max_iter", {"method", "tolerance", "max_iterations"}) == "max_iterations");
+  CHECK(meant("disp.x", {"position.x", "displacement.x", "displacement.y"}) == "displacement.x");
+  CHECK(meant("Disp.Y", {"position.x", "displacement.x", "displacement.y"}) == "displacement.y");
+  CHECK(meant("disp.z", {"position.x", "displacement.x", "displacement.y"}) == "");
+  CHECK(meant("ux", {"position.x", "displacement.x"}) == "displacement.x");
+  CHECK(meant("youngs", beam) == "youngs_modulus");
+  CHECK(meant("modulus", beam) == "youngs_modulus");           // parts
+  CHECK(meant("particels", beam) == "particles");              // slips of the fingers
+  CHECK(meant("chekc", {"energy", "check", "verify"}) == "check");
+  CHECK(meant("fr", beam) == "");
+  CHECK(meant("q", beam) == "");
+  CHECK(meant("", beam) == "");
+  const std::string file = ELAMIN_ROOT "/tests/input/good/column.toml";
+  CHECK_THAT(mistakes_of(file, {{"beam.column.E", "1"}}), Catch::EndsWith("; did you mean \"youngs_modulus\"?"));
+  CHECK_THAT(mistakes_of(file, {{"solver.tol", "1"}}), Catch::EndsWith("; did you mean \"tolerance\"?"));
 }
 
 TEST_CASE("What would exhaust the parser or the memory is refused") {

@@ -97,7 +97,7 @@ TEST_CASE("A connection glues two structures") {
 TEST_CASE("Grains of a plane stay in it") {
   CHECK(said_of("plane = \"xz\"\n" + grains("a", "[[0, 0, 0], [2, 0, 0]]")) == "");
   CHECK(said_of("plane = \"xz\"\n" + grains("a", "[[0, 0, 0], [2, 1, 0]]")) ==
-        "2:1: grains.a: particle 2 is not in the plane \"xz\" of particle 1: y is 1 instead of 0");
+        "2:1: grains.a: a 2 is not in the plane \"xz\" of a 1: y is 1 instead of 0");
 }
 
 namespace {
@@ -155,7 +155,8 @@ TEST_CASE("Beams that cannot be where they should") {
         "7:13: beam.b.particles: 10 evenly along through put none on a corner; the nearest that do: 6 and 11");
   CHECK(said_of(beam("through = [[0, 0, 0], [0, 0, 1.1], [1, 0, 1.7320508]]\nparticles = 4\n")) ==
         "7:13: beam.b.particles: 4 evenly along through put none on a corner; no number near it does: the lengths between "
-        "corners must have a common measure");
+        "corners must have a common measure; they are 1.1, 1.183, while 1.1, 1.1 would do; or give every piece a [[beam]] of "
+        "its own and join them with [[connect]]");
   CHECK(said_of(beam("from = [0, 0, 0]\nto = [0, 1, 0]\nrise = 1\nparticles = 4\n")) ==
         "7:6: beam.b.to: is no place to which an arch leads from here; from and to must lie apart in the plane");
   CHECK(said_of(beam("from = [0, 0, 0]\nto = [1, 0, 0]\nrise = 100\nprofile = \"sine\"\nparticles = 4\n")) ==

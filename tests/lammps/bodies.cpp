@@ -170,7 +170,7 @@ TEST_CASE("one mistake in a body gives its place and its sentence", "[lammps_dat
       {"3 bodies\n", "4 bodies\n", "22:1: Bodies: 3 bodies, but the header announces 4 bodies"},
       {"7 3 47\n", "7 3 46\n", "24:1: Bodies: body 7: 46 numbers are announced, but 4 vertices, 6 edges and 4 faces take 47"},
       {"7 3 47\n", "7 3 48\n", "32:3: Bodies: more than the 48 numbers that line 24 announces; a body begins on a line of its own"},
-      {"7 3 47\n", "7 2 47\n", "24:3: Bodies: integers of a body rounded/polyhedron: \"2\" is out of range; 3 to 3 is allowed"},
+      {"7 3 47\n", "7 2 47\n", "24:3: Bodies: integers of a body rounded/polyhedron: \"2\" is out of range; 3 is allowed"},
       {"7 3 47\n", "7 3 4700\n", "24:1: Bodies: the body ends after 3 integers and"},
       {"7 3 47\n", "7 47\n", "24:1: Bodies: 2 columns, expected 3: id, how many integers (3)"},
       {"7 3 47\n", "8 3 47\n", "24:1: Bodies: id: there is no atom 8\n"},
@@ -260,7 +260,7 @@ TEST_CASE("a molecule file of one body", "[lammps_data][bodies]") {
   CHECK(read(replaced(text, "2.5 mass\n", "") + "\nMasses\n\n1 4\n").mass == 4);
   struct Wrong { const char *what, *by, *sentence; };
   const Wrong wrong[]{
-      {"1 atoms", "2 atoms", "3:1: atoms: \"2\" is out of range; 1 to 1 is allowed"},
+      {"1 atoms", "2 atoms", "3:1: atoms: \"2\" is out of range; 1 is allowed"},
       {"1 atoms\n", "", "header: does not say how many atoms there are"},
       {"3 13 body\n", "", "header: does not say how many integers and numbers the body has"},
       {"3 13 body", "2 13 body", "4:1: body: integers of a body rounded/polyhedron: \"2\" is out of range"},

@@ -164,7 +164,9 @@ TEST_CASE("the final state of an arc-length path knows where the path was headin
   // Beyond its end it is another path.
   const Answer ended = elamin_says(run + (scratch / "none") + "' --set path.start='\"whole/states/final.data\"'");
   CHECK(ended.status == 1);
-  CHECK(ended.text.find("is at the load factor where the path ends") != std::string::npos);
+  CHECK(ended.text.find("is at the load factor where the path ends, ") != std::string::npos);
+  CHECK(ended.text.find("; start_lambda = 0 begins a new path from this state, another `to` goes on with the old one") != std::string::npos);
+  CHECK(elamin_says(run + (scratch / "new") + "' --set path.start='\"whole/states/final.data\"' --set path.start_lambda=0").status == 0);
 }
 
 TEST_CASE("where a stored path was heading is left aside by any other path", "[restart]") {
