@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "dynamics/moving_bodies.hpp"
 #include "dynamics/verlet.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -30,7 +31,7 @@ void refuse_what_cannot_move(const Model& model, const Kinematics& kinematics) {
     if (const int p = kinematics.site_of(d); p < model.particles() && !(model.mass(p) > 0) && p != first) ++massless, first = p;
   if (massless > 0)
     add("density", fmt::format("{} particle{} can move but {} no mass (the last is {}); dynamics needs a density and a diameter",
-                               massless, massless > 1 ? "s" : "", massless > 1 ? "have" : "has", model.id[first]));
+                               massless, massless > 1 ? "s" : "", massless > 1 ? "have" : "has", called(model, first)));
   for (const PairContact& c : model.contacts)
     if (c.hard) add("contact.hard", fmt::format("the contact between '{}' and '{}' is hard; dynamics needs elastic ones", c.between[0], c.between[1]));
   for (const Wall& w : model.walls)

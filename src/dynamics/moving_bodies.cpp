@@ -1,6 +1,7 @@
 #include "dynamics/moving_bodies.hpp"
 
 #include "core/exact.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -49,19 +50,19 @@ std::vector<Mistake> MovingBodies::mistakes(const Model& model, const Kinematics
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
     const Freedom f(kinematics, b);
     const BodyMass m(model, b);
-    const int id = model.bodies[b].id;
-    if (!(m.mass > 0) && (!f.held || f.turned)) ++massless, last = id;
+    const std::string name = called(model, model.particles() + b);
+    if (!(m.mass > 0) && (!f.held || f.turned)) ++massless, last = b;
     if (swings(f, model.start.bodies[b].rotation * m.center))
-      add("glue", fmt::format("the particles that body {} carries move its centre of mass, and a support holds its place in some "
+      add("glue", fmt::format("the particles that {} carries move its centre of mass, and a support holds its place in some "
                               "directions only while it may turn; "
-                              "in dynamics hold all of them, or none, or its turns, or let the particles have no density", id));
+                              "in dynamics hold all of them, or none, or its turns, or let the particles have no density", name));
     else if (f.held && f.turned && m.loaded && !m.center.isZero(0) && support_velocity(model, b) != Vec3::Zero())
-      add("glue", fmt::format("body {} carries particles, turns and is driven by a support at a place that is not its centre of "
-                              "mass; in dynamics hold its turns too, or drive it with the velocity 0", id));
+      add("glue", fmt::format("{} carries particles, turns and is driven by a support at a place that is not its centre of "
+                              "mass; in dynamics hold its turns too, or drive it with the velocity 0", name));
   }
   if (massless > 0)
     add("mass", fmt::format("{} bod{} can move but {} no mass (the last is {}); dynamics needs a mass or a density", massless,
-                            massless > 1 ? "ies" : "y", massless > 1 ? "have" : "has", last));
+                            massless > 1 ? "ies" : "y", massless > 1 ? "have" : "has", called(model, model.particles() + last)));
   return list;
 }
 

@@ -16,22 +16,13 @@ namespace elamin {
 
 namespace {
 
-std::string name_of(const Model& model, int entity) {
-  std::string name = called(model, entity);
-  const bool body = is_body(model, entity);
-  const int k = body ? entity - model.particles() : entity;
-  for (const Structure& s : model.structures)
-    if (const int first = body ? s.first_body : s.first; k >= first && k < first + (body ? s.bodies : s.count)) name += " of '" + s.name + "'";
-  return name;
-}
-
 bool is_free(const Kinematics& kinematics, int particle) {
   return kinematics.dof(particle, 0) >= 0 || kinematics.dof(particle, 1) >= 0 || kinematics.dof(particle, 2) >= 0;
 }
 
 std::string pressed_at_wall(const Model& model, int particle, const char* how, const Wall& wall) {
   return fmt::format("the centre of {} is pressed {} the wall '{}'; a contact that bears the force needs a larger modulus",
-                     name_of(model, particle), how, wall.name);
+                     called(model, particle), how, wall.name);
 }
 
 }  // namespace
@@ -76,10 +67,10 @@ double extent(const Model& model) {
 
 std::string escaped(const Model& model, const State& state, double far) {
   for (int p = 0; p < model.particles(); ++p)
-    if ((state.position.col(p) - model.start.position.col(p)).cwiseAbs().maxCoeff() > far) return name_of(model, p);
+    if ((state.position.col(p) - model.start.position.col(p)).cwiseAbs().maxCoeff() > far) return called(model, p);
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     if ((state.bodies[b].position.hi - model.start.bodies[b].position.hi).cwiseAbs().maxCoeff() > far)
-      return name_of(model, model.particles() + static_cast<int>(b));
+      return called(model, model.particles() + static_cast<int>(b));
   return "";
 }
 
@@ -99,7 +90,7 @@ std::string obstacle(const Energy& energy, const State& state) {
   const Model& model = energy.model();
   const Kinematics& kinematics = energy.kinematics();
   const auto apart = [&](int i, int j) { return (state.at(j) - state.at(i)).hi.norm(); };
-  const auto both = [&](int i, int j) { return fmt::format("{} and {}", name_of(model, i), name_of(model, j)); };
+  const auto both = [&](int i, int j) { return fmt::format("{} and {}", called(model, i), called(model, j)); };
   for (const Bond& b : model.bonds)
     if (apart(b.particles[0], b.particles[1]) == 0)
       return both(b.particles[0], b.particles[1]) + ", which are glued, are in one place, where bonds and angles have no direction";
@@ -140,7 +131,7 @@ std::string falling(const Energy& energy) {
   for (const int d : energy.idle())
     if (energy.gradient()[d] != 0) {
       const int site = energy.kinematics().site_of(d), body = energy.kinematics().body_of(site);
-      return name_of(energy.model(), body < 0 ? site : energy.model().particles() + body);
+      return called(energy.model(), body < 0 ? site : energy.model().particles() + body);
     }
   return "";
 }

@@ -15,7 +15,4 @@ bool add_glue(const Problem& problem, Groups& groups, Model& model, Mistakes& mi
 /// "rounded" speaks of, where there is one; what only particles, or only potentials, can have.
 void check_bodies_built(const Problem& problem, const Model& model, Mistakes& mistakes);
 
-/// "body 5 of 'cube'".
-std::string body_name(const Model& model, int body);
-
 }  // namespace elamin

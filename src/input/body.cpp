@@ -6,6 +6,7 @@
 #include "input/structures.hpp"
 #include "lammps/body.hpp"
 #include "lammps/molecule.hpp"
+#include "model/entities.hpp"
 #include "model/rigid_body.hpp"
 
 #include <fmt/format.h>
@@ -268,8 +269,7 @@ bool add_glue(const Problem& problem, Groups& groups, Model& model, Mistakes& mi
     const Pose& pose = model.start.bodies[b];
     for (const int p : group->particles) {
       if (const auto [first, fresh] = glued.emplace(p, &table); !fresh) {
-        mistakes.add(table.place, "group", fmt::format("particle {} is glued by {} already; once is enough", model.id[p],
-                                                       named(first->second->place)));
+        mistakes.add(table.place, "group", fmt::format("{} is glued by {} already; once is enough", called(model, p), named(first->second->place)));
         break;
       }
       const ExactVector apart = model.start.at(p) - pose.position;
@@ -278,13 +278,6 @@ bool add_glue(const Problem& problem, Groups& groups, Model& model, Mistakes& mi
   }
   std::sort(model.glued.begin(), model.glued.end(), [](const Glued& a, const Glued& b) { return a.particle < b.particle; });
   return whole;
-}
-
-std::string body_name(const Model& model, int body) {
-  for (const Structure& s : model.structures)
-    if (body >= s.first_body && body < s.first_body + s.bodies)
-      return s.kind == "body" ? fmt::format("\"{}\"", s.name) : fmt::format("body {} of \"{}\"", model.bodies[body].id, s.name);
-  return fmt::format("body {}", model.bodies[body].id);
 }
 
 namespace {
@@ -310,8 +303,8 @@ void check_glued(const Problem& problem, const Model& model, Mistakes& mistakes)
         else return std::vector<std::string>{table.group};
       }();
       if (table.place.broken || std::find(names.begin(), names.end(), name) == names.end()) continue;
-      return mistakes.add(table.place, key, fmt::format("particle {} of \"{}\" is carried by {}, {}", model.id[*glued], name,
-                                                        body_name(model, model.glued[carrier[*glued]].body), what));
+      return mistakes.add(table.place, key, fmt::format("{} is carried by {}, {}", called(model, *glued),
+                                                        called(model, model.particles() + model.glued[carrier[*glued]].body), what));
     }
   };
   for (const Support& s : model.supports)
@@ -344,9 +337,10 @@ void check_spoken_of(const Problem& problem, const Model& model, Mistakes& mista
       const int a = i->second[0], b = i == j ? i->second[1] : j->second[0];
       const auto meets = [&](int side) { return std::binary_search(j->first.begin(), j->first.end(), side ^ 1); };
       if (b < 0 || std::any_of(i->first.begin(), i->first.end(), meets)) continue;
+      const auto name = [&](int body) { return called(model, model.particles() + body); };
       return mistakes.add(table->place, "between",
                           fmt::format("no [[contact]] with law \"rounded\" is between {} and {}; give one, with k_n = 0 if they feel "
-                                      "nothing of each other", body_name(model, std::min(a, b)), body_name(model, std::max(a, b))));
+                                      "nothing of each other", name(std::min(a, b)), name(std::max(a, b))));
     }
 }
 

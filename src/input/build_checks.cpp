@@ -3,6 +3,7 @@
 #include "dynamics/timestep.hpp"
 
 #include "input/structures.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -41,8 +42,7 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
         mistakes.add(
             place_of(problem, second),
             fmt::format(
-                "particle {} is in the same place as particle {} of \"{}\", [{}, {}, {}]; particles must lie apart",
-                model.id[j], model.id[i], first.name, x[0], x[1], x[2]));
+                "{} is in the same place as {}, [{}, {}, {}]; particles must lie apart", called(model, j), called(model, i), x[0], x[1], x[2]));
       }
       if (told.size() > 20) return;
       break;   // on to the next of the list, so that a heap of many in one place takes no longer
@@ -57,9 +57,7 @@ void check_plane(const Problem& problem, const Model& model, const State& state,
     const auto n = static_cast<std::size_t>(s.particles());
     return k < n ? s.position(c, static_cast<Eigen::Index>(k)) : s.bodies[k - n].position.hi[c];
   };
-  const auto name = [&](std::size_t k) {
-    return k < model.id.size() ? fmt::format("particle {}", model.id[k]) : fmt::format("body {}", model.bodies[k - model.id.size()].id);
-  };
+  const auto name = [&](std::size_t k) { return called(model, static_cast<int>(k)); };
   double extent = state.particles() > 0 ? state.position.cwiseAbs().maxCoeff() : 0;
   for (const Pose& pose : state.bodies) extent = std::max(extent, pose.position.hi.cwiseAbs().maxCoeff());
   const double level = at(model.start, 0);

@@ -4,6 +4,7 @@
 #include "input/build_checks.hpp"
 #include "lammps/data.hpp"
 #include "lammps/state.hpp"
+#include "model/entities.hpp"
 #include "input/stages.hpp"
 #include "input/state_tail.hpp"
 #include "core/suggest.hpp"
@@ -144,8 +145,8 @@ class Restart {
       const bool alike = own.vertices.size() == there.vertices.size();
       const Eigen::Quaterniond q = alike ? rotation_between(own.vertices, there.vertices) : Eigen::Quaterniond::Identity();
       if (!(off(own, q, there) <= 1e-6)) {
-        mistakes_.add(p_.path.place, "start", fmt::format("holds body {} in another shape; it must be a state of this problem",
-                                                          data.bodies[b].id));
+        mistakes_.add(p_.path.place, "start", fmt::format("holds {} in another shape; it must be a state of this problem",
+                                                          called(model_, model_.particles() + static_cast<int>(b))));
         model_.restart.reset();
         return false;
       }

@@ -4,7 +4,7 @@
 #include "energy/kinematics.hpp"
 #include "laws/frustum.hpp"
 #include "input/bodies.hpp"
-#include "input/structures.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -42,9 +42,9 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
     };
     if (w.effective_modulus > 0 || w.hard)
       tell(w.particles, [](const State& state, int i) { return state.at(i); },
-           [&](int i) { return fmt::format("particle {} of \"{}\"", model.id[i], structure_with(model, i).name); });
+           [&](int i) { return called(model, i); });
     if (w.kernel.normal > 0 && !w.lammps)
-      tell(w.bodies, [](const State& state, int b) { return state.bodies[b].position; }, [&](int b) { return body_name(model, b); });
+      tell(w.bodies, [](const State& state, int b) { return state.bodies[b].position; }, [&](int b) { return called(model, model.particles() + b); });
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include "dynamics/contact_damping.hpp"
 #include "model/connect.hpp"
-#include "input/structures.hpp"
+#include "model/entities.hpp"
 #include "input/check_parts.hpp"
 #include "input/conditions.hpp"
 #include "input/staged_structure.hpp"
@@ -185,8 +185,7 @@ class ContactBuilder {
     for (const int i : particles)
       if (!(model_.diameter[i] > 0)) {
         mistakes_.add(place, key,
-                      fmt::format("particle {} of \"{}\" has no diameter, which contact needs", model_.id[i],
-                                  structure_with(model_, i).name));
+                      called(model_, i) + " has no diameter, which contact needs");
         return false;
       }
     return true;

@@ -4,6 +4,7 @@
 #include "input/check_parts.hpp"
 #include "input/conditions.hpp"
 #include "input/structures.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -188,8 +189,8 @@ Field radial_forces(const Problem& problem, const Model& model, const LoadTable&
     arm -= axis.dot(arm) * axis;
     if (model.plane_normal) arm[*model.plane_normal] = 0;
     if (arm.norm() <= 1e-12 * extent) {
-      mistakes.add(table.place, "radial", fmt::format("has no direction at particle {}, which lies on the axis; leave it "
-                                                      "out of the group, or move the center", model.id[particles[k]]));
+      mistakes.add(table.place, "radial", fmt::format("has no direction at {}, which lies on the axis; leave it "
+                                                      "out of the group, or move the center", called(model, particles[k])));
       return forces;
     }
     forces.col(static_cast<Eigen::Index>(k)) = *table.radial * arm.normalized();

@@ -99,11 +99,6 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
   return true;
 }
 
-const Structure& structure_with(const Model& model, int particle) {
-  return *std::find_if(model.structures.begin(), model.structures.end(),
-                       [&](const Structure& s) { return particle < s.first + s.count; });
-}
-
 const TablePlace& place_of(const Problem& problem, const Structure& s) {
   const auto find = [&](const char* kind, const auto& tables) -> const TablePlace* {
     for (const auto& table : tables)

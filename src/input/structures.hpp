@@ -13,9 +13,6 @@ namespace elamin {
 /// its name goes to left_out. False, and nothing is added, if they are too many for this machine.
 bool add_structures(const Problem& problem, Model& model, std::vector<std::string>& left_out, Mistakes& mistakes);
 
-/// The structure of a particle.
-const Structure& structure_with(const Model& model, int particle);
-
 /// Where the table of a structure stands.
 const TablePlace& place_of(const Problem& problem, const Structure& structure);
 

@@ -3,6 +3,7 @@
 #include "input/check_parts.hpp"
 #include "input/conditions.hpp"
 #include "input/stages.hpp"
+#include "model/entities.hpp"
 
 #include <fmt/format.h>
 
@@ -75,9 +76,9 @@ class Holders {
     };
     const std::size_t particles = model_.id.size(), bodies = model_.bodies.size();
     for (const int i : s.particles)
-      claim(i, s.held, [&](int earlier, int c) { compare(table, earlier, fmt::format("particle {}", model_.id[i]), c); });
+      claim(i, s.held, [&](int earlier, int c) { compare(table, earlier, called(model_, i), c); });
     for (const int b : s.bodies) {
-      const std::string name = fmt::format("body {}", model_.bodies[b].id);
+      const std::string name = called(model_, model_.particles() + b);
       claim(particles + b, s.held, [&](int earlier, int c) { compare(table, earlier, name, c); });
       claim(particles + bodies + b, s.turns_held, [&](int earlier, int) { compare_turns(table, earlier, name); });
     }

@@ -10,7 +10,14 @@ int id_of(const Model& model, int entity) {
 }
 
 std::string called(const Model& model, int entity) {
-  return (is_body(model, entity) ? "body " : "particle ") + std::to_string(id_of(model, entity));
+  const bool body = is_body(model, entity);
+  const int k = body ? entity - model.particles() : entity;
+  for (const Structure& s : model.structures) {
+    const int number = k - (body ? s.first_body : s.first);
+    if (s.name.empty() || s.kind == "lammps" || number < 0 || number >= (body ? s.bodies : s.count)) continue;
+    return body ? "body " + s.name : s.name + " " + std::to_string(number + 1);
+  }
+  return (body ? "body " : "particle ") + std::to_string(id_of(model, entity));
 }
 
 double size_of(const Model& model, int entity) {

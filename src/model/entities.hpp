@@ -8,7 +8,8 @@ inline int entities(const Model& model) { return model.particles() + static_cast
 inline bool is_body(const Model& model, int entity) { return entity >= model.particles(); }
 /// LAMMPS's own, or counted from 1.
 int id_of(const Model& model, int entity);
-/// "particle 7", "body 9".
+/// Its structure and its number there, from 1: "ball 1", "sheet 1757"; "body cube"; "particle 7", "body 9" with their ids of
+/// what a data file has and what is in no structure.
 std::string called(const Model& model, int entity);
 /// A particle's diameter, twice a body's reach [length].
 double size_of(const Model& model, int entity);

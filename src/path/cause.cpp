@@ -20,8 +20,8 @@ std::string flat_angle(const Model& model, const State& state) {
     const auto [i, j, k] = a.particles;
     const Vec3 u = (state.at(i) - state.at(j)).hi.normalized(), v = (state.at(k) - state.at(j)).hi.normalized();
     if (u.cross(v).norm() > cause::flat || u.dot(v) > 0) continue;
-    return fmt::format("the angle at particle {} is flat here, and rest angles have no sign in space; in a plane they have: give the file "
-                       "plane = \"xy\", \"xz\" or \"yz\"", model.id[j]);
+    return fmt::format("the angle at {} is flat here, and rest angles have no sign in space; in a plane they have: give the file "
+                       "plane = \"xy\", \"xz\" or \"yz\"", called(model, j));
   }
   return "";
 }

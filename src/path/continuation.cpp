@@ -1,5 +1,6 @@
 #include "path/continuation.hpp"
 
+#include "model/entities.hpp"
 #include "path/cause.hpp"
 #include "path/jump.hpp"
 #include "path/limits.hpp"
@@ -21,7 +22,7 @@ std::string collapsed(const Model& model, const State& state) {
   for (const Bond& b : model.bonds) {
     const auto [i, j] = b.particles;
     if ((state.at(j) - state.at(i)).hi.norm() <= continuation::collapsed_bond * model.bond_types[b.type].rest_length)
-      return fmt::format("particles {} and {}, which a bond joins, come together", model.id[i], model.id[j]);
+      return fmt::format("{} and {}, which a bond joins, come together", called(model, i), called(model, j));
   }
   return "";
 }

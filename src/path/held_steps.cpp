@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "model/entities.hpp"
 #include "path/limits.hpp"
 #include "path/load_steps.hpp"
 #include "path/locate.hpp"
@@ -42,9 +43,7 @@ void toggle(std::vector<HardForce>& contacts, const HardForce& contact) {
 
 // Who touches or leaves whom.
 std::string told(const Model& model, const HardForce& h, bool made) {
-  const std::string one = fmt::format("particle {}", model.id[h.particle]);
-  if (h.wall >= 0) return one + (made ? " touches wall " : " leaves wall ") + model.walls[h.wall].name;
-  return one + (made ? " touches particle " : " leaves particle ") + std::to_string(model.id[h.other]);
+  return called(model, h.particle) + (made ? " touches " : " leaves ") + (h.wall >= 0 ? "wall " + model.walls[h.wall].name : called(model, h.other));
 }
 
 }  // namespace

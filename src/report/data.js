@@ -46,20 +46,17 @@ class Run {
     return best;
   }
 
-  /// Structure and number of a particle or body with this id: "thin 19".
+  /// A particle or body with this id as the program's sentences call it: "thin 19", "particle 7" of a data file.
   called(id) {
-    const k = this.index.get(id);
-    if (this.shape && k !== undefined)
-      for (const s of this.shape.structures) if (k >= s.first && k < s.first + s.count) return s.count > 1 ? `${s.name} ${k - s.first + 1}`
-          : s.name;
-    const b = this.shape ? this.shape.bodies.findIndex((body) => body.id === id) : -1;
-    if (b >= 0) for (const s of this.shape.structures) if (b >= s.first_body && b < s.first_body + s.bodies) return s.name;
-    return `${id}`;
+    const k = this.index.get(id), b = this.shape ? this.shape.bodies.findIndex((body) => body.id === id) : -1;
+    const within = (n, first, count) => n !== undefined && n >= first && n < first + count;
+    for (const s of this.shape && this.shape.structures || []) {
+      if (s.kind === 'lammps') continue;
+      if (within(k, s.first, s.count)) return `${s.name} ${k - s.first + 1}`;
+      if (within(b, s.first_body, s.bodies)) return s.bodies > 1 ? `${s.name} ${b - s.first_body + 1}` : s.name;
+    }
+    return `${b >= 0 ? 'body' : 'particle'} ${id}`;
   }
-
-  /// A sentence of the program with particles by their structure.
-  told(text) { return text.replace(/\b(particle|body) (\d+)/g, (all, kind, id) => this.index.has(+id) || kind === 'body' ? this.called(+id)
-      : all); }
 }
 
 function decodedStructure(s) {

@@ -173,7 +173,7 @@ class Diagram {
     if (p && this.dragging) this.choose(p.row);
     this.tip.hidden = !p;
     if (!p) return;
-    this.tip.replaceChildren(element('b', p.label ? this.run.told(p.label) : `point ${p.row}`));
+    this.tip.replaceChildren(element('b', p.label || `point ${p.row}`));
     for (const c of this.run.path.columns)
       if (c !== 'label' && this.run.path.at(c, p.row) !== null && this.run.path.at(c, p.row) !== '') this.tip
           .append(element('i', c), element('span', short(this.run.path.at(c, p.row))));

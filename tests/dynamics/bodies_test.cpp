@@ -305,7 +305,7 @@ TEST_CASE("bodies that cannot move as they are held are refused", "[dynamics][bo
   Model m = swarm();
   CHECK(refused(m).empty());
   m.bodies[1].mass = 0, m.bodies[2].mass = 0;
-  CHECK(refused(m).find("2 bodies can move but have no mass (the last is 9); dynamics needs a mass or a density") != std::string::npos);
+  CHECK(refused(m).find("2 bodies can move but have no mass (the last is body 9); dynamics needs a mass or a density") != std::string::npos);
   m = swarm();
   Support s;
   s.bodies = {0}, s.held = {true, false, false};

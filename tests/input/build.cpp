@@ -78,7 +78,7 @@ TEST_CASE("The state to start from stands beside the reference") {
                "A state\n\n2 atoms\n1 atom types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms # sphere\n\n1 1 "
                "1 1 0 0 0\n2 1 1 1 0 0.25 1\n");
   CHECK_THROWS_WITH(build_model(read_problem(plane)),
-                    plane + ":12:1: path: particle 2 is not in the plane \"xz\" of particle 1: y is 0.25 instead of 0");
+                    plane + ":12:1: path: column 2 is not in the plane \"xz\" of column 1: y is 0.25 instead of 0");
 }
 
 TEST_CASE("Groups select by end, middle, id and place") {
@@ -272,7 +272,7 @@ TEST_CASE("A LAMMPS data file keeps its ids and types, and beams count on") {
                head + "Atoms # hybrid sphere bond\n\n20 4 0 0 0 1 2 1\n10 2 0 0 0 1 2 1\n30 4 0 3 0 1 2 1\n" + tail);
   CHECK_THROWS_WITH(model("[[support]]\ngroup = \"all\""),
                     file +
-                        ":1:1: lammps: particle 20 is in the same place as particle 10 of \"lammps\", [0, 0, 0]; "
+                        ":1:1: lammps: particle 20 is in the same place as particle 10, [0, 0, 0]; "
                         "particles must lie apart");
   CHECK(model("[study]\ntype = \"energy\"").particles() == 3);
   scratch.file("c.data", head + "Atoms # hybrid sphere bond\n\n20 4 0 0 x 1 2 1\n");

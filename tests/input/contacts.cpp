@@ -128,19 +128,19 @@ TEST_CASE("What a wall or a contact may hold needs no support") {
   const std::string contact = "[[contact]]\nbetween = [\"a\", \"b\"]\neffective_modulus = ";
   const std::string falls = "which nothing holds; an equilibrium needs a [[support]], a [[wall]] or a [[contact]]";
   CHECK(said_of(one) == "");                       // free, and no force
-  CHECK(said_of(one + gravity) == "1:1: grains.a: a force acts on particle 1, " + falls);
+  CHECK(said_of(one + gravity) == "1:1: grains.a: a force acts on a 1, " + falls);
   CHECK(said_of(one + gravity + energy_study) == "");
   CHECK(said_of(one + gravity + floor + "\"a\"") == "");
-  CHECK(said_of(one + other + gravity + floor + "\"a\"") == "6:1: grains.b: a force acts on particle 2, " + falls);
+  CHECK(said_of(one + other + gravity + floor + "\"a\"") == "6:1: grains.b: a force acts on b 1, " + falls);
   CHECK(said_of(one + other + gravity + floor + "\"a\"\n" + contact + "1") == "");
   CHECK(said_of(one + other + gravity + floor + "\"a\"\n" + contact + "0") ==
-        "6:1: grains.b: a force acts on particle 2, " + falls);
+        "6:1: grains.b: a force acts on b 1, " + falls);
   CHECK(said_of(one + other + gravity + "[[support]]\ngroup = \"a\"\n" + contact + "1") == "");
   const std::string together =
-      "particle 1 and all that it may touch are held by no [[support]] and no [[wall]], and the "
+      "a 1 and all that it may touch are held by no [[support]] and no [[wall]], and the "
       "forces on them do not cancel";
-  CHECK(said_of(one + other + gravity + contact + "1") == "1:1: grains.a: " + together + "\n6:1: grains.b: particle 2" +
-                                                              together.substr(10));
+  CHECK(said_of(one + other + gravity + contact + "1") == "1:1: grains.a: " + together + "\n6:1: grains.b: b 1" +
+                                                              together.substr(3));
   // Pressed together by opposite forces: the contact holds them.
   const std::string up = "[[load]]\ngroup = \"a\"\nforce = [0, 0, 1]\n",
                     down = "[[load]]\ngroup = \"b\"\nforce = [0, 0, -1]\n";
@@ -161,7 +161,7 @@ TEST_CASE("Particles start on the side of the wall where they belong") {
     return one + "[[wall]]\nname = \"w\"\nyoungs_modulus = 1\n" + more;
   };
   const std::string plane = "shape = \"plane\"\npoint = [0, 0, 2]\nnormal = [0, 0, 1]\n";
-  const std::string below = "5:1: wall.w.side: particle 1 of \"a\" is outside of it, at [0, 0, 1]; it must be inside";
+  const std::string below = "5:1: wall.w.side: a 1 is outside of it, at [0, 0, 1]; it must be inside";
   CHECK(said_of(floor(plane)) == below);
   CHECK(said_of(floor(plane) + energy_study) == "");
   CHECK(said_of(floor(plane + "effective_radius = \"curved\"\nside = \"outside\"\n")) == "");
@@ -181,5 +181,5 @@ TEST_CASE("Particles start on the side of the wall where they belong") {
       "[[grains]]\nname = \"a\"\npositions = [[0, 0, 1], [3, 0, 1], [6, 0, 4], [9, 0, 1], [12, 0, 5]]\n"
       "diameter = 1\n[[wall]]\nname = \"w\"\nyoungs_modulus = 1\n";
   CHECK(said_of(five + plane) ==
-        "5:1: wall.w.side: particle 1 of \"a\" is outside of it, at [0, 0, 1], and 2 more are; it must be inside");
+        "5:1: wall.w.side: a 1 is outside of it, at [0, 0, 1], and 2 more are; it must be inside");
 }

@@ -45,6 +45,5 @@ TEST_CASE("A table of grains") {
   CHECK(problem("diameter = 1") == "4:12: grains.a.diameter: stands in the fourth column of the file; leave it out");
   scratch.file("g.csv", "0,0,0,1\n0,0,0,2\n");
   CHECK(problem("") ==
-        "1:1: grains.a: particle 2 is in the same place as particle 1 of \"a\", [0, 0, 0]; particles must "
-        "lie apart");
+        "1:1: grains.a: a 2 is in the same place as a 1, [0, 0, 0]; particles must lie apart");
 }

@@ -30,10 +30,10 @@ TEST_CASE("Free grains are named one by one", "[model]") {
   add_grains(m, {{"grains", column({{3, 0, 0}, {4, 0, 0}}), {1, 1}, 1}, {"one", column({{9, 9, 9}}), {1}, 1}});
   hold(m, 6, 6, {true, false, true});
   const std::vector<RigidMotion> motions = free_rigid_motions(m, m.start);
-  CHECK(names(motions) == std::vector<std::string>{"translation of particle 6 along x",
-                                                   "translation of particle 6 along y",
-                                                   "translation of particle 6 along z",
-                                                   "translation of particle 7 along y", "translation of 'one' along x",
+  CHECK(names(motions) == std::vector<std::string>{"translation of grains 1 along x",
+                                                   "translation of grains 1 along y",
+                                                   "translation of grains 1 along z",
+                                                   "translation of grains 2 along y", "translation of 'one' along x",
                                                    "translation of 'one' along y", "translation of 'one' along z"});
   for (const RigidMotion& r : motions) CHECK((r.translation && r.sites == std::vector<int>{r.particle}));
   CHECK(motions[3].particle == 6);
@@ -100,6 +100,6 @@ TEST_CASE("Very many free grains take little", "[model]") {
   add_grains(m, {{"grains", Field::Random(3, n), std::vector<double>(n, 1e-3), 1}});
   const std::vector<RigidMotion> motions = free_rigid_motions(m, m.start);
   REQUIRE(motions.size() == 3u * n);
-  CHECK(motions.back().name == "translation of particle 200000 along z");
+  CHECK(motions.back().name == "translation of grains 200000 along z");
   CHECK(motions.back().part_velocity.cols() == 1);
 }

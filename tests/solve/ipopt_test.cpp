@@ -201,5 +201,5 @@ TEST_CASE("Ipopt's ends are told", "[solve][ipopt]") {
   state = flying.start;
   report = minimise_by_ipopt(falling, state, {});
   CHECK(report.status == Status::not_converged);
-  CHECK(report.why.find("particle 1 of 'grains' moves away without end") != std::string::npos);
+  CHECK(report.why.find("grains 1 moves away without end") != std::string::npos);
 }

@@ -291,7 +291,7 @@ type = "equilibrium"
   const Answer answer = elamin_says("'" + file + "' -o '" + (scratch / "out") + "'");
   INFO(answer.text);
   CHECK(answer.status == 0);
-  CHECK(answer.text.find("rattler: particle 2 touches nothing") != std::string::npos);
+  CHECK(answer.text.find("rattler: sand 2 touches nothing") != std::string::npos);
   const auto summary = nlohmann::json::parse(text_of(scratch / "out/summary.json"));
-  CHECK(summary["zero_modes"].dump().find("rattler: particle 2 touches nothing") != std::string::npos);
+  CHECK(summary["zero_modes"].dump().find("rattler: sand 2 touches nothing") != std::string::npos);
 }
