@@ -2,13 +2,15 @@
 
 #include "core/error.hpp"
 #include "core/text_file.hpp"
-#include "figures/diagram.hpp"
+#include "figures/braille.hpp"
+#include "figures/pdf.hpp"
 #include "figures/shapes.hpp"
 #include "results/results_directory.hpp"
 #include "results/stored_run.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -37,7 +39,8 @@ std::optional<Diagram> diagram_in(const FigureOptions& options) {
 
 std::string write_figure(const FigureOptions& options) {
   const std::string file = options.file.empty() ? (std::filesystem::path(options.directory) / "figure.svg").string() : options.file;
-  if (!file.ends_with(".svg")) throw InputError(file + ": a figure is written as SVG; a name that ends in .svg is needed (rsvg-convert -f pdf makes a PDF of it)");
+  const bool pdf = file.ends_with(".pdf");
+  if (!pdf && !file.ends_with(".svg")) throw InputError(file + ": a figure is an SVG or a PDF; a name that ends in .svg or .pdf is needed");
   const std::optional<Diagram> diagram = diagram_in(options);
   std::vector<std::string> labels = options.shapes;
   if (labels.empty() && !diagram) labels = {"final"};
@@ -47,9 +50,16 @@ std::string write_figure(const FigureOptions& options) {
   double y = margin;
   if (diagram) y = draw_diagram(drawing, *diagram, {margin, y}, page - 2 * margin, height);
   if (!scenes.empty()) y = draw_shapes(drawing, scenes, {margin, y + (diagram ? 6 : 0)}, page - 2 * margin);
-  write_text(file, drawing.svg(page, y + margin, std::filesystem::path(options.directory).lexically_normal().filename().string()));
+  const std::string svg = drawing.svg(page, y + margin, std::filesystem::path(options.directory).lexically_normal().filename().string());
+  if (pdf) write_pdf(svg, file);
+  else write_text(file, svg);
   if (options.file.empty()) list_also(options.directory, "figure.svg");
   return file;
+}
+
+std::string terminal_figure(const FigureOptions& options, int width) {
+  const std::optional<Diagram> diagram = diagram_in(options);
+  return diagram ? braille(*diagram, width, std::clamp(width / 5, 8, 20)) : "";
 }
 
 }  // namespace elamin

@@ -2,12 +2,14 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
-#include "figures/diagram.hpp"
+#include "figures/braille.hpp"
 #include "figures/scene.hpp"
 #include "results/stored_run.hpp"
 #include "scratch_directory.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 using namespace elamin;
 
@@ -31,6 +33,15 @@ std::string sentence(const FigureOptions& options) {
     return error.what();
   }
   return "";
+}
+
+std::string said_by(const std::string& command) {
+  std::string text;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  char block[4096];
+  for (std::size_t n; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) text.append(block, n);
+  pclose(pipe);
+  return text;
 }
 
 }  // namespace
@@ -122,6 +133,50 @@ TEST_CASE("a figure has its words as text, and the same bits twice", "[figures]"
   CHECK(scene.walls[0].center == Vec3(0, 0, -0.1));
 }
 
+TEST_CASE("a figure as PDF: lines, not pixels, and words that can be read", "[figures]") {
+  ScratchDirectory scratch;
+  scratch.file("path.csv", path_csv);
+  FigureOptions options;
+  options.directory = scratch / ".", options.file = scratch / "a b's.pdf";
+  CHECK(write_figure(options) == options.file);
+  CHECK(text_of(options.file).starts_with("%PDF-1."));
+  const auto said = [&](const std::string& command) { return said_by(command + " \"" + options.file + "\""); };
+  CHECK(said("pdfinfo").find("Page size:       240.94 x ") != std::string::npos);      // as the SVG: 85 mm
+  CHECK(said("pdfimages -list").find("image") == std::string::npos);
+  CHECK(said("pdfimages -list").find("page") == 0);
+  CHECK(said("pdffonts").find(" yes yes yes ") != std::string::npos);      // its fonts are in it
+  const std::string words = said_by("pdftotext \"" + options.file + "\" -");
+  for (const char* word : {"load factor λ", "height", "unstable", "limit point"}) CHECK(words.find(word) != std::string::npos);
+  // What cannot be written, and what is not there.
+  options.file = scratch / "none/a.pdf";
+  CHECK(sentence(options) == options.file + ": cannot be written: rsvg-convert has failed");
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  CHECK(sentence(options) == options.file + ": a PDF is made by rsvg-convert, which is not installed; it is in the Debian package librsvg2-bin (an .svg needs "
+                                            "nothing)");
+  setenv("PATH", path.c_str(), 1);
+}
+
+TEST_CASE("a diagram in characters", "[figures]") {
+  Diagram d;
+  d.x = "t", d.y = "w";
+  d.curves = {{{{0, 0}, {10, 4}}, Curve::Kind::stable, 0}, {{{0, 3}, {10, 3}}, Curve::Kind::unstable, 0}, {{{0, 3.5}, {10, 3.5}}, Curve::Kind::snap, 0}};
+  d.marks = {{"branch", {0, 0}}, {"bend", {10, 4}}};
+  CHECK(braille(d, 23, 3) == "w\n"
+                             "4 │⣂⠐⣀⠂⣐ ⣂⠐⣀⠂⣐ ⣂⢐⣀⡢⣴⠒⣒e\n"
+                             "  │      ⢀⣀⠤⠤⠒⠒⠉⠁\n"
+                             "0 │b⠤⠤⠒⠊⠉⠁\n"
+                             "   0        t        10\n"
+                             "   e bend, b branch\n");
+  d.curves = {{{{2, 5}}, Curve::Kind::points, 0}, {{{4, 5}}, Curve::Kind::points, 0}};
+  d.marks = {};
+  CHECK(braille(d, 23, 3) == "  w\n"
+                             "5.5 │\n"
+                             "    │o                o\n"
+                             "4.5 │\n"
+                             "     2       t        4\n");
+}
+
 TEST_CASE("what is missing for a figure is said", "[figures]") {
   ScratchDirectory scratch;
   FigureOptions options;
@@ -134,7 +189,7 @@ TEST_CASE("what is missing for a figure is said", "[figures]") {
   CHECK(sentence(options).find("did you mean \"height\"?") != std::string::npos);
   options.y = "", options.shapes = {"limit:1"};
   CHECK(sentence(options).find("limit-1.particles.csv: is not there; this run has left no such states") != std::string::npos);
-  options.shapes = {}, options.file = "f.pdf";
-  CHECK(sentence(options).find("f.pdf: a figure is written as SVG") == 0);
+  options.shapes = {}, options.file = "f.png";
+  CHECK(sentence(options) == "f.png: a figure is an SVG or a PDF; a name that ends in .svg or .pdf is needed");
   CHECK(!std::filesystem::exists(scratch / "figure.svg"));
 }
