@@ -1,9 +1,11 @@
 // The command line: which command, on which file. Everything else is in study/.
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/suggest.hpp"
 #include "figures/figure.hpp"
 #include "input/key_tree.hpp"
 #include "report/report.hpp"
+#include "results/ink.hpp"
 #include "results/summary.hpp"
 #include "study/check_command.hpp"
 #include "study/compare.hpp"
@@ -14,8 +16,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <csignal>
+#include <cstring>
 #include <ctime>
+#include <filesystem>
 
 #include <unistd.h>
 
@@ -54,6 +60,42 @@ const char* const footer =
     "130 interrupted (Ctrl-C; a second one ends at once).\n"
     "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: docs/keys.md, and problems/.\n";
 
+// What is wrong with words that no option, command or file has taken, of which the problem file may have become the first; "": nothing.
+std::string not_understood(const CLI::App& app, const std::string& file) {
+  std::vector<std::string> words = app.remaining(true), commands, options;
+  const bool runs = app.get_subcommands().empty();
+  const CLI::App* active = runs ? &app : app.get_subcommands().front();
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(command->get_name());
+  for (const CLI::Option* option : active->get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (const std::string& word : words)
+    if (word.starts_with('-')) return word + ": is no option; there are: " + elamin::listed(options) + elamin::did_you_mean(word, options);
+  const bool too_many = !words.empty();
+  if (runs && !file.empty() && !std::filesystem::exists(file)) words.insert(words.begin(), file);
+  for (const std::string& word : words) {
+    if (std::filesystem::exists(word)) continue;
+    if (word.find('=') != std::string::npos) return word + ": every KEY=VALUE needs a --set of its own: --set " + word;
+    if (const std::string meant = elamin::did_you_mean(word, commands); runs && &word == &words.front() && !meant.empty())
+      return word + ": is no command and no file" + meant;
+  }
+  return too_many ? words.back() + ": is one word too many; " + (runs ? "a run has one problem file" : "--help tells what the command takes") : "";
+}
+
+// What to do with results, in words that a shell understands.
+std::string next_steps(const std::string& directory, bool has_report) {
+  const bool plain = std::all_of(directory.begin(), directory.end(), [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./,+=", c); });
+  const std::string name = plain ? directory : "'" + directory + "'";
+  return fmt::format("next: {}elamin plot {} (a figure)\n", has_report ? "" : fmt::format("elamin report {} (a page to look at), ", name), name);
+}
+
+// Of an option that needs a number above 0; `what`: of which kind.
+CLI::Validator positive(const std::string& what) {
+  return {[what](std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && value > 0 ? "" : "must be a positive " + what + ", is " + text;
+          }, ""};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -62,6 +104,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, on_interrupt);
 
   CLI::App app{description};
+  app.allow_extras();                            // they are told in sentences of our own
   app.footer(footer);
   app.set_version_flag("--version", "elamin " + version());
   std::string file;
@@ -74,14 +117,15 @@ int main(int argc, char** argv) {
   const auto running = [&](CLI::App* command) {
     common(command);
     command->add_option("-o,--output", options.directory, "directory of the results (default: the file's name without .toml)");
-    command->add_option("--threads", options.threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+    command->add_option("--threads", options.threads, "threads to use (default: all cores)")->check(positive("integer"));
     command->add_flag("--force", options.force, "write to a directory that holds something else than results, too");
     command->add_flag("--quiet", options.quiet, "print nothing but errors");
   };
   app.add_option("problem", file, "the problem file")->type_name("FILE");
   running(&app);
-  bool and_report = false;
+  bool and_report = false, and_plot = false;
   app.add_flag("--report", and_report, "then write report.html, a page to look at in a browser, into the directory of the results");
+  app.add_flag("--plot", and_plot, "then draw a small diagram in the terminal");
   CLI::App* energy_app = app.add_subcommand("energy", "energies and forces of the file's starting state, nothing solved");
   energy_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   energy_app->add_flag("--json", energy.json, "print JSON");
@@ -98,8 +142,8 @@ int main(int argc, char** argv) {
   CLI::App* compare_app = app.add_subcommand("compare", "run the problem by every method that can, side by side; nothing is written");
   compare_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   compare_app->add_option("--methods", comparison.methods, "methods as solver.method has them, with commas between (default: those that fit)")->delimiter(',');
-  compare_app->add_option("--limit", comparison.limit, "seconds that a method may take (default: 60)")->check(CLI::PositiveNumber);
-  compare_app->add_option("--threads", comparison.threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+  compare_app->add_option("--limit", comparison.limit, "seconds that a method may take (default: 60)")->check(positive("number"));
+  compare_app->add_option("--threads", comparison.threads, "threads to use (default: all cores)")->check(positive("integer"));
   compare_app->add_flag("--json", comparison.json, "print JSON");
   common(compare_app);
   ReportOptions report;
@@ -114,7 +158,7 @@ int main(int argc, char** argv) {
   plot_app->add_option("--y", figure.y, "column for the vertical axis (default: the first one observed that changes)");
   plot_app->add_option("--shapes", figure.shapes, "labels of states to draw below, with commas between: initial, final, branch:1, branch:1+mode, mode:2")->delimiter(',');
   plot_app->add_flag("!--no-diagram", figure.diagram, "the states alone");
-  plot_app->add_option("--out", figure.file, "file of the figure, FIG.svg (default: DIR/figure.svg)");
+  plot_app->add_option("--out", figure.file, "file of the figure, FIG.svg or FIG.pdf (default: DIR/figure.svg)");
   CLI::App* schema_app = app.add_subcommand("schema", "print the JSON schema of problem files, for editors");
   bool markdown = false;
   schema_app->add_flag("--markdown", markdown, "print the key reference instead, docs/keys.md");
@@ -122,6 +166,7 @@ int main(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
+    if (const std::string wrong = not_understood(app, file); !wrong.empty()) throw InputError(wrong);
     std::vector<Setting> settings;
     for (const std::string& s : set) settings.push_back(parse_setting(s));
     options.settings = energy.settings = comparison.settings = settings;
@@ -135,7 +180,9 @@ int main(int argc, char** argv) {
     if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
     const RunResult result = run(options);
+    if (and_plot) fmt::print("{}", terminal_figure({.directory = result.directory}, terminal_width(stdout)));
     if (and_report) report_command({{result.directory}, "", options.quiet});
+    if (!options.quiet) fmt::print("{}", next_steps(result.directory, and_report));
     return result.exit_status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_wrong_input;

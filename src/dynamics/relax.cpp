@@ -1,5 +1,6 @@
 #include "dynamics/relax.hpp"
 
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "dynamics/forces.hpp"
@@ -100,6 +101,7 @@ class Relaxation {
 
  private:
   bool converging() const {
+    at_iteration(report_.iterations, residual_);
     return std::isfinite(residual_) && residual_ > options_.tolerance && report_.iterations < options_.max_steps && !interrupted();
   }
 

@@ -31,7 +31,8 @@ function open(number) {
   const good = run.status === 'done';
   $('status').textContent = {done: 'done', not_converged: 'not converged', interrupted: 'interrupted'}[run.status] || run.status;
   $('status').className = good ? 'badge' : 'badge bad';
-  $('message').textContent = run.told(run.message);
+  $('message').textContent = run.message;
+  $('warnings').textContent = run.warnings.map((w) => `Warning: ${w}.`).join(' ');
   const columns = run.path.numeric().map((c) => [c, c === 'lambda' ? 'load factor' : c]), [x, y] = firstColumns(run);
   const keep = (id, usual) => (columns.some(([c]) => c === $(id).value) ? $(id).value : usual);
   const [across, upwards] = [keep('x', x), keep('y', y)];
@@ -135,7 +136,7 @@ function showEvents() {
   for (const k of rows) {
     const tr = element('tr', null, {'data-row': k}), button = element('button', labels[k]), cell = element('td');
     const event = run.events.column('label').indexOf(labels[k]), kind = kindOf(labels[k]), freed = drops.get(labels[k]);
-    const what = run.told((event >= 0 && run.events.at('what', event)) || ''), before = run.events.at('negative_before', event),
+    const what = (event >= 0 && run.events.at('what', event)) || '', before = run.events.at('negative_before', event),
         after = run.events.at('negative_after', event);
     button.onclick = () => select(k);
     cell.append(button);

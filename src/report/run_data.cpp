@@ -57,6 +57,7 @@ void add_summary(const StoredRun& run, Json& j) {
   j["title"] = s.title;
   j["status"] = run.summary ? s.status : "interrupted";
   j["message"] = run.summary ? s.message : "the run has not ended, or was killed: it wrote no summary.json";
+  j["warnings"] = s.warnings;
   j["version"] = run.version;
   j["input"] = {{"file", s.input}, {"sha256", s.input_sha256}, {"text", input_text(s)}};
   j["tolerances"] = object(s.tolerances), j["times"] = object(s.times), j["zero_modes"] = s.zero_modes;

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace elamin {
@@ -13,83 +11,116 @@ namespace {
 
 constexpr double redraw = 0.05;   // seconds between two drawings of the overwritten line
 
-std::size_t width(std::FILE* out) {
-  winsize size{};
-  return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+std::size_t letters(const std::string& words) {
+  return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-std::string shown(const Cell& cell, const char* format) {
-  const auto number = as_number(cell);
-  return number ? fmt::format(fmt::runtime(format), *number) : "-";
+std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
+
+std::string stability(const PathPoint& p) {
+  if (p.stability.stable) return "stable";
+  if (p.report.status == Status::not_converged) return "no equilibrium";
+  return p.stability.negative > 0 ? fmt::format("unstable ({})", p.stability.negative) : "critical";
+}
+
+std::string counted(int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+// "████▌     ", in eighths of a letter.
+std::string bar(double part) {
+  constexpr int cells = 16;
+  static const std::array<const char*, 8> eighths{"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
+  const int filled = static_cast<int>(8 * cells * std::clamp(part, 0.0, 1.0));
+  std::string text;
+  for (int k = 0; k < filled / 8; ++k) text += "█";
+  text += eighths[static_cast<std::size_t>(filled % 8)];
+  return text + std::string(static_cast<std::size_t>(cells - (filled + 7) / 8), ' ');
+}
+
+std::string clock_time(double seconds) {
+  const auto s = static_cast<long>(std::ceil(seconds));
+  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60) : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 }  // namespace
 
-std::string progress_line(const PathPoint& p) {
-  const std::string stability = p.stability.stable         ? "stable"
-                                : p.report.status == Status::not_converged ? "no equilibrium"
-                                : p.stability.negative > 0 ? fmt::format("unstable ({})", p.stability.negative)
-                                                           : "critical";
-  const auto number = [](const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; };
-  return fmt::format("step {:4}  load factor {:<10.7g}  energy {:<12}  residual {}  {}{}{}", p.step, p.state.load_factor,
-                     number("{:.6g}", p.energy.total()), number("{:.0e}", p.report.residual), stability, p.label.empty() ? "" : "  ", p.label);
+std::string progress_line(const PathPoint& p, int contacts) {
+  return fmt::format("step {:4}  load factor {:<10.7g}  energy {:<12}  residual {}  {}{}{}  {}{}", p.step, p.state.load_factor,
+                     number("{:.6g}", p.energy.total()), number("{:.0e}", p.report.residual), stability(p), p.label.empty() ? "" : "  ", p.label,
+                     counted(p.report.iterations, "iteration"), contacts > 0 ? "  " + counted(contacts, "contact") : "");
 }
 
 Progress::Style Progress::style_for(std::FILE* out, bool quiet) {
-  return quiet ? Style::silent : isatty(fileno(out)) ? Style::terminal : Style::plain;
+  return quiet ? Style::silent : is_terminal(out) ? Style::terminal : Style::plain;
 }
 
-Progress::Progress(std::FILE* out, Style style, double from, double to)
-    : out_(out), style_(style), span_(std::abs(to - from)) {}
+Progress::Progress(std::FILE* out, Style style, double from, double to, bool steady)
+    : out_(out), style_(style), ink_(out), from_(from), to_(to), steady_(steady) {}
 
-void Progress::show(const PathPoint& p) {
-  if (style_ != Style::silent) show(progress_line(p), p.state.load_factor, !p.label.empty());
+void Progress::enter(int part, int parts, double from, double to) { part_ = part, parts_ = parts, from_ = last_ = from, to_ = to; }
+
+double Progress::done(double at) const {
+  const double part = to_ != from_ ? std::clamp((at - from_) / (to_ - from_), 0.0, 1.0) : 0;
+  return (part_ + part) / parts_;
 }
 
-void Progress::show(const std::string& text, double at, bool event) {
-  if (style_ == Style::silent) return;
-  const double now = clock_.seconds();
-  if (style_ == Style::terminal) {
-    if (!event && !first_ && now - last_time_ < redraw) return;
-    std::string line = text;
-    if (!event && line.size() > width(out_)) line.resize(width(out_));
-    fmt::print(out_, "\r{}\x1b[K{}", line, event ? "\n" : "");
-    pending_ = !event;
-  } else {
-    const bool tenth = std::abs(at - last_) >= 0.1 * span_ * (1 - 1e-9) && span_ > 0;
-    if (!event && !first_ && !tenth && now - last_time_ < 1) return;
-    fmt::print(out_, "{}\n", text);
+bool Progress::due(double at) {
+  const bool tenth = std::abs(at - last_) >= 0.1 * std::abs(to_ - from_) * (1 - 1e-9) && to_ != from_;
+  return first_ || tenth || clock_.seconds() - last_time_ >= 1;
+}
+
+void Progress::show(const PathPoint& p, int contacts) {
+  const bool event = !p.label.empty();
+  const double at = p.state.load_factor;
+  if (style_ == Style::plain) {
+    if (event || due(at)) keep(progress_line(p, contacts)), last_ = at;
+  } else if (style_ == Style::terminal) {
+    const auto ink = p.stability.stable ? &Ink::good : p.report.status == Status::not_converged ? &Ink::bad : &Ink::warning;
+    if (event)
+      keep(fmt::format("load factor {:<14.10g} {}{}{}", at, p.stability.stable ? "" : (ink_.*ink)(stability(p)) + "  ", ink_.strong(p.label),
+                       p.what.empty() ? "" : "  " + p.what));
+    draw(at, {{fmt::format("load factor {:.4g}", at)}, {stability(p), ink}, {fmt::format("step {}", p.step)},
+              {contacts > 0 ? counted(contacts, "contact") : ""}, {counted(p.report.iterations, "iteration")}});
   }
+}
+
+void Progress::show(const std::string& line, double at) {
+  if (style_ == Style::plain && !line.empty() && due(at)) keep(line), last_ = at;
+  if (style_ == Style::terminal) draw(at, {{line}});
+}
+
+void Progress::wait(const std::string& line) {
+  if (style_ == Style::plain) keep(line);
+  if (style_ == Style::terminal) draw(last_, {{line}});
+}
+
+void Progress::keep(const std::string& line) {
+  if (style_ == Style::silent) return;
+  fmt::print(out_, "{}{}{}\n", pending_ ? "\r" : "", line, style_ == Style::terminal ? "\x1b[K" : "");
   std::fflush(out_);
-  first_ = false, last_ = at, last_time_ = now;
+  pending_ = false, first_ = false, last_time_ = clock_.seconds();
+}
+
+void Progress::draw(double at, std::vector<Piece> pieces) {
+  const double now = clock_.seconds();
+  last_ = at;
+  if (pending_ && now - last_time_ < redraw) return;
+  const double part = done(at);
+  if (steady_ && part > 0.01 && part < 1 && now > 1) pieces.push_back({clock_time(now / part * (1 - part)) + " left"});
+  std::string line = fmt::format("{}▏{:3.0f} %", bar(part), std::floor(100 * part));
+  std::size_t room = static_cast<std::size_t>(terminal_width(out_)), used = letters(line);
+  for (const Piece& p : pieces) {
+    const std::size_t wide = letters(p.words) + 2;
+    if (p.words.empty() || used + wide > room) continue;
+    line += "  " + (p.ink ? (ink_.*p.ink)(p.words) : p.words), used += wide;
+  }
+  fmt::print(out_, "\r{}\x1b[K", line);
+  std::fflush(out_);
+  pending_ = true, first_ = false, last_time_ = now;
 }
 
 void Progress::finish() {
   if (pending_) fmt::print(out_, "\r\x1b[K"), std::fflush(out_);
   pending_ = false, style_ = Style::silent;
-}
-
-std::string closing_table(const Table& events) {
-  if (events.rows.empty()) return "No events on the path.\n";
-  const auto at = [&](const Row& row, const char* name) -> Cell {
-    const int i = column_index(events.columns, name);
-    return i < 0 ? Cell{} : row[i];
-  };
-  std::size_t widest = 5;
-  for (const Row& row : events.rows) widest = std::max(widest, csv_text(at(row, "label")).size());
-  std::string text = fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {}\n", "event", widest, "load factor",
-                                 "multiplicity", "energy", "negative", "stable");
-  for (const Row& row : events.rows) {
-    const Cell what = at(row, "what");
-    const auto* words = std::get_if<std::string>(&what);
-    text += fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {:<6}{}{}", csv_text(at(row, "label")), widest,
-                        shown(at(row, "lambda"), "{:.10g}"), shown(at(row, "multiplicity"), "{:.0f}"),
-                        shown(at(row, "energy"), "{:.7g}"), shown(at(row, "negative"), "{:.0f}"),
-                        as_number(at(row, "stable")).value_or(0) != 0 ? "yes" : "no", words && !words->empty() ? "  " : "",
-                        words ? *words : "");
-    text.erase(text.find_last_not_of(' ') + 1) += "\n";
-  }
-  return text;
 }
 
 }  // namespace elamin

@@ -1,46 +1,65 @@
 #pragma once
-// What a run shows while it works, and the table at its end.
+// What a run shows while it works.
 #include "core/timing.hpp"
 #include "path/point.hpp"
-#include "results/table.hpp"
+#include "results/ink.hpp"
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace elamin {
 
-/// One line of a point: step, load factor, energy, residual, stability.
-std::string progress_line(const PathPoint& point);
+/// One line of a point: step, load factor, energy, residual, stability, label, iterations, closed contacts where there are any.
+std::string progress_line(const PathPoint& point, int contacts = 0);
 
-/// terminal: one line that is overwritten, events stay. plain: lines, at most one for every tenth of the path or every
+/// terminal: one line that is overwritten, with a bar; events stay. plain: lines, at most one for every tenth of the path or every
 /// second, and one for every event. silent: nothing.
 class Progress {
  public:
   enum class Style { silent, plain, terminal };
   static Style style_for(std::FILE* out, bool quiet);
 
-  /// from, to: load factors of the path (or the first and the last step of a motion), for its tenths.
-  Progress(std::FILE* out, Style style, double from, double to);
+  /// from, to: load factors of the path (or the first and the last step of a motion), for its tenths. steady: it goes from one to the other
+  /// without turning, so that the time that is left can be told.
+  Progress(std::FILE* out, Style style, double from, double to, bool steady = true);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show(const PathPoint& point);
-  /// Any other line, at a value between from and to; `lasting`: it stays.
-  void show(const std::string& line, double at, bool lasting);
+  /// What comes now is one of several parts, from 0, between these load factors.
+  void enter(int part, int parts, double from, double to);
+
+  void show(const PathPoint& point, int contacts = 0);
+  /// Any other line, at a value between from and to.
+  void show(const std::string& line, double at);
+  /// That the next point takes its time.
+  void wait(const std::string& line);
+  /// A line that stays, above the overwritten one.
+  void keep(const std::string& line);
   /// Takes the overwritten line away; nothing else is shown after that.
   void finish();
 
  private:
+  /// A part of the overwritten line; the last ones that do not fit are left out.
+  struct Piece {
+    std::string words;
+    std::string (Ink::*ink)(const std::string&) const = nullptr;
+  };
+  double done(double at) const;                                      // part of the way, from 0 to 1
+  bool due(double at);                                               // a plain line
+  void draw(double at, std::vector<Piece> pieces);
+
   std::FILE* out_;
   Style style_;
-  double span_, last_ = 0;              // load factors
+  Ink ink_;
+  double from_, to_;                    // load factors
+  int part_ = 0, parts_ = 1;
+  bool steady_;
+  double last_ = 0;                     // at the last line
   bool first_ = true, pending_ = false;
   double last_time_ = 0;
   Stopwatch clock_;
 };
-
-/// The events of a run as a short table for reading, or a sentence that there were none.
-std::string closing_table(const Table& events);
 
 }  // namespace elamin

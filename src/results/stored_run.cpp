@@ -83,7 +83,7 @@ void read_summary(const std::string& file, StoredRun& run) {
     s.title = all.value("title", ""), s.status = all.value("status", ""), s.message = all.value("message", "");
     s.input = all.value("input", ""), s.input_sha256 = all.value("input_sha256", "");
     s.times = numbers(all.value("times", Json::object())), s.tolerances = numbers(all.value("tolerances", Json::object()));
-    s.zero_modes = all.value("zero_modes", std::vector<std::string>{});
+    s.zero_modes = all.value("zero_modes", std::vector<std::string>{}), s.warnings = all.value("warnings", std::vector<std::string>{});
     run.version = all.value("version", "");
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: is no summary of a run: {}", file, error.what()));

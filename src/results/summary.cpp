@@ -36,6 +36,7 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["title"] = summary.title;
   all["status"] = summary.status;
   all["message"] = summary.message;
+  all["warnings"] = summary.warnings;
   all["points"] = path.rows.size();
   all["events"] = Json::array();
   for (const Row& row : events.rows) all["events"].push_back(object(events, row));

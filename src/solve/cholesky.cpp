@@ -1,5 +1,6 @@
 #include "solve/cholesky.hpp"
 
+#include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 
 #include <cholmod.h>
@@ -65,6 +66,7 @@ void Cholesky::analyze(const SparseMatrix& pattern) {
   const OneThread one;
   cholmod_->release();
   if (pattern.cols() == 0) return;
+  const Doing doing("ordering the unknowns");
   cholmod_sparse a = view(pattern);
   cholmod_->factor = cholmod_analyze(&a, &cholmod_->common);
   if (!cholmod_->factor) throw std::runtime_error("CHOLMOD: the analysis of the pattern failed (out of memory?)");
@@ -75,6 +77,7 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
   assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   const Timed timed(seconds_);
   const OneThread one;
+  const Doing doing("factorising");
   cholmod_sparse a = view(hessian);
   double beta[2] = {shift, 0};
   const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, cholmod_->factor, &cholmod_->common);

@@ -1,6 +1,7 @@
 #include "solve/contact_equilibrium.hpp"
 
 #include "core/dense.hpp"
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
@@ -196,6 +197,7 @@ Report ContactEquilibrium::slide(State& state, const State& origin, const Vector
     const double residual = energy_.relative(energy_.gradient());
     const double left = amount - mode.dot(energy_.kinematics().difference(origin, state));
     const double error = std::max({residual, worst_gap(state), std::abs(left) / size});
+    at_iteration(report.iterations, residual);
     if (!std::isfinite(error) || !factorize_near(0)) break;
     ++report.factorizations;
     Vector gaps(static_cast<Eigen::Index>(gaps_.size())), rates(gaps.size());

@@ -1,5 +1,6 @@
 #include "solve/factors.hpp"
 
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "solve/limits.hpp"
 #include "solve/ritz.hpp"
@@ -119,6 +120,7 @@ std::optional<double> Factors::make_positive_from(double shift, double growth) {
 EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held) {
   assert(start.rows() == energy_.dofs() && start.cols() > 0);
   const Eigen::Index block = start.cols();
+  const Doing doing("looking for eigenvalues");
   if (!factorize_holding(held)) return {Vector::Zero(block), start};
   Eigen::MatrixXd x = start;
   Vector values = Vector::Zero(block);
@@ -141,6 +143,7 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
   count = std::min(count, n);
   const int block = std::min(n, count + 4);
   if (count == 0) return {Vector(0), Eigen::MatrixXd(n, 0)};
+  const Doing doing("looking for eigenvalues");
 
   Eigen::MatrixXd x = starting_block(n, block);
   double shift = guess;

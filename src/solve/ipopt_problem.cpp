@@ -1,6 +1,7 @@
 #include "solve/ipopt_problem.hpp"
 
 #include "core/dense.hpp"
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "solve/limits.hpp"
@@ -134,6 +135,7 @@ bool IpoptProblem::intermediate_callback(Ipopt::AlgorithmMode mode, Index iterat
                                          Number shift, Number, Number, Index, const Ipopt::IpoptData* data,
                                          Ipopt::IpoptCalculatedQuantities*) {
   if (iteration > 0) ++report_.iterations;
+  at_iteration(report_.iterations, report_.residual);
   if (interrupted()) return false;
   if (mode == Ipopt::RestorationPhaseMode) {
     if (arrived_ && free_) remember(at_);

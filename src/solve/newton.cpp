@@ -1,6 +1,7 @@
 #include "solve/newton.hpp"
 
 #include "core/dense.hpp"
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
@@ -39,6 +40,7 @@ void Newton::record(Report& report, double step, double shift) const {
   report.energy = energy_.last_terms().total();
   report.residual = residual();
   report.history.push_back({report.energy, report.residual, step, shift});
+  at_iteration(report.iterations, report.residual);
 }
 
 Report Newton::finish(const State& state, Report report, const Halt& halt) {

@@ -1,6 +1,7 @@
 #include "solve/nlopt_search.hpp"
 
 #include "core/dense.hpp"
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "solve/limits.hpp"
@@ -86,7 +87,7 @@ bool NloptSearch::begin_round(bool from_forces) {
 void NloptSearch::keep(const State& state, double f, double residual) {
   best_ = state, best_value_ = f, best_residual_ = residual;
   last_gain_ = looks_;
-  ++report_.iterations;
+  at_iteration(++report_.iterations, residual);
   report_.energy = energy_.last_terms().total(), report_.residual = residual;
   if (report_.history.size() < limits::nlopt::most_entries)
     report_.history.push_back({report_.energy, residual, infinity_norm(energy_.kinematics().difference(base_, state)), shift_});

@@ -1,5 +1,6 @@
 #include "solve/pivoted.hpp"
 
+#include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 
 #include <dmumps_c.h>
@@ -75,6 +76,7 @@ void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
   m.id.n = n + borders;
   m.id.nnz = static_cast<std::int64_t>(m.rows.size());
   m.id.irn = m.rows.data(), m.id.jcn = m.columns.data(), m.id.a = m.values.data();
+  const Doing doing("ordering the unknowns");
   m.call(1);
   if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the analysis failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
 }
@@ -94,6 +96,7 @@ bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const E
     const Eigen::Index i = m.columns[k] - 1, b = m.rows[k] - 1 - hessian.rows();
     m.values[k] = i < hessian.rows() ? largest * borders(i, b) : 0.0;
   }
+  const Doing doing("factorising");
   for (int attempt = 0; attempt < 6; ++attempt) {
     m.call(2);
     if (m.id.infog[0] != -8 && m.id.infog[0] != -9) break;   // workspace too small for the delayed pivots

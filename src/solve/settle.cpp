@@ -1,6 +1,7 @@
 #include "solve/settle.hpp"
 
 #include "core/dense.hpp"
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
@@ -53,7 +54,7 @@ class Descend {
       const double residual = energy_.relative(energy_.gradient());
       report_.history.push_back({energy_.last_terms().total(), residual, moved_, shift_});
       if (residual <= tolerance) return true;
-      ++report_.iterations;
+      at_iteration(++report_.iterations, residual);
       if (step(state)) refused = 0;
       else if (++refused > limits::most_refused) return false;
     }

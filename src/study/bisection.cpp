@@ -1,3 +1,4 @@
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
@@ -32,7 +33,13 @@ class Halving {
 
   Side run(const PreparedRun& prepared, double value) {
     const std::string name = run_name(++count_, 10, prepared.swept);
+    Progress progress(stdout, Progress::style_for(stdout, options_.quiet), 0, 1);
+    const Stopwatch watch;
+    std::optional<Heartbeat> at_work(std::in_place, heartbeat, [&](const std::string&) {
+      progress.wait(fmt::format("run {}: {}: at work for {:.0f} s", count_, name, watch.seconds()));
+    });
     const SingleResult r = run_single(prepared.problem, prepared.model, options_.directory + "/" + name, options_.force, Progress::Style::silent);
+    at_work.reset(), progress.finish();
     rows_[value] = sweep_row(swept_values(prepared), status_name(r.status), r.path, r.events, first_.problem);
     status_ = std::max(status_, exit_status(r));
     verdicts_.insert(verdicts_.end(), r.verdicts.begin(), r.verdicts.end());
@@ -97,6 +104,9 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
   const std::string keys = fmt::format("{}", fmt::join(b.keys, ", "));
   const std::string message =
       interrupted() ? "interrupted"
+      : changes && (at_lo == Side::missing || at_hi == Side::missing)
+          ? fmt::format("{} at {} is missing with {} = {:.17g} and there with {:.17g}", b.observable, b.at, keys, at_lo == Side::missing ? b.lo : b.hi,
+                        at_lo == Side::missing ? b.hi : b.lo)
       : changes     ? fmt::format("{} at {} passes {:.10g} for {} between {:.17g} ({}) and {:.17g} ({})", b.observable, b.at, b.level,
                                   keys, b.lo, name_of(at_lo), b.hi, name_of(at_hi))
                     : fmt::format("{} at {} is {} at both ends, {} = {:.10g} and {:.10g}; there is no threshold to find between",

@@ -22,9 +22,12 @@ std::string describe_bodies(const Model& model, const Structure& structure);
 /// Warnings of pairs whose cores overlap at a state that the energy has been evaluated at, or starts from.
 std::vector<std::string> core_overlaps(const Model& model, const Energy& energy, const State& state);
 
-/// Warnings of what a model is silent about: rest angles that are not straight where no plane gives them a sign, and bonds without
-/// stiffness.
-std::vector<std::string> doubts(const Model& model);
+/// Warnings of friction, damping and drag in a study that has no motion.
+std::vector<std::string> idle_at_rest(const Problem& problem);
+
+/// Warnings of what a model is silent about: rest angles that are not straight where no plane gives them a sign, bonds without
+/// stiffness, and what acts in dynamics only in a study of equilibria.
+std::vector<std::string> doubts(const Problem& problem, const Model& model);
 
 /// One or two lines for each contact law and each wall: its numbers, and who overlaps or is on the wrong side at `state`.
 std::string describe_contacts(const Model& model, Energy& energy, const State& state);

@@ -74,10 +74,10 @@ std::vector<std::string> core_overlaps(const Model& model, const Energy& energy,
   const BodyRules& rules = energy.body_rules();
   for (const auto& [i, j] : energy.body_neighbours().pairs()) {
     if (!cores_overlap(rules.body(i, state), rules.body(j, state)) || ++count > most) continue;
-    lines.push_back(fmt::format("warning: the cores of {} and {} overlap, deeper than their rounding; no law of rounded bodies means much there",
+    lines.push_back(fmt::format("the cores of {} and {} overlap, deeper than their rounding; no law of rounded bodies means much there",
                                 called(model, i), called(model, j)));
   }
-  if (count > most) lines.push_back(fmt::format("warning: and the cores of {} more pairs overlap", count - most));
+  if (count > most) lines.push_back(fmt::format("and the cores of {} more pairs overlap", count - most));
   return lines;
 }
 

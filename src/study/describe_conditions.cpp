@@ -80,4 +80,30 @@ std::string describe_timestep(Energy& energy, const State& state, double timeste
                      limit.stable, limit.frequency, limit.advised());
 }
 
+std::vector<std::string> idle_at_rest(const Problem& problem) {
+  std::vector<std::string> lines;
+  if (problem.in_time()) return lines;
+  const auto idle = [&](const TablePlace& table, bool acts, const char* key) {
+    if (!acts) return;
+    const auto at = table.keys.find(key);
+    const Place place = at == table.keys.end() ? Place{table} : at->second;
+    lines.push_back(Mistake{problem.file, place.line, place.column, table.key + "." + key,
+                                          "acts in dynamics only; in this study, of equilibria, it does nothing"}.sentence());
+  };
+  const auto damping = [&](const TablePlace& table, const DampingKeys& d) {
+    idle(table, d.model != ContactDamping::Model::none, "damping"), idle(table, d.friction > 0, "friction");
+  };
+  for (const ContactTable& t : problem.contacts) {
+    damping(t.place, t.damping);
+    idle(t.place, t.rounded.mu > 0, "mu"), idle(t.place, t.rounded.c_n > 0, "c_n"), idle(t.place, t.rounded.c_t > 0, "c_t");
+    idle(t.place, t.rounded.slip > 0, "slip");
+  }
+  for (const WallTable& t : problem.walls) {
+    damping(t.place, t.damping);
+    idle(t.place, t.c_n > 0, "c_n"), idle(t.place, t.place.written("c_t") && t.c_t.value_or(0) > 0, "c_t");
+  }
+  for (const ViscosityTable& t : problem.viscosity) idle(t.place, t.coefficient > 0, "coefficient");
+  return lines;
+}
+
 }  // namespace elamin

@@ -1,6 +1,7 @@
 #include "study/describe.hpp"
 
 #include "laws/section.hpp"
+#include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "model/sheet.hpp"
 
@@ -205,8 +206,8 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
   return text;
 }
 
-std::vector<std::string> doubts(const Model& model) {
-  std::vector<std::string> lines;
+std::vector<std::string> doubts(const Problem& problem, const Model& model) {
+  std::vector<std::string> lines = idle_at_rest(problem);
   const auto remedy = [&](const Structure& s) {
     const auto x = model.start.position.middleCols(s.first, s.count);
     const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
@@ -221,12 +222,12 @@ std::vector<std::string> doubts(const Model& model) {
     };
     const auto slack = [&](const Bond& b) { return own(b.particles[0]) && model.bond_types[b.type].stiffness == 0; };
     if (!model.plane_normal && std::any_of(model.angles.begin(), model.angles.end(), bent))
-      lines.push_back(fmt::format("warning: {} '{}' has rest angles that are not straight; in space an angle has no sign and is at rest on either "
+      lines.push_back(fmt::format("{} '{}' has rest angles that are not straight; in space an angle has no sign and is at rest on either "
                                   "side: a path may end where the structure becomes flat{}", s.kind, s.name, remedy(s)));
     if (const auto first = std::find_if(model.bonds.begin(), model.bonds.end(), slack); first != model.bonds.end())
-      lines.push_back(fmt::format("warning: {} of the bonds of {} '{}' have stiffness 0 and hold nothing; the first joins particles {} and {}",
-                                  std::count_if(model.bonds.begin(), model.bonds.end(), slack), s.kind, s.name, model.id[first->particles[0]],
-                                  model.id[first->particles[1]]));
+      lines.push_back(fmt::format("{} of the bonds of {} '{}' have stiffness 0 and hold nothing; the first joins {} and {}",
+                                  std::count_if(model.bonds.begin(), model.bonds.end(), slack), s.kind, s.name, called(model, first->particles[0]),
+                                  called(model, first->particles[1])));
   }
   return lines;
 }

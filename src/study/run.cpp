@@ -1,6 +1,7 @@
 #include "study/run.hpp"
 
 #include "core/parallel.hpp"
+#include "results/closing.hpp"
 #include "results/summary.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
@@ -22,15 +23,21 @@ std::string default_directory(const std::string& file) {
 
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
+// What was found, what is doubtful of it, and how it ended.
+std::string closing(StudyType study, const SingleResult& result, const Ink& ink) {
+  std::string text = study == StudyType::path    ? closing_table(result.events, ink)
+                     : study == StudyType::modes ? closing_modes(result.modes, ink)
+                                                 : closing_values(result.path, result.observables, ink);
+  for (const std::string& name : result.zero_modes) text += fmt::format("free at the end: {}\n", name);
+  for (const std::string& warning : result.warnings) text += ink.warning("warning") + ": " + warning + "\n";
+  const std::string status = status_name(result.status);
+  return text + fmt::format("{}: {}\n", result.status == Status::converged ? ink.good(status) : ink.bad(status), result.why);
+}
+
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   const SingleResult result = run_single(run.problem, run.model, options.directory, options.force, Progress::style_for(stdout, options.quiet));
-  if (!options.quiet) {
-    if (!run.problem.in_time()) fmt::print("{}", closing_table(result.events));
-    for (const std::string& name : result.zero_modes) fmt::print("free at the end: {}\n", name);
-    fmt::print("{}: {}\nwritten: {}\n", status_name(result.status), result.why, options.directory);
-  } else if (result.status != Status::converged) {
-    fmt::print(stderr, "{}: {}\n", status_name(result.status), result.why);
-  }
+  if (!options.quiet) fmt::print("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory);
+  else if (result.status != Status::converged) fmt::print(stderr, "{}: {}\n", status_name(result.status), result.why);
   return {exit_status(result), options.directory, result.verdicts};
 }
 

@@ -2,6 +2,7 @@
 // One run of one problem into one directory.
 #include "model/model.hpp"
 #include "results/expectations.hpp"
+#include "results/mode.hpp"
 #include "results/progress.hpp"
 #include "results/table.hpp"
 #include "solve/report.hpp"
@@ -12,7 +13,10 @@ struct [[nodiscard]] SingleResult {
   Status status = Status::converged;
   std::string why;
   Table path, events;
+  std::vector<std::string> observables;    // their columns in path
+  std::vector<Mode> modes;                 // of a study of modes
   std::vector<std::string> zero_modes;     // of the last equilibrium, by name
+  std::vector<std::string> warnings;       // as in summary.json
   std::vector<Verdict> verdicts;
 };
 

@@ -1,5 +1,6 @@
 #include "study/sweep.hpp"
 
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
@@ -61,6 +62,11 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   std::vector<std::exception_ptr> failures(runs.size());
   std::atomic<std::size_t> next{0}, finished{0};
   std::mutex printing;
+  Progress progress(stdout, Progress::style_for(stdout, options.quiet), 0, static_cast<double>(runs.size()));
+  const Heartbeat at_work(heartbeat, [&](const std::string&) {
+    const std::lock_guard lock(printing);
+    progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), runs.size(), watch.seconds()));
+  });
   const auto work = [&] {
     set_threads(1);
     for (std::size_t k; (k = next++) < runs.size() && !interrupted();) {
@@ -71,7 +77,10 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
                                                  results[k].events, first));
         const std::lock_guard lock(printing);
         ++finished;
-        if (!options.quiet) fmt::print("run {} of {}: {}: {}\n", finished.load(), runs.size(), name, results[k].why);
+        const std::size_t warnings = results[k].warnings.size();
+        progress.keep(fmt::format("run {} of {}: {}: {}{}", finished.load(), runs.size(), name, results[k].why,
+                                  warnings == 0 ? "" : fmt::format(" ({} warning{})", warnings, warnings == 1 ? "" : "s")));
+        progress.show("", static_cast<double>(finished.load()));
       } catch (...) {
         failures[k] = std::current_exception();
       }
@@ -82,6 +91,10 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   work();
   workers.clear();
   set_threads(options.threads);
+  {
+    const std::lock_guard lock(printing);
+    progress.finish();
+  }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
 

@@ -5,6 +5,9 @@
 
 namespace elamin {
 
+/// Seconds between two lines of a sweep that only say that it is at work.
+inline constexpr double heartbeat = 4;
+
 /// Runs side by side, each on one thread; sweep.csv has a row for each. `options` are complete (threads, directory).
 RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options);
 

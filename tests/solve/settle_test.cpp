@@ -1,11 +1,18 @@
 #include "catch.hpp"
 #include "chain.hpp"
 #include "core/heartbeat.hpp"
+#include "core/timing.hpp"
 #include "model/grains.hpp"
 #include "solve/method.hpp"
 #include "solve/settle.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <mutex>
 #include <random>
+#include <set>
+#include <stdexcept>
+#include <thread>
 
 using namespace elamin;
 using Catch::Matchers::Contains;
@@ -120,21 +127,48 @@ TEST_CASE("grains that overlap in a box with room part until no force is left", 
   }
 }
 
-TEST_CASE("long work tells that it is at work", "[solve][settle]") {
+TEST_CASE("long work tells another thread what it does", "[solve][settle]") {
   const Model m = heap(30, 1, 1e5);
   Energy energy(m);
-  Newton newton(energy);
-  State state = m.start;
-  int inner = 0, outer = 0;
-  const Heartbeat all([&] { ++outer; });
-  Report report;
+  std::mutex mutex;
+  std::set<std::string> heard;
+  const auto listen = [&](const std::string& doing) {
+    const std::lock_guard lock(mutex);
+    heard.insert(doing);
+  };
+  const auto hears = [&](const std::string& words) {             // in good time
+    for (const Stopwatch watch; watch.seconds() < 20; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+      const std::lock_guard lock(mutex);
+      if (heard.count(words)) return true;
+    }
+    return false;
+  };
+  at_iteration(3, 1);                                            // nobody listens
+  const Heartbeat outer(1e-3, [](const std::string&) { throw std::runtime_error("is dropped"); });
   {
-    const Heartbeat at_work([&] { ++inner; });
-    report = minimise(newton, state, AutoOptions{});
+    const Heartbeat at_work(1e-3, listen);
+    CHECK(hears(""));
+    {
+      const Doing ordering("ordering the unknowns");
+      CHECK(hears("ordering the unknowns"));
+      const Doing inner("factorising");
+      at_iteration(7, 3e-5);
+      CHECK(hears("iteration 7, residual 3e-05, factorising"));
+    }
+    CHECK(hears("iteration 7, residual 3e-05"));
+    // A minimisation tells of its iterations and factors by itself.
+    const auto told = [&] {
+      const std::lock_guard lock(mutex);
+      return std::count_if(heard.begin(), heard.end(), [](const std::string& h) { return h.starts_with("iteration") && h.find("iteration 7,") != 0; }) > 1;
+    };
+    Newton newton(energy);
+    for (const Stopwatch watch; !told() && watch.seconds() < 20;) {
+      State state = m.start;
+      REQUIRE(minimise(newton, state, AutoOptions{}).converged());
+    }
+    CHECK(told());
   }
-  REQUIRE(report.converged());
-  CHECK(inner >= report.iterations);
-  CHECK(outer == 0);
-  newton.minimise(state);
-  CHECK(outer > 0);
+  const std::size_t before = heard.size();
+  at_iteration(123456, 1);
+  CHECK(heard.size() == before);
 }

@@ -49,6 +49,9 @@ TEST_CASE("an event that is missing is an outcome", "[bisection]") {
   CHECK(summary["threshold"][0] < truss_limit);
   CHECK(summary["threshold"][1] > truss_limit);
   CHECK(summary["outcomes"] == nlohmann::json({"missing", "above"}));
+  const std::string message = summary["message"];
+  CHECK(message.starts_with("lambda at limit:1 is missing with path.to = 0.0"));
+  CHECK(message.find(" and there with 0.0") != std::string::npos);
   CHECK(summary["tolerance"].get<double>() == Approx(0.07e-3).epsilon(1e-12));
 }
 

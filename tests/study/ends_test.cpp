@@ -84,7 +84,7 @@ TEST_CASE("a wall too soft for a weight is named", "[study][ends]") {
     const Ended e = run(grain("[0, 0, 0.6]", 0.5, 1, "xy") + wall("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]", 1), with(method));
     INFO(method << " " << e.answer.text);
     CHECK(e.answer.status == 2);
-    CHECK(e.says("the centre of particle 1 of 'g' is pressed"));
+    CHECK(e.says("the centre of g 1 is pressed"));
     CHECK(e.says("the wall 'w'"));
   }
   // Held from falling by a beam, on the wrong side of the wall.
@@ -159,7 +159,7 @@ type = "energy"
   const Ended e = run(on_another);
   INFO(e.answer.text);
   CHECK(e.answer.status == 2);
-  CHECK(e.says("the energy is not finite here: particle 1 of 'b' and particle 2 of 'b'"));
+  CHECK(e.says("the energy is not finite here: b 1 and b 2"));
   const ScratchDirectory scratch;
   const Answer command = elamin_says("energy '" + scratch.file("p.toml", on_another) + "'");
   CHECK(command.status == 2);
@@ -390,7 +390,7 @@ TEST_CASE("check and the log tell of rest angles without a sign and of bonds wit
   scratch.file("two.data", "two\n\n2 atoms\n1 bonds\n1 atom types\n1 bond types\n\n-2 2 xlo xhi\n-2 2 ylo yhi\n-2 2 zlo zhi\n\nBond Coeffs\n\n1 0.0 1.0\n\n"
                            "Atoms # hybrid sphere bond\n\n1 1 0.0 0.0 0.0 0.1 1.0 0\n2 1 1.0 0.0 0.0 0.1 1.0 0\n\nBonds\n\n1 1 1 2\n");
   CHECK(checked("[lammps]\ndata = \"two.data\"\natom_style = \"hybrid sphere bond\"\n[[support]]\ngroup = \"all\"\n")
-            .find("1 of the bonds of lammps 'lammps' have stiffness 0 and hold nothing; the first joins particles 1 and 2") != std::string::npos);
+            .find("1 of the bonds of lammps 'lammps' have stiffness 0 and hold nothing; the first joins particle 1 and particle 2") != std::string::npos);
 }
 
 TEST_CASE("what is no equilibrium is not called stable, and a path tells what Newton's method does in it", "[study][ends]") {
