@@ -9,16 +9,16 @@ namespace elamin {
 
 namespace {
 
-std::string told(const detail::Work& work) {
-  const char* doing = work.doing;
-  const int iteration = work.iteration;
-  if (iteration < 0) return doing;
-  return fmt::format("iteration {}, residual {:.0e}{}{}", iteration, work.residual.load(), *doing ? ", " : "", doing);
+std::vector<std::string> told(const detail::Work& work) {
+  std::vector<std::string> all;
+  if (const int k = work.iteration; k >= 0) all = {fmt::format("iteration {}", k), fmt::format("residual {:.0e}", work.residual.load())};
+  if (const char* doing = work.doing; *doing) all.push_back(doing);
+  return all;
 }
 
 }  // namespace
 
-Heartbeat::Heartbeat(double seconds, std::function<void(const std::string&)> on_beat)
+Heartbeat::Heartbeat(double seconds, OnBeat on_beat)
     : before_(std::exchange(detail::work, &work_)), thread_([this, seconds, f = std::move(on_beat)] { beat(seconds, f); }) {}
 
 Heartbeat::~Heartbeat() {
@@ -31,7 +31,7 @@ Heartbeat::~Heartbeat() {
   detail::work = before_;
 }
 
-void Heartbeat::beat(double seconds, const std::function<void(const std::string&)>& on_beat) {
+void Heartbeat::beat(double seconds, const OnBeat& on_beat) {
   std::unique_lock lock(mutex_);
   while (!ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return over_; })) {
     lock.unlock();

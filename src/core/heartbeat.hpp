@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace elamin {
 
@@ -39,17 +40,18 @@ class Doing {
   const char* before_;
 };
 
-/// As long as it lives `on_beat` is called every `seconds`, from another thread, with what the thread that made it is doing:
-/// "iteration 7, residual 3e-05, factorising". What on_beat throws is dropped.
+/// As long as it lives `on_beat` is called every `seconds`, from another thread, with what the thread that made it is doing, as far as that
+/// tells: "iteration 7", "residual 3e-05", "factorising". What on_beat throws is dropped.
 class Heartbeat {
  public:
-  Heartbeat(double seconds, std::function<void(const std::string& doing)> on_beat);
+  using OnBeat = std::function<void(const std::vector<std::string>& doing)>;
+  Heartbeat(double seconds, OnBeat on_beat);
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
 
  private:
-  void beat(double seconds, const std::function<void(const std::string&)>& on_beat);
+  void beat(double seconds, const OnBeat& on_beat);
 
   detail::Work work_;
   detail::Work* before_;

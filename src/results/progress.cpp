@@ -88,9 +88,12 @@ void Progress::show(const std::string& line, double at) {
   if (style_ == Style::terminal) draw(at, {{line}});
 }
 
-void Progress::wait(const std::string& line) {
+void Progress::wait(const std::string& line, const std::vector<std::string>& pieces) {
   if (style_ == Style::plain) keep(line);
-  if (style_ == Style::terminal) draw(last_, {{line}});
+  if (style_ != Style::terminal) return;
+  std::vector<Piece> all;
+  for (const std::string& p : pieces) all.push_back({p});
+  draw(last_, all.empty() ? std::vector<Piece>{{line}} : std::move(all));
 }
 
 void Progress::keep(const std::string& line) {

@@ -33,8 +33,8 @@ class Progress {
   void show(const PathPoint& point, int contacts = 0);
   /// Any other line, at a value between from and to.
   void show(const std::string& line, double at);
-  /// That the next point takes its time.
-  void wait(const std::string& line);
+  /// That the next point takes its time; pieces: the same for the overwritten line, the last ones may be left out.
+  void wait(const std::string& line, const std::vector<std::string>& pieces = {});
   /// A line that stays, above the overwritten one.
   void keep(const std::string& line);
   /// Takes the overwritten line away; nothing else is shown after that.

@@ -35,7 +35,7 @@ class Halving {
     const std::string name = run_name(++count_, 10, prepared.swept);
     Progress progress(stdout, Progress::style_for(stdout, options_.quiet), 0, 1);
     const Stopwatch watch;
-    std::optional<Heartbeat> at_work(std::in_place, heartbeat, [&](const std::string&) {
+    std::optional<Heartbeat> at_work(std::in_place, heartbeat, [&](const auto&) {
       progress.wait(fmt::format("run {}: {}: at work for {:.0f} s", count_, name, watch.seconds()));
     });
     const SingleResult r = run_single(prepared.problem, prepared.model, options_.directory + "/" + name, options_.force, Progress::Style::silent);

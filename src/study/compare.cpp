@@ -1,6 +1,7 @@
 #include "study/compare.hpp"
 
 #include "core/error.hpp"
+#include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
@@ -8,6 +9,7 @@
 #include "model/entities.hpp"
 #include "input/build.hpp"
 #include "input/read.hpp"
+#include "results/progress.hpp"
 #include "results/summary.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
@@ -95,6 +97,10 @@ Ran run(const Problem& problem, const Model& model, const std::optional<StateTai
       .modes = [](const PathPoint&, const std::vector<Mode>&) {}, .note = [](const std::string&) {},
       .moment = [](const Moment&, bool) {}, .progress = [](const std::string&, double) {}};
   const Stopwatch watch;
+  Progress progress(stderr, is_terminal(stderr) ? Progress::Style::terminal : Progress::Style::silent, 0, limit);
+  const Heartbeat at_work(1, [&](const std::vector<std::string>& doing) {
+    progress.show(fmt::format("{}: {:.0f} s  {}", row.method, watch.seconds(), fmt::join(doing, "  ")), watch.seconds());
+  });
   Deadline deadline(limit);
   const Outcome outcome = trace(problem, model, stored, sink);
   row.out_of_time = deadline.finish() && outcome.status != Status::converged;

@@ -1,6 +1,5 @@
 #include "study/single.hpp"
 
-#include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "input/resolved.hpp"
 #include "results/run_directory.hpp"
@@ -9,19 +8,16 @@
 #include "study/run.hpp"
 #include "study/describe.hpp"
 #include "study/strain_watch.hpp"
+#include "study/teller.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <mutex>
 
 namespace elamin {
 
 namespace {
-
-constexpr double longest_silence = 4, glance = 1;      // seconds without a line; between two looks at long work
 
 std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
 
@@ -31,10 +27,6 @@ std::string log_line(const PathPoint& p) {
                                  p.report.iterations, p.stability.negative, p.stability.zero, p.report.why);
   for (const std::string& name : p.stability.zero_modes) line += "; zero mode: " + name;
   return line;
-}
-
-int closed(const std::vector<Touch>& touches) {
-  return static_cast<int>(std::count_if(touches.begin(), touches.end(), [](const Touch& t) { return t.bears || t.gap < 0; }));
 }
 
 std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics) {
@@ -50,41 +42,23 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   std::optional<StateTail> stored;                             // it may be in the directory that is emptied now
   if (!problem.path.start.empty()) stored = read_tail(problem.path.start);
   RunDirectory results(directory, problem, model, resolved_toml(problem), force);
-  std::mutex telling;                                          // the heartbeat tells from a thread of its own
-  const auto log = [&](const std::string& line) {
-    const std::lock_guard lock(telling);
-    results.log(line);
-  };
-  log(fmt::format("elamin {}: {}", version(), problem.file));
+  Teller teller(problem, results, style);
+  teller.log(fmt::format("elamin {}: {}", version(), problem.file));
   Energy* energy = nullptr;                                    // of the stage
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
   double setup = 0;
 
-  const bool in_time = problem.in_time(), is_path = problem.study == StudyType::path;
-  const bool steady = in_time || (problem.path.method == PathMethod::load_steps && problem.path.branches == 0 && problem.path.deflate == 0);
-  Progress progress(stdout, style, in_time ? 0 : starting_load_factor(problem), in_time ? problem.dynamics.steps : problem.path.to, steady);
   Summary summary;
   StrainWatch strains;
   std::vector<Mode> found;
-  Stopwatch since_point, since_line;
-  std::string after = is_path ? "the first equilibrium" : problem.study == StudyType::modes ? "the modes" : "the equilibrium";      // what is looked for
-  const auto warn = [&](const std::string& warning) { log("warning: " + warning), summary.warnings.push_back(warning); };
-  const Heartbeat at_work(glance, [&](const std::string& doing) {
-    const std::lock_guard lock(telling);
-    if (in_time || since_point.seconds() < longest_silence / 2) return;
-    const std::string line = fmt::format("at work on {} for {:.0f} s{}{}", after, since_point.seconds(), doing.empty() ? "" : ": ", doing);
-    const bool silent = since_line.seconds() >= longest_silence;
-    if (silent) results.log(line), since_line = Stopwatch();
-    if (silent || style == Progress::Style::terminal) progress.wait(line);
-  });
   const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
     if (last && point.label.empty()) point.label = "final";
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
       const Iteration& i = point.report.history[k];
-      log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy), number("{:.3g}", i.residual),
-                      number("{:.3g}", i.step), number("{:.3g}", i.shift)));
+      teller.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy), number("{:.3g}", i.residual),
+                             number("{:.3g}", i.step), number("{:.3g}", i.shift)));
     }
-    log(log_line(point));
+    teller.log(log_line(point));
     const Doing writing("writing");
     const std::vector<Touch> touches = observed_touches(*energy, point.state, results.record().observables());
     results.add(point, energy->forces(point.state), touches, eigenvalues);
@@ -95,26 +69,22 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
       for (const std::string& label : std::set<std::string>{point.label, last ? "final" : point.label})
         results.add_fields(label, energy->model(), point.state, fields);
     }
-    const double at = point.state.load_factor;
-    strains.look(energy->model(), point.state, fmt::format("load factor {:.7g}", at));
+    strains.look(energy->model(), point.state, fmt::format("load factor {:.7g}", point.state.load_factor));
     summary.zero_modes = point.stability.zero_modes;
-    const std::lock_guard lock(telling);
-    if (is_path) progress.show(point, closed(touches));
-    after = fmt::format("what comes after step {}, load factor {:.7g},", point.step, at);
-    since_point = since_line = Stopwatch();
+    teller.found(point, touches);
   };
   const Sink sink{
       .stage = [&](const Stage& stage, Energy& in_force) {
         energy = &in_force;
         results.enter(stage, energy->model());
-        if (const int parts = static_cast<int>(problem.stages.size()); parts > 1) progress.enter(stage.number, parts, stage.path.from, stage.path.to);
+        teller.enter(stage);
         if (problem.study == StudyType::path && problem.path.eigenvalues > 0) lowest.emplace(energy->model(), problem.path.eigenvalues);
-        log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
-                        stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), energy->model().bonds.size(),
-                        energy->model().angles.size(), energy->dofs(), energy->hessian().nonZeros()));
+        teller.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
+                               stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), energy->model().bonds.size(),
+                               energy->model().angles.size(), energy->dofs(), energy->hessian().nonZeros()));
         if (setup > 0) return;
-        for (const std::string& warning : doubts(problem, model)) warn(warning);
-        for (const std::string& warning : core_overlaps(model, *energy, model.restart.value_or(model.start))) warn(warning);
+        for (const std::string& warning : doubts(problem, model)) teller.warn(warning);
+        for (const std::string& warning : core_overlaps(model, *energy, model.restart.value_or(model.start))) teller.warn(warning);
         setup = total.seconds();
       },
       .point = [&](const PathPoint& point, bool last) {
@@ -127,7 +97,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         for (const Mode& m : modes) results.add_mode(m, point.state);
         found = modes;
       },
-      .note = [&](const std::string& note) { log(note); },
+      .note = [&](const std::string& note) { teller.log(note); },
       .moment = [&](const Moment& moment, bool frame) {
         const Motion& m = moment.motion;
         const std::vector<Touch> touches = observed_touches(*energy, m.state, results.record().observables());
@@ -136,15 +106,13 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         if (!moment.label.empty()) results.add_fields(moment.label, energy->model(), m.state, fields_at(*energy, m.state, touches));
         if (frame) results.add_frame(m);
       },
-      .progress = [&](const std::string& line, double step) { progress.show(line, step); }};
+      .progress = [&](const std::string& line, double step) { teller.moved(line, step); }};
   const Outcome outcome = trace(problem, model, stored, sink);
-  {
-    const std::lock_guard lock(telling);
-    progress.finish();
-  }
-  for (const std::string& warning : strains.warnings()) warn(warning);
-  log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
+  teller.finish();
+  for (const std::string& warning : strains.warnings()) teller.warn(warning);
+  teller.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
 
+  summary.warnings = teller.warnings();
   summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
   summary.input = problem.file, summary.input_sha256 = problem.sha256;
   summary.times = {{"setup", setup}, {"total", total.seconds()}};

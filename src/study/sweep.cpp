@@ -63,7 +63,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   std::atomic<std::size_t> next{0}, finished{0};
   std::mutex printing;
   Progress progress(stdout, Progress::style_for(stdout, options.quiet), 0, static_cast<double>(runs.size()));
-  const Heartbeat at_work(heartbeat, [&](const std::string&) {
+  const Heartbeat at_work(heartbeat, [&](const auto&) {
     const std::lock_guard lock(printing);
     progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), runs.size(), watch.seconds()));
   });

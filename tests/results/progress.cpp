@@ -71,12 +71,12 @@ TEST_CASE("the bar goes on through the stages, and what does not fit is left out
   {
     Progress progress(out, Progress::Style::terminal, 0, 1);
     progress.enter(1, 4, 2, 1);
-    progress.wait("at work");
+    progress.wait("at work on what comes after step 3", {"12 s at work", "iteration 7", std::string(40, 'x'), "y"});
     progress.keep("a line");
     progress.show(std::string(80, 'x'), 1.5);               // half of the second of four
   }
   std::fclose(out);
-  CHECK(text_of(scratch / "out") == "\r████            ▏ 25 %  at work\x1b[K\ra line\x1b[K\n\r██████          ▏ 37 %\x1b[K\r\x1b[K");
+  CHECK(text_of(scratch / "out") == "\r████            ▏ 25 %  12 s at work  iteration 7  y\x1b[K\ra line\x1b[K\n\r██████          ▏ 37 %\x1b[K\r\x1b[K");
 }
 
 TEST_CASE("the closing table lists the events", "[progress]") {

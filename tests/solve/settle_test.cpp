@@ -6,6 +6,8 @@
 #include "solve/method.hpp"
 #include "solve/settle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <mutex>
@@ -132,9 +134,9 @@ TEST_CASE("long work tells another thread what it does", "[solve][settle]") {
   Energy energy(m);
   std::mutex mutex;
   std::set<std::string> heard;
-  const auto listen = [&](const std::string& doing) {
+  const auto listen = [&](const std::vector<std::string>& doing) {
     const std::lock_guard lock(mutex);
-    heard.insert(doing);
+    heard.insert(fmt::format("{}", fmt::join(doing, ", ")));
   };
   const auto hears = [&](const std::string& words) {             // in good time
     for (const Stopwatch watch; watch.seconds() < 20; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
@@ -144,7 +146,7 @@ TEST_CASE("long work tells another thread what it does", "[solve][settle]") {
     return false;
   };
   at_iteration(3, 1);                                            // nobody listens
-  const Heartbeat outer(1e-3, [](const std::string&) { throw std::runtime_error("is dropped"); });
+  const Heartbeat outer(1e-3, [](const auto&) { throw std::runtime_error("is dropped"); });
   {
     const Heartbeat at_work(1e-3, listen);
     CHECK(hears(""));
