@@ -1,6 +1,9 @@
 #include "study/strain_watch.hpp"
 
 #include "energy/groups.hpp"
+#include "energy/law_group.hpp"
+#include "laws/cosine_angle.hpp"
+#include "laws/harmonic_bond.hpp"
 #include "model/entities.hpp"
 
 #include <fmt/format.h>
