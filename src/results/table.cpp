@@ -20,9 +20,9 @@ std::string csv_quoted(const std::string& text) {
   return all + "\"";
 }
 
-std::string csv_line(const Row& row) {
+std::string csv_line(const Row& row, Digits digits = Digits::shortest) {
   std::string line;
-  for (std::size_t i = 0; i < row.size(); ++i) (line += i > 0 ? "," : "") += csv_text(row[i]);
+  for (std::size_t i = 0; i < row.size(); ++i) (line += i > 0 ? "," : "") += csv_text(row[i], digits);
   return line += '\n';
 }
 
@@ -40,10 +40,13 @@ std::optional<double> as_number(const Cell& cell) {
   return std::nullopt;
 }
 
-std::string csv_text(const Cell& cell) {
+std::string csv_text(const Cell& cell, Digits digits) {
   if (const bool* b = std::get_if<bool>(&cell)) return *b ? "true" : "false";
   if (const int* i = std::get_if<int>(&cell)) return std::to_string(*i);
-  if (const double* d = std::get_if<double>(&cell)) return std::isfinite(*d) ? fmt::format("{:.17g}", *d) : "";
+  if (const double* d = std::get_if<double>(&cell)) {
+    if (!std::isfinite(*d)) return "";
+    return digits == Digits::all ? fmt::format("{:.17g}", *d) : fmt::format("{}", *d);
+  }
   if (const std::string* s = std::get_if<std::string>(&cell)) return csv_quoted(*s);
   return "";
 }
@@ -54,8 +57,8 @@ void write_csv(const std::string& file, const Table& table) {
   write_text(file, text);
 }
 
-CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns)
-    : file_(std::move(file)), columns_(columns.size()), out_(file_, std::ios::binary) {
+CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits)
+    : file_(std::move(file)), columns_(columns.size()), digits_(digits), out_(file_, std::ios::binary) {
   if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
   add(Row(columns.begin(), columns.end()));
 }
@@ -63,7 +66,7 @@ CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns)
 void CsvFile::add(const Row& row) {
   if (row.size() != columns_)
     throw std::logic_error(fmt::format("{}: a row of {} entries for {} columns", file_, row.size(), columns_));
-  out_ << csv_line(row) << std::flush;
+  out_ << csv_line(row, digits_) << std::flush;
   if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
 }
 

@@ -23,8 +23,11 @@ int column_index(const std::vector<std::string>& columns, const std::string& nam
 /// A cell as a number (true 1, false 0); nothing for text, empty cells and what is not finite.
 std::optional<double> as_number(const Cell& cell);
 
-/// A cell as it stands in a CSV file (RFC 4180): %.17g, true/false, text in quotes where it needs them; empty if empty.
-std::string csv_text(const Cell& cell);
+/// How a number is written: with as few digits as read back to the same double, or with all 17.
+enum class Digits { shortest, all };
+
+/// A cell as it stands in a CSV file (RFC 4180): a number, true/false, text in quotes where it needs them; empty if empty.
+std::string csv_text(const Cell& cell, Digits digits = Digits::shortest);
 
 /// Writes a whole table as a CSV file. Throws InputError if it cannot be written.
 void write_csv(const std::string& file, const Table& table);
@@ -33,12 +36,13 @@ void write_csv(const std::string& file, const Table& table);
 class CsvFile {
  public:
   /// Creates the file and writes the header. Throws InputError if it cannot be written, as add does.
-  CsvFile(std::string file, const std::vector<std::string>& columns);
+  CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits = Digits::shortest);
   void add(const Row& row);
 
  private:
   std::string file_;
   std::size_t columns_;
+  Digits digits_;
   std::ofstream out_;
 };
 

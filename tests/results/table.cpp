@@ -7,9 +7,11 @@
 #include "results/sweep_table.hpp"
 #include "scratch_directory.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <random>
 #include <thread>
 
 using namespace elamin;
@@ -26,6 +28,18 @@ TEST_CASE("cells of a CSV file", "[table]") {
   CHECK(csv_text(std::numeric_limits<double>::infinity()) == "");
   for (const double x : {0.1, 1.0 / 3, -1e-300, 5e-324, 1.7976931348623157e308})
     CHECK(std::strtod(csv_text(x).c_str(), nullptr) == x);
+  std::mt19937_64 random(1);
+  for (int k = 0; k < 100000; ++k) {
+    const double x = std::bit_cast<double>(random());
+    const std::string text = csv_text(x);
+    if (std::isfinite(x)) CHECK((std::strtod(text.c_str(), nullptr) == x && text.size() <= 24));
+    else CHECK(text.empty());
+  }
+  CHECK(csv_text(0.3) == "0.3");
+  CHECK(csv_text(2.0) == "2");
+  CHECK(csv_text(-0.0) == "-0");
+  CHECK(csv_text(1e-7) == "1e-07");
+  CHECK(csv_text(0.3, Digits::all) == "0.29999999999999999");
   CHECK(as_number(true) == 1.0);
   CHECK(as_number(2) == 2.0);
   CHECK(as_number(0.5) == 0.5);
