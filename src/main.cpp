@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
   plot_app->add_option("directory", figure.directory, "the directory of the results")->type_name("DIR")->required();
   plot_app->add_option("--x", figure.x, "column for the horizontal axis (default: the load factor, what is swept, or time)");
   plot_app->add_option("--y", figure.y, "column for the vertical axis (default: the first one observed that changes)");
-  plot_app->add_option("--shapes", figure.shapes, "labels of states to draw below, with commas between: initial, final, branch:1, branch:1+mode, mode:2")->delimiter(',');
+  plot_app->add_option("--shapes", figure.shapes, "labels of states to draw below, with commas between: initial, final, branch:1, branch:1+mode, mode:2, step=40")->delimiter(',');
   plot_app->add_flag("!--no-diagram", figure.diagram, "the states alone");
   plot_app->add_option("--out", figure.file, "file of the figure, FIG.svg or FIG.pdf (default: DIR/figure.svg)");
   CLI::App* schema_app = app.add_subcommand("schema", "print the JSON schema of problem files, for editors");

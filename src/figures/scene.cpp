@@ -51,6 +51,20 @@ std::vector<std::string> states_in(const fs::path& directory) {
   return all;
 }
 
+// The state of a step of the path, without the end of its name.
+std::string stem_of_step(const std::string& directory, const std::string& step) {
+  const StoredRun run = read_run(directory);
+  const int column = column_index(run.path.columns, "step");
+  std::vector<std::string> known;
+  for (const StoredState& s : run.states) {
+    if (column < 0 || !s.file.ends_with(".data")) continue;
+    known.push_back(csv_text(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(column)]));
+    if (known.back() == step) return s.file.substr(0, s.file.size() - 5);
+  }
+  if (known.size() > 40) known.resize(40), known.emplace_back("…");
+  throw InputError(fmt::format("{}: no state of step {} was kept; there are those of the steps {} ([path] frames or every keep more)", directory, step, listed(known)));
+}
+
 Region wall_in(const Numbers& walls, std::size_t row) {
   static const std::map<std::string, Shape> shapes{
       {"plane", Shape::plane}, {"block", Shape::block}, {"cylinder", Shape::cylinder}, {"sphere", Shape::sphere}, {"cone", Shape::cone}};
@@ -122,15 +136,17 @@ Scene read_scene(const std::string& directory, const std::string& label) {
   const fs::path states = fs::path(directory) / "states";
   std::string name = label, vectors;                       // vectors: file and first column of what it is moved along
   const char* first = "ux1";
+  bool moved = false;
   std::replace(name.begin(), name.end(), ':', '-');
-  if (name.ends_with("+mode")) name.resize(name.size() - 5), vectors = (states / (name + ".modes.csv")).string();
+  if (name.ends_with("+mode")) name.resize(name.size() - 5), moved = true;
   if (label.starts_with("mode:")) vectors = (fs::path(directory) / "modes" / (name + ".csv")).string(), name = "final", first = "ux";
-  const std::string stem = (states / name).string();
+  const std::string stem = name.starts_with("step=") ? stem_of_step(directory, name.substr(5)) : (states / name).string();
   if (!fs::exists(stem + ".particles.csv")) {
     const std::vector<std::string> known = states_in(states);
     throw InputError(fmt::format("{}.particles.csv: is not there; {}", stem,
                                  known.empty() ? "this run has left no such states: run it again" : "there are the states " + listed(known) + did_you_mean(name, known)));
   }
+  if (moved) vectors = stem + ".modes.csv";
   const Numbers particles(stem + ".particles.csv");
   std::map<int, int> number;                               // of a particle, by its id
   for (std::size_t k = 0; k < particles.rows(); ++k) {

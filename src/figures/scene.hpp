@@ -18,7 +18,8 @@ struct Scene {
   std::vector<Region> walls;
 };
 
-/// Reads DIR/states/LABEL.particles.csv and what stands beside it. LABEL: as in events.csv, "initial" or "final"; with "+mode" behind it
+/// Reads DIR/states/LABEL.particles.csv and what stands beside it. LABEL: as in events.csv, "initial" or "final"; "step=K", a frame of a
+/// path, DIR/frames/K.particles.csv, or the state that this step's label names; with "+mode" behind it
 /// moved along its first null vector; or mode:K, the last state moved along a mode of modes/. Moved: by a tenth of its size. Throws
 /// InputError if there is no such state or a file cannot be understood.
 Scene read_scene(const std::string& directory, const std::string& label);

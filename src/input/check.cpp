@@ -39,7 +39,8 @@ void check_solving(Problem& problem, Mistakes& mistakes) {
         mistakes.add(d.place, "record", fmt::format("step {} lies behind the last one, {}", step, d.steps));
         break;
       }
-  if (d.relax && d.record) mistakes.add(d.place, "record", "is of no use with relax = true, whose way to equilibrium is no motion");
+  for (const auto& [key, given] : {std::pair("record", d.record.has_value()), {"film", !d.film.empty()}})
+    if (d.relax && given) mistakes.add(d.place, key, "is of no use with relax = true, whose way to equilibrium is no motion");
 }
 
 }  // namespace

@@ -84,6 +84,10 @@ class Keys {
   template <std::size_t n> void words(const char* key, std::vector<std::string>& list, const Word<const char*> (&known)[n], const char* means) {
     value({key, means, false, {}, Kind::words, texts(known)}, &list, true);
   }
+  template <std::size_t n> void words(const char* key, std::optional<std::vector<std::string>>& list, const Word<const char*> (&known)[n], const char* means) {
+    std::vector<std::string> held = list.value_or(std::vector<std::string>{});
+    if (value({key, means, false, {}, Kind::words, texts(known)}, &held, list.has_value())) list = std::move(held);
+  }
 
   /// [key], may be absent; [[key]], any number.
   template <class T> void table(const char* key, T& t) {

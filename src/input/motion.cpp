@@ -22,6 +22,7 @@ void describe(Keys& keys, DynamicsTable& t) {
   keys.may("steps", t.steps, "how many, of relax at most", Range{0, 2e9});
   keys.may("every", t.every, "steps between rows of trajectory.csv", range::id);
   keys.may("record", t.record, "steps whose frames are written; by default each `every`", Range{0, 2e9});
+  keys.words("film", t.film, film_words, "files that show these frames: for LAMMPS and OVITO, for ParaView, extended XYZ");
   keys.may("allow_unstable", t.allow_unstable, "a timestep beyond the stable limit");
 }
 

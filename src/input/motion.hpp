@@ -24,6 +24,7 @@ struct DynamicsTable {
   std::optional<double> timestep;
   int steps = 1000, every = 100;
   std::optional<std::vector<int>> record;
+  std::vector<std::string> film;
   bool relax = false, allow_unstable = false;
   bool operator==(const DynamicsTable&) const = default;
 };

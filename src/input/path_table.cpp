@@ -53,6 +53,11 @@ void describe(Keys& keys, PathTable& t) {
   keys.may("points", t.points, "most points of such a branch; by default 20 · steps", Range{1, 20.0 * most_steps});
   keys.may("deflate", t.deflate, "further equilibria to look for …", Range{0, most_branches});
   keys.may("deflate_at", t.deflate_at, "… at these load factors; by default at `to`");
+  keys.may("frames", t.frames, "states that are kept, evenly along the path, beside those that have a label", Range{2, most_steps});
+  keys.may("every", t.every, "… or each so many points", range::id);
+  keys.at_most_one({"frames", "every"});
+  keys.words("film", t.film, film_words, "files that show them all: for LAMMPS and OVITO, for ParaView, extended XYZ; by default the first two");
+  keys.with({"film"}, {"frames", "every"}, "the states that it shows");
   keys.may_file("start", t.start, "a states/LABEL.data to go on from");
   keys.may("start_lambda", t.start_lambda, "its load factor; by default the stored one, or `from`");
 }

@@ -34,6 +34,9 @@ struct PathTable {
   std::optional<int> points;
   int deflate = 0;
   std::optional<std::vector<double>> deflate_at;
+  std::optional<int> frames, every;
+  std::optional<std::vector<std::string>> film;
+  bool has_frames() const { return frames || every; }
   std::string start;
   std::optional<double> start_lambda;
   bool operator==(const PathTable&) const = default;

@@ -38,23 +38,8 @@ class Text {
   fmt::memory_buffer text_;
 };
 
-struct Box { Vec3 lo, hi; };
-
 void put_box(Text& put, const Box& box) {
   for (int c = 0; c < 3; ++c) put("{:.17g} {:.17g} {}lo {}hi\n", box.lo[c], box.hi[c], "xyz"[c], "xyz"[c]);
-}
-
-/// All of these with room: a tenth of the largest extent, at least the largest diameter, and not lost in rounding.
-Box box_around(const Field& x, const std::vector<double>& diameter) {
-  Box box{x.col(0), x.col(0)};
-  for (Eigen::Index i = 1; i < x.cols(); ++i)
-    for (int c = 0; c < 3; ++c) box.lo[c] = std::min(box.lo[c], x(c, i)), box.hi[c] = std::max(box.hi[c], x(c, i));
-  double room = *std::max_element(diameter.begin(), diameter.end());
-  for (int c = 0; c < 3; ++c)
-    room = std::max({room, 0.1 * (box.hi[c] - box.lo[c]), 1e-6 * std::abs(box.lo[c]), 1e-6 * std::abs(box.hi[c])});
-  if (room == 0) room = 1;
-  for (int c = 0; c < 3; ++c) box.lo[c] -= room, box.hi[c] += room;
-  return box;
 }
 
 bool all_straight(const Model& model) {
@@ -155,12 +140,24 @@ void write_bodies(const std::string& file, const Model& model, const State& stat
   put.write(file);
 }
 
-void write_particles(const std::string& file, const Model& model, const State& state, const std::string& title) {
+/// Of each type the mass of its first particle, or 1 where there is none.
+void put_masses(Text& put, const Model& model, bool known) {
+  put("\nMasses\n\n");
+  for (int type = 1; type <= largest(model.type); ++type) {
+    const auto first = std::find(model.type.begin(), model.type.end(), type);
+    const double mass = known && first != model.type.end() ? model.mass(static_cast<int>(first - model.type.begin())) : 0;
+    put("{} {:.17g}\n", type, mass > 0 ? mass : 1.0);
+  }
+}
+
+enum class Written { sphere, full };
+
+void write_particles(const std::string& file, const Model& model, const State& state, const std::string& title, Written style) {
   const int n = model.particles();
   const Field& x = state.position;
   const bool some_density = std::all_of(model.density.begin(), model.density.end(), [](double d) { return d > 0; });
   Text put;
-  put("{}{}\n\n", one_line(title), some_density ? "" : "; a density that is not given is written as 1");
+  put("{}{}\n\n", one_line(title), some_density ? "" : style == Written::full ? "; a mass that is not known is written as 1" : "; a density that is not given is written as 1");
   put("{} atoms\n{} bonds\n{} angles\n", n, model.bonds.size(), model.angles.size());
   put("{} atom types\n{} bond types\n{} angle types\n\n", largest(model.type), model.bond_types.size(),
       model.angle_types.size());
@@ -179,11 +176,17 @@ void write_particles(const std::string& file, const Model& model, const State& s
       else put("{} {:.17g} {:.17g}\n", k + 1, 2 * a.stiffness, degrees(a.rest));   // U_min = 2B, θ₀
     }
   }
-  put("\nAtoms # hybrid sphere angle\n\n");
-  for (int i = 0; i < n; ++i)
-    put("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {}\n", model.id[i], model.type[i], x(0, i), x(1, i), x(2, i),
-        model.diameter[i], model.density[i] > 0 ? model.density[i] : 1.0, model.molecule[i]);
-  if (model.velocity.cols() > 0) {
+  if (style == Written::full) {
+    put_masses(put, model, some_density);
+    put("\nAtoms # full\n\n");
+    for (int i = 0; i < n; ++i) put("{} {} {} 0 {:.17g} {:.17g} {:.17g}\n", model.id[i], model.molecule[i], model.type[i], x(0, i), x(1, i), x(2, i));
+  } else {
+    put("\nAtoms # hybrid sphere angle\n\n");
+    for (int i = 0; i < n; ++i)
+      put("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {}\n", model.id[i], model.type[i], x(0, i), x(1, i), x(2, i),
+          model.diameter[i], model.density[i] > 0 ? model.density[i] : 1.0, model.molecule[i]);
+  }
+  if (model.velocity.cols() > 0 && style == Written::sphere) {
     put("\nVelocities # hybrid sphere angle\n\n");
     const Field spin = model.spin.cols() > 0 ? model.spin : Field(Field::Zero(3, n));
     for (int i = 0; i < n; ++i)
@@ -206,13 +209,29 @@ void write_particles(const std::string& file, const Model& model, const State& s
 
 }  // namespace
 
+Box box_around(const Field& x, const std::vector<double>& diameter) {
+  Box box{x.col(0), x.col(0)};
+  for (Eigen::Index i = 1; i < x.cols(); ++i)
+    for (int c = 0; c < 3; ++c) box.lo[c] = std::min(box.lo[c], x(c, i)), box.hi[c] = std::max(box.hi[c], x(c, i));
+  double room = *std::max_element(diameter.begin(), diameter.end());
+  for (int c = 0; c < 3; ++c)
+    room = std::max({room, 0.1 * (box.hi[c] - box.lo[c]), 1e-6 * std::abs(box.lo[c]), 1e-6 * std::abs(box.hi[c])});
+  if (room == 0) room = 1;
+  for (int c = 0; c < 3; ++c) box.lo[c] -= room, box.hi[c] += room;
+  return box;
+}
+
 std::string bodies_file(const std::string& data_file) {
   return std::filesystem::path(data_file).replace_extension(".bodies.data").string();
 }
 
 void write_state(const std::string& file, const Model& model, const State& state, const std::string& title) {
-  if (model.particles() > 0) write_particles(file, model, state, title);
+  if (model.particles() > 0) write_particles(file, model, state, title, Written::sphere);
   if (!model.bodies.empty()) write_bodies(model.particles() > 0 ? bodies_file(file) : file, model, state, title);
+}
+
+void write_topology(const std::string& file, const Model& model, const State& state, const std::string& title) {
+  write_particles(file, model, state, title, Written::full);
 }
 
 }  // namespace elamin

@@ -3,6 +3,7 @@
 #include "model/model.hpp"
 
 #include <string>
+#include <vector>
 
 namespace elamin {
 
@@ -19,5 +20,13 @@ std::string bodies_file(const std::string& data_file);
 /// four corners cut into such of four and three, velocities with angular momentum. Of a model with particles they go to a
 /// second file, bodies_file(file). Throws InputError if a file cannot be written.
 void write_state(const std::string& file, const Model& model, const State& state, const std::string& title);
+
+/// The particles of the state with their bonds and angles in atom style "full" (charge 0; of each type the mass of its first particle,
+/// or 1 where that is not known), which more programs read: MDAnalysis and ASE among them. Throws InputError if it cannot be written.
+void write_topology(const std::string& file, const Model& model, const State& state, const std::string& title);
+
+struct Box { Vec3 lo, hi; };
+/// All of these with room: a tenth of the largest extent, at least the largest diameter, and not lost in rounding.
+Box box_around(const Field& x, const std::vector<double>& diameter);
 
 }  // namespace elamin

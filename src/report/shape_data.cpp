@@ -107,6 +107,12 @@ Contacts by_label(const Table& table) {
   return all;
 }
 
+// Closed contacts of a frame have a table of their own.
+Table contacts_of_frame(const StoredState& stored) {
+  const std::string file = std::filesystem::path(stored.file).replace_extension(".contacts.csv").string();
+  return stored.label.empty() && std::filesystem::exists(file) ? read_table(file) : Table{};
+}
+
 // Columns: see RunDirectory::add_state.
 Json contacts_data(const std::vector<const Row*>& rows, const Model& model) {
   std::vector<std::int32_t> pairs;
@@ -232,7 +238,10 @@ Json states_data(const StoredRun& run, const Problem& problem, const Model& mode
   Json j{{"stored", run.states.size()}, {"kept", taken.size()}, {"missing", Json::array()}, {"list", Json::array()}};
   for (const StoredState& s : taken) {
     try {
-      j["list"].push_back(state_data(run, s, contacts[s.label], problem, energy));
+      const Table of_frame = contacts_of_frame(s);
+      std::vector<const Row*> rows = contacts[s.label];
+      for (const Row& row : of_frame.rows) rows.push_back(&row);
+      j["list"].push_back(state_data(run, s, rows, problem, energy));
     } catch (const InputError& error) {
       j["missing"].push_back(error.what());
     }

@@ -67,7 +67,7 @@ void list_also(const std::string& directory, const std::string& name) {
   std::ofstream(place(directory, list_name), std::ios::binary | std::ios::app) << name << '\n';
 }
 
-ResultsDirectory::ResultsDirectory(std::string directory, bool force, const Files& kept) : directory_(std::move(directory)) {
+ResultsDirectory::ResultsDirectory(std::string directory, bool force, const Files& kept) : directory_(std::move(directory)), kept_(kept) {
   if (!force) require_results(directory_);
   create(directory_);
   std::error_code error;
@@ -99,6 +99,12 @@ std::string ResultsDirectory::file(const std::string& name) {
   const fs::path path = fs::path(directory_) / name;
   create(path.parent_path().string());
   return path.string();
+}
+
+void ResultsDirectory::remove(const std::string& beginning) {
+  std::error_code error;
+  for (auto it = listed_.lower_bound(beginning); it != listed_.end() && it->starts_with(beginning); ++it)
+    if (const fs::path file = place(directory_, *it); !kept_.count(located(file))) fs::remove(file, error);
 }
 
 bool ResultsDirectory::has_foreign(const std::string& name) const {

@@ -29,6 +29,9 @@ class ResultsDirectory {
   /// The path of a file that is going to be written, and its folder made: "states/final.data" → DIR/states/final.data.
   std::string file(const std::string& name);
 
+  /// Removes what has been written under names that begin so, but for the files kept.
+  void remove(const std::string& beginning);
+
   /// Whether a file is there that was not written by elamin.
   bool has_foreign(const std::string& name) const;
 
@@ -38,6 +41,7 @@ class ResultsDirectory {
   void list(const std::string& name);
 
   std::string directory_;
+  Files kept_;
   std::set<std::string> listed_;
 };
 

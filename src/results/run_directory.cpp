@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "model/entities.hpp"
 #include "input/state_tail.hpp"
+#include "path/arc.hpp"
 #include "results/body_picture.hpp"
 #include "results/columns.hpp"
 #include "lammps/state.hpp"
@@ -23,7 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double at_touch = 1e-9;   // of the size: a gap that an event has located, whichever sign rounding gave it
+const std::vector<std::string> contact_columns{"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"};
+
+/// Of a path without frames none.
+std::vector<std::string> films_of(const Problem& problem) {
+  if (problem.in_time()) return problem.dynamics.film;
+  if (problem.study != StudyType::path || !problem.path.has_frames()) return {};
+  return problem.path.film.value_or(std::vector<std::string>{"lammpstrj", "pvd"});
+}
 
 void append(Row& row, const Eigen::Ref<const Eigen::VectorXd>& numbers) {
   for (const double x : numbers) row.emplace_back(x);
@@ -57,11 +65,12 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
       record_(problem, model),
       model_(model),
       results_(std::move(directory), force, inputs_),
-      title_(problem.title),
+      title_(problem.title.empty() ? "elamin" : problem.title),
       log_(results_.file("log.txt"), std::ios::binary),
       path_(results_.file(problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns),
-      contacts_(results_.file("contacts.csv"),
-                {"label", "lambda", "first", "second", "gap", "force", "fx", "fy", "fz", "x", "y", "z"}) {
+      contacts_(results_.file("contacts.csv"), contact_columns),
+      frames_(problem.path, span(model), std::max(1, static_cast<int>(problem.stages.size()))),
+      film_(results_, problem.in_time() ? "trajectory" : "path", films_of(problem), title_) {
   write_text(results_.file("resolved.toml"), resolved_toml);
   if (!problem.in_time()) events_.emplace(results_.file("events.csv"), record_.events().columns);
   for (const fs::path& file : inputs_) log(file.string() + " is read by this run and stays as it is");
@@ -71,6 +80,7 @@ void RunDirectory::enter(const Stage& stage, const Model& model) {
   record_.enter(stage, model);
   stage_.reset();
   if (!stage.name.empty()) stage_ = StoredStage{stage.name, stage.path.from, stage.scaling};
+  frames_.enter(stage.path);
   varied_ = varied(record_.problem(), stage), rising_ = stage.path.to > stage.path.from;
 }
 
@@ -83,14 +93,38 @@ void RunDirectory::add(const PathPoint& point, const Field& forces, const std::v
 }
 
 void RunDirectory::add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches) {
+  add_point(state_name(label), label, point);
+  add_contacts(contacts_, label, point.state, touches);
+}
+
+void RunDirectory::add_point(const std::string& name, const std::string& called, const PathPoint& point) {
   const State& state = point.state;
-  add_state_file(label, model_, state,
-                 fmt::format("{}; {}; load factor {:.17g}", title_.empty() ? "elamin" : title_, label, state.load_factor));
+  add_state_file(name, model_, state, fmt::format("{}; load factor {:.17g}", called, state.load_factor));
   StateTail stored{state.load_factor, state.tail, stage_, {}, stored_poses(state)};
   if (point.resume) stored.path = StoredPath{varied_, rising_, *point.resume};
-  write_text(results_.file(state_name(label, ".json")), tail_text(stored));
-  add_picture(label, state);
-  add_contacts(label, state, touches);
+  write_text(results_.file(name + ".json"), tail_text(stored));
+  add_picture(name, state, called);
+}
+
+bool RunDirectory::is_frame(const PathPoint& point) {
+  if (record_.problem().study != StudyType::path) return false;
+  const bool is = frames_.take(point);
+  film_.drop(drop_frames(frames_.dropped()));
+  return is;
+}
+
+void RunDirectory::add_frame(const PathPoint& point, const Model& model, const Fields& fields, const std::vector<Touch>& touches) {
+  if (!point.label.empty()) return;
+  const std::string name = frame_name(point.step);
+  add_point(name, fmt::format("step {}", point.step), point);
+  add_fields_as(name, model, point.state, fields);
+  CsvFile contacts(results_.file(name + ".contacts.csv"), contact_columns);
+  add_contacts(contacts, "", point.state, touches);
+}
+
+std::set<std::int64_t> RunDirectory::drop_frames(const std::vector<int>& steps) {
+  for (const int step : steps) results_.remove(fmt::format("frames/{}.", step)), results_.remove(fmt::format("frames/{}-again.", step));
+  return {steps.begin(), steps.end()};
 }
 
 void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) {
@@ -101,11 +135,11 @@ void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) 
   Model moving = model_;
   moving.velocity = moment.motion.velocity, moving.spin = moment.motion.spin;
   moving.body_velocity = moment.motion.body_velocity, moving.angular_momentum = moment.motion.angular_momentum;
-  add_state_file(moment.label, moving, state,
-                 fmt::format("{}; {}; time {:.17g}", title_.empty() ? "elamin" : title_, moment.label, moment.motion.time));
-  write_text(results_.file(state_name(moment.label, ".json")), tail_text({state.load_factor, state.tail, {}, {}, stored_poses(state)}));
-  add_picture(moment.label, state);
-  add_contacts(moment.label, state, touches);
+  const std::string name = state_name(moment.label);
+  add_state_file(name, moving, state, fmt::format("{}; time {:.17g}", moment.label, moment.motion.time));
+  write_text(results_.file(name + ".json"), tail_text({state.load_factor, state.tail, {}, {}, stored_poses(state)}));
+  add_picture(name, state, moment.label);
+  add_contacts(contacts_, moment.label, state, touches);
 }
 
 void RunDirectory::add_frame(const Motion& motion) {
@@ -113,28 +147,30 @@ void RunDirectory::add_frame(const Motion& motion) {
   write_frame(results_.file(fmt::format("frames/{}.csv", motion.step)), model_, motion);
 }
 
-void RunDirectory::add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches) {
-  for (const Touch& t : touches) {
-    if (!(t.bears || t.attracts || t.gap < 0 || (is_event(label) && t.gap <= at_touch * size_of(model_, t.particle)))) continue;
+void RunDirectory::add_contacts(CsvFile& file, const std::string& label, const State& state, const std::vector<Touch>& touches) {
+  for (const Touch& t : closed_contacts(touches, model_, label)) {
     const Cell second = t.other >= 0 ? Cell(id_of(model_, t.other)) : Cell(model_.walls[t.wall].name);
     const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
-    contacts_.add({label, state.load_factor, id_of(model_, t.particle), second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
+    file.add({label, state.load_factor, id_of(model_, t.particle), second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
   }
 }
 
-void RunDirectory::add_picture(const std::string& label, const State& state) {
-  if (!model_.bodies.empty())
-    write_picture(results_.file(state_name(label, ".vtk")), model_, state, (title_.empty() ? "elamin" : title_) + "; " + label);
+void RunDirectory::add_picture(const std::string& name, const State& state, const std::string& called) {
+  if (!model_.bodies.empty()) write_picture(results_.file(name + ".vtk"), model_, state, title_ + "; " + called);
 }
 
-void RunDirectory::add_state_file(const std::string& label, const Model& model, const State& state, const std::string& title) {
-  const std::string file = results_.file(state_name(label, ".data"));
-  if (model.particles() > 0 && !model.bodies.empty()) results_.file(bodies_file(state_name(label, ".data")));
-  write_state(file, model, state, title);
+void RunDirectory::add_state_file(const std::string& name, const Model& model, const State& state, const std::string& called) {
+  const std::string file = results_.file(name + ".data");
+  if (model.particles() > 0 && !model.bodies.empty()) results_.file(bodies_file(name + ".data"));
+  write_state(file, model, state, title_ + "; " + called);
 }
 
 void RunDirectory::add_fields(const std::string& label, const Model& model, const State& state, const Fields& fields) {
-  for (const auto& [end, table] : field_tables(model, state, fields)) write_csv(results_.file(state_name(label, end)), table);
+  add_fields_as(state_name(label), model, state, fields);
+}
+
+void RunDirectory::add_fields_as(const std::string& name, const Model& model, const State& state, const Fields& fields) {
+  for (const auto& [end, table] : field_tables(model, state, fields)) write_csv(results_.file(name + end), table);
 }
 
 void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
@@ -146,7 +182,7 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
   };
   std::vector<std::string> names{"id"};
   for (const std::string& c : columns("u")) names.push_back(c);
-  CsvFile file(results_.file(state_name(label, ".modes.csv")), names);
+  CsvFile file(results_.file(state_name(label) + ".modes.csv"), names);
   for (int i = 0; i < model_.particles(); ++i) {
     Row row{model_.id[i]};
     for (const Field& v : vectors)
@@ -155,7 +191,7 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
   }
   if (model_.bodies.empty()) return;
   for (const std::string& c : columns("t")) names.push_back(c);
-  CsvFile bodies(results_.file(state_name(label, ".bodies.modes.csv")), names);
+  CsvFile bodies(results_.file(state_name(label) + ".bodies.modes.csv"), names);
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     Row row{model_.bodies[b].id};
     for (const Field& v : vectors) append(row, body_motion(model_, v, b).head<3>());
@@ -180,10 +216,8 @@ void RunDirectory::add_mode(const Mode& mode, const State& state) {
       bodies.add(row);
     }
   }
-  add_picture(name, moved);
-  add_state_file(name, model_, moved,
-                 fmt::format("{}; {}, eigenvalue {:.17g}; load factor {:.17g}", title_.empty() ? "elamin" : title_, name,
-                             mode.eigenvalue, state.load_factor));
+  add_picture(state_name(name), moved, name);
+  add_state_file(state_name(name), model_, moved, fmt::format("{}, eigenvalue {:.17g}; load factor {:.17g}", name, mode.eigenvalue, state.load_factor));
 }
 
 void RunDirectory::log(const std::string& line) {
@@ -196,20 +230,26 @@ void RunDirectory::log(const std::string& line) {
 }
 
 void RunDirectory::finish(const Summary& summary) {
+  film_.finish(drop_frames(frames_.dropped_at_end()));
   write_summary(results_.file("summary.json"), summary, record_.path(), record_.events());
 }
 
-std::string RunDirectory::state_name(const std::string& label, const std::string& extension) const {
+std::string RunDirectory::free_name(std::string name) const {
+  while (results_.has_foreign(name + ".data") || inputs_.count(located(fs::path(directory()) / (name + ".data")))) name += "-again";
+  return name;
+}
+
+std::string RunDirectory::state_name(const std::string& label) const {
   std::string name = label;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
-  name = "states/" + name;
-  while (results_.has_foreign(name + ".data") || inputs_.count(located(fs::path(directory()) / (name + ".data")))) name += "-again";
-  return name + extension;
+  return free_name("states/" + name);
 }
 
+std::string RunDirectory::frame_name(int step) const { return free_name(fmt::format("frames/{}", step)); }
+
 std::string RunDirectory::state_file(const std::string& label) const {
-  return (fs::path(directory()) / state_name(label, ".data")).string();
+  return (fs::path(directory()) / (state_name(label) + ".data")).string();
 }
 
 }  // namespace elamin

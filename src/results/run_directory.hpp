@@ -1,6 +1,8 @@
 #pragma once
 // The directory that a run leaves behind.
 #include "results/fields.hpp"
+#include "results/film.hpp"
+#include "results/frame_choice.hpp"
 #include "results/mode.hpp"
 #include "results/record.hpp"
 #include "results/results_directory.hpp"
@@ -15,7 +17,7 @@ namespace elamin {
 ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& problem);
 
 /// path.csv, events.csv, contacts.csv, states/, log.txt, resolved.toml and summary.json of one run, modes.csv and modes/ of
-/// a study of modes; of dynamics trajectory.csv instead of the first two, and frames/. Every row, state and line is on the disk
+/// a study of modes; of dynamics trajectory.csv instead of the first two, and frames/; the films and the frames that are asked for. Every row, state and line is on the disk
 /// as soon as it is added, so that an interrupted run keeps what it has.
 class RunDirectory {
  public:
@@ -39,6 +41,17 @@ class RunDirectory {
   /// frames/STEP.csv.
   void add_frame(const Motion& motion);
 
+  /// Whether the state of the next point of a path is one of the frames, for now. Frames that are no longer wanted are removed.
+  bool is_frame(const PathPoint& point);
+
+  /// A frame of a path, if it has no label: what states/LABEL.* are, as frames/STEP.*, and its closed contacts, frames/STEP.contacts.csv.
+  /// model: that in force.
+  void add_frame(const PathPoint& point, const Model& model, const Fields& fields, const std::vector<Touch>& touches);
+
+  /// Whether there is a film; a state of it.
+  bool has_film() const { return static_cast<bool>(film_); }
+  void add_to_film(const Shot& shot) { film_.add(shot); }
+
   /// states/LABEL.data with LABEL.json (see input/state_tail.hpp), of bodies a picture LABEL.vtk, and every closed contact
   /// (gap < 0, or it attracts; at an event also what just touches) as a row of contacts.csv: label, lambda, first (id of the
   /// particle or body), second (id of the other one, or the wall's name), gap, force (its magnitude), fx, fy, fz (on the first), x, y, z (of contact). The label stands for the
@@ -61,7 +74,7 @@ class RunDirectory {
   /// A line of log.txt, with the time.
   void log(const std::string& line);
 
-  /// Writes summary.json.
+  /// Writes summary.json; the frames are chosen for good.
   void finish(const Summary& summary);
 
   const Record& record() const { return record_; }
@@ -71,10 +84,15 @@ class RunDirectory {
   std::string state_file(const std::string& label) const;
 
  private:
-  std::string state_name(const std::string& label, const std::string& extension) const;    // "states/branch-1.data"
-  void add_state_file(const std::string& label, const Model& model, const State& state, const std::string& title);
-  void add_picture(const std::string& label, const State& state);
-  void add_contacts(const std::string& label, const State& state, const std::vector<Touch>& touches);
+  std::string free_name(std::string name) const;
+  std::string state_name(const std::string& label) const;                                 // "states/branch-1"
+  std::string frame_name(int step) const;                                                 // "frames/12"
+  void add_state_file(const std::string& name, const Model& model, const State& state, const std::string& called);
+  void add_picture(const std::string& name, const State& state, const std::string& called);
+  void add_point(const std::string& name, const std::string& called, const PathPoint& point);
+  void add_fields_as(const std::string& name, const Model& model, const State& state, const Fields& fields);
+  void add_contacts(CsvFile& file, const std::string& label, const State& state, const std::vector<Touch>& touches);
+  std::set<std::int64_t> drop_frames(const std::vector<int>& steps);
 
   ResultsDirectory::Files inputs_;                    // that lie in the directory
   Record record_;
@@ -88,6 +106,8 @@ class RunDirectory {
   CsvFile path_, contacts_;
   std::optional<CsvFile> events_;                     // of equilibria
   std::optional<CsvFile> modes_;                      // made with the first mode
+  FrameChoice frames_;
+  Film film_;
   int mode_ = 0;
 };
 

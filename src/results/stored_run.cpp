@@ -103,16 +103,14 @@ void find_states(StoredRun& run) {
   for (int k = 0; k < rows; ++k) {
     const Row& row = run.path.rows[k];
     const std::string* name = label >= 0 ? std::get_if<std::string>(&row[label]) : nullptr;
-    if (name && !name->empty()) {
-      for (const char* again : {"-again", ""})
-        if (const std::string file = in(run.directory, "states/" + file_name(*name) + again + ".data"); fs::exists(file)) {
-          run.states.push_back({*name, k, file});
-          break;
-        }
-    } else if (step >= 0 && run.in_time) {
-      if (const std::string file = in(run.directory, fmt::format("frames/{}.csv", csv_text(row[step]))); fs::exists(file))
-        run.states.push_back({"", k, file});
-    }
+    const bool labelled = name && !name->empty();
+    if (!labelled && step < 0) continue;
+    const std::string stem = labelled ? "states/" + file_name(*name) : "frames/" + csv_text(row[static_cast<std::size_t>(step)]);
+    for (const char* end : {"-again.data", ".data", ".csv"})
+      if (const std::string file = in(run.directory, stem + end); fs::exists(file)) {
+        run.states.push_back({labelled ? *name : "", k, file});
+        break;
+      }
   }
 }
 

@@ -18,7 +18,7 @@ Table read_table(const std::string& file);
 struct StoredState {
   std::string label;                   // "branch:1"; "" of a frame
   int row = -1;                        // of the path, or −1: of none
-  std::string file;                    // states/LABEL.data, or frames/STEP.csv
+  std::string file;                    // states/LABEL.data, frames/STEP.data, or of a motion frames/STEP.csv
 };
 
 struct StoredRun {

@@ -61,13 +61,19 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     teller.log(log_line(point));
     const Doing writing("writing");
     const std::vector<Touch> touches = observed_touches(*energy, point.state, results.record().observables());
+    const bool frame = results.is_frame(point);
     results.add(point, energy->forces(point.state), touches, eigenvalues);
-    if (point.modes.cols() > 0) results.add_null_vectors(point.label, null_vectors(point, energy->kinematics()));
+    const std::vector<Field> modes = null_vectors(point, energy->kinematics());
+    if (!modes.empty()) results.add_null_vectors(point.label, modes);
     if (last && point.label != "final") results.add_state("final", point, touches);
-    if (!point.label.empty()) {
+    if (!point.label.empty() || frame) {
+      const Model& in_force = energy->model();
       const Fields fields = fields_at(*energy, point.state, touches);
-      for (const std::string& label : std::set<std::string>{point.label, last ? "final" : point.label})
-        results.add_fields(label, energy->model(), point.state, fields);
+      if (frame) results.add_frame(point, in_force, fields, touches);
+      if (!point.label.empty())
+        for (const std::string& label : std::set<std::string>{point.label, last ? "final" : point.label})
+          results.add_fields(label, in_force, point.state, fields);
+      if (results.has_film()) results.add_to_film({point.step, point.label, point.state.load_factor, in_force, point.state, fields, touches, modes});
     }
     strains.look(energy->model(), point.state, fmt::format("load factor {:.7g}", point.state.load_factor));
     summary.zero_modes = point.stability.zero_modes;
@@ -103,8 +109,11 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         const std::vector<Touch> touches = observed_touches(*energy, m.state, results.record().observables());
         results.add(moment, touches);
         strains.look(energy->model(), m.state, fmt::format("time {:.7g}", m.time));
-        if (!moment.label.empty()) results.add_fields(moment.label, energy->model(), m.state, fields_at(*energy, m.state, touches));
+        const bool in_film = frame && results.has_film();
+        const Fields fields = !moment.label.empty() || in_film ? fields_at(*energy, m.state, touches) : Fields{};
+        if (!moment.label.empty()) results.add_fields(moment.label, energy->model(), m.state, fields);
         if (frame) results.add_frame(m);
+        if (in_film) results.add_to_film({m.step, moment.label, m.time, energy->model(), m.state, fields, touches, {}, &m});
       },
       .progress = [&](const std::string& line, double step) { teller.moved(line, step); }};
   const Outcome outcome = trace(problem, model, stored, sink);

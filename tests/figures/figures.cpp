@@ -177,6 +177,23 @@ TEST_CASE("a diagram in characters", "[figures]") {
                              "     2       t        4\n");
 }
 
+TEST_CASE("a frame of a path is drawn by its step", "[figures]") {
+  ScratchDirectory scratch;
+  scratch.file("path.csv", path_csv), scratch.file("resolved.toml", "");
+  const std::string head = "id,kind,x,y,z,radius,energy,fx,fy,fz\n";
+  for (const auto& [name, z] : {std::pair("frames/1", "0.25"), {"states/branch-1", "0.5"}}) {
+    std::filesystem::create_directories((scratch / name).substr(0, (scratch / name).rfind('/')));
+    scratch.file(std::string(name) + ".data", ""), scratch.file(std::string(name) + ".particles.csv", head + "3,particle,0,0," + z + ",0.1,0,0,0,0\n");
+  }
+  scratch.file("states/branch-1.modes.csv", "id,ux1,uy1,uz1\n3,0,0,1\n");
+  CHECK(read_scene(scratch / ".", "step=1").particles.at(0).at.z() == 0.25);
+  CHECK(read_scene(scratch / ".", "step=2").particles.at(0).at.z() == 0.5);       // a state with a label has a step, too
+  CHECK(read_scene(scratch / ".", "step=2").label == "step=2");
+  CHECK(read_scene(scratch / ".", "step=2+mode").particles.size() == 1);
+  CHECK(sentence({scratch / ".", "", "", {"step=5"}, false, ""}).ends_with(
+      "no state of step 5 was kept; there are those of the steps 1, 2 ([path] frames or every keep more)"));
+}
+
 TEST_CASE("what is missing for a figure is said", "[figures]") {
   ScratchDirectory scratch;
   FigureOptions options;

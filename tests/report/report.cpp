@@ -29,6 +29,7 @@ const std::string problem = R"(title = "</script><script>alert(1)</script><!-- &
 method = "arc_length"
 steps = 10
 to = 0.15
+frames = 6
 [[expect]]
 observable = "z"
 at = "final"
@@ -145,6 +146,14 @@ TEST_CASE("a page holds the numbers of a run's files", "[report]") {
     const std::vector<float> tension = floats(state["fields"]["tension"]);
     for (std::size_t b : {0, 1}) CHECK(tension[b] == Approx(*as_number(table.rows[b][column_index(table.columns, "tension")])).margin(1e-12));
   }
+
+  int frames = 0;                                                 // beside the states that have a label
+  const int z = column_index(run.path.columns, "z");
+  for (const StoredState& s : run.states) {
+    CHECK(*as_number(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(z)]) == read_lammps_data(s.file).position(2, 2));
+    frames += s.label.empty();
+  }
+  CHECK((frames >= 3 && frames <= 4));
 
   const Json thin = run_data(directory, 1500);
   CHECK(thin["states"]["stored"] == run.states.size());

@@ -1,0 +1,55 @@
+#include "results/film.hpp"
+
+#include "lammps/state.hpp"
+#include "results/vtu.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin {
+
+Film::Film(ResultsDirectory& directory, std::string name, const std::vector<std::string>& words, std::string title)
+    : directory_(directory), name_(std::move(name)), title_(std::move(title)), words_(words.begin(), words.end()) {}
+
+Reel& Film::reel(const std::string& end, const std::string& header, const std::string& footer) {
+  const auto found = reels_.find(end);
+  return found != reels_.end() ? found->second : reels_.try_emplace(end, directory_.file(name_ + end), header, footer).first->second;
+}
+
+void Film::add_dump(const std::string& end, const Shot& shot, bool of_bodies) {
+  const Box box = dump_box(shot.model, shot.state, of_bodies);
+  Box& all = boxes_.try_emplace(end, box).first->second;
+  all.lo = all.lo.cwiseMin(box.lo), all.hi = all.hi.cwiseMax(box.hi);
+  reel(end).add(shot.step, dump_frame(shot.step, shot.model, shot.state, columns_of(shot), of_bodies, all));
+}
+
+void Film::add(const Shot& shot) {
+  const Model& model = shot.model;
+  const bool particles = model.particles() > 0, bodies = !model.bodies.empty();
+  if (words_.count("lammpstrj")) {
+    if (particles && !reels_.count(".lammpstrj")) write_topology(directory_.file(name_ + ".data"), model, shot.state, title_);
+    if (particles) add_dump(".lammpstrj", shot, false);
+    if (bodies) add_dump(particles ? ".bodies.lammpstrj" : ".lammpstrj", shot, true);
+  }
+  if (words_.count("xyz")) reel(".xyz").add(shot.step, xyz_frame(shot));
+  if (words_.count("pvd")) {
+    const std::string file = fmt::format("frames/{}.vtu", shot.step);
+    write_vtu(directory_.file(file), shot);
+    const std::string line = shot.motion ? fmt::format("{}", shot.parameter) : fmt::format("{}", shot.step);
+    reel(".pvd", "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n", "</Collection>\n</VTKFile>\n")
+        .add(shot.step, fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", line, file));
+  }
+}
+
+void Film::drop(const std::set<std::int64_t>& steps) {
+  for (auto& [end, reel] : reels_) reel.drop(steps);
+}
+
+void Film::finish(const std::set<std::int64_t>& dropped) {
+  for (auto& [end, reel] : reels_) {
+    const auto box = boxes_.find(end);
+    if (box == boxes_.end()) reel.drop(dropped);
+    else reel.drop(dropped, [&](const std::string& frame) { return in_box(frame, box->second); });
+  }
+}
+
+}  // namespace elamin
