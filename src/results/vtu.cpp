@@ -7,10 +7,11 @@
 #include "results/wall_surface.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <new>
 
 namespace elamin {
 namespace {
@@ -32,8 +33,12 @@ class Document {
  public:
   template <class Number> void array(const char* type, const std::string& name, const std::vector<Number>& numbers, const std::string& more = "") {
     xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n", type, name, more, bytes_.size());
-    const std::uint64_t count = numbers.size() * sizeof(Number);
-    append(&count, sizeof count), append(numbers.data(), count);
+    const std::string packed = compressed(numbers.data(), numbers.size() * sizeof(Number));
+    const std::uint64_t blocks = numbers.empty() ? 0 : 1;                 // as long as all of it, none shorter at the end
+    std::vector<std::uint64_t> head{blocks, numbers.size() * sizeof(Number), 0};
+    if (blocks) head.push_back(packed.size());
+    bytes_.append(reinterpret_cast<const char*>(head.data()), head.size() * sizeof(std::uint64_t));
+    if (blocks) bytes_ += packed;
   }
   void array(const Column& c) {
     array("Float64", c.name, c.values, c.components > 1 ? fmt::format(" NumberOfComponents=\"{}\"", c.components) : "");
@@ -45,13 +50,19 @@ class Document {
     xml_ += fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}0</Array>\n", name, codes);
   }
   std::string whole() const {
-    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n" + xml_ +
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+           "compressor=\"vtkZLibDataCompressor\">\n" + xml_ +
            "<AppendedData encoding=\"raw\">\n_" + bytes_ + "\n</AppendedData>\n</VTKFile>\n";
   }
 
  private:
-  void append(const void* from, std::size_t bytes) {
-    if (bytes > 0) bytes_.append(static_cast<const char*>(from), bytes);
+  static std::string compressed(const void* from, std::size_t bytes) {
+    uLongf size = compressBound(static_cast<uLong>(bytes));
+    std::string packed(size, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, static_cast<const Bytef*>(from), static_cast<uLong>(bytes), Z_BEST_SPEED) != Z_OK)
+      throw std::bad_alloc();                                            // the only way in which it can fail
+    packed.resize(size);
+    return packed;
   }
   std::string xml_, bytes_;
 };

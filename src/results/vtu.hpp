@@ -4,7 +4,7 @@
 
 namespace elamin {
 
-/// Writes the state as .vtu: XML, the numbers behind it in binary, so that they are the same to the last bit. Cells by their `kind`:
+/// Writes the state as .vtu: XML, the numbers behind it in binary, packed by zlib, so that they are the same to the last bit. Cells by their `kind`:
 ///   0  particles, a vertex each        1  bonds, a line each: tension, strain       2  angles, a line of three points each: curvature, moment,
 ///   3  closed contacts, a vertex at    4  walls, polygons                              moment_vector
 ///      the point of contact each: gap, force (on the first)                        5  bodies, polygons
