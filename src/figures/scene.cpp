@@ -61,7 +61,6 @@ std::string stem_of_step(const std::string& directory, const std::string& step) 
     known.push_back(csv_text(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(column)]));
     if (known.back() == step) return s.file.substr(0, s.file.size() - 5);
   }
-  if (known.size() > 40) known.resize(40), known.emplace_back("…");
   throw InputError(fmt::format("{}: no state of step {} was kept; there are those of the steps {} ([path] frames or every keep more)", directory, step, listed(known)));
 }
 
