@@ -53,7 +53,7 @@ std::string xyz_frame(const Shot& shot) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "{}\nProperties=species:S:1:pos:R:3:id:I:1:kind:I:1:molecule:I:1:radius:R:1", entities(model));
-  for (const EntityColumn& c : columns) fmt::format_to(out, ":{}:R:{}", c.name, c.components.size());
+  for (const EntityColumn& c : columns) fmt::format_to(out, ":{}:R:{}", c.name == "velocity" ? "velo" : c.name, c.components.size());   // as OVITO has it
   fmt::format_to(out, " step={} {}={}{} pbc=\"F F F\"\n", shot.step, shot.motion ? "time" : "load_factor", shot.parameter, label_in_quotes(shot.label));
   for (int e = 0; e < entities(model); ++e) {
     const bool body = is_body(model, e);

@@ -194,12 +194,15 @@ TEST_CASE("bodies have a dump of their own beside particles", "[film]") {
   m.start.bodies = {{{Vec3(1, 2, 1.0 / 3), Vec3::Zero()}, turn}};
   const Fields fields = some_fields(m);
   ResultsDirectory directory(scratch / "run", false);
-  Film film(directory, "trajectory", {"lammpstrj"}, "");
+  Film film(directory, "trajectory", {"lammpstrj", "xyz"}, "");
   Motion motion;
   motion.state = m.start, motion.velocity = Field::Random(3, 5), motion.force = Field::Random(3, 5);
   motion.body_velocity = Field::Random(3, 1), motion.body_force = Field::Random(3, 1);
   const std::vector<Touch> none;
   film.add({12, "", 0.5, m, motion.state, fields, none, {}, &motion});
+  const std::string xyz = text_of(scratch / "run/trajectory.xyz");
+  CHECK(xyz.starts_with("6\nProperties=species:S:1:pos:R:3:id:I:1:kind:I:1:molecule:I:1:radius:R:1:velo:R:3:force:R:3:energy:R:1 step=12 time=0.5 pbc=\"F F F\"\n"));
+  CHECK(std::count(xyz.begin(), xyz.end(), '\n') == 8);
   const auto particles = frames_in(scratch / "run/trajectory.lammpstrj"), bodies = frames_in(scratch / "run/trajectory.bodies.lammpstrj");
   REQUIRE((particles.size() == 1 && bodies.size() == 1));
   CHECK(particles[0].columns == std::vector<std::string>{"id", "type", "mol", "x", "y", "z", "radius", "vx", "vy", "vz", "fx", "fy", "fz", "energy"});
