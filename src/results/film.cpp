@@ -26,7 +26,7 @@ void Film::add(const Shot& shot) {
   const Model& model = shot.model;
   const bool particles = model.particles() > 0, bodies = !model.bodies.empty();
   if (words_.count("lammpstrj")) {
-    if (particles && !reels_.count(".lammpstrj")) write_topology(directory_.file(name_ + ".data"), model, shot.state, title_);
+    if (particles && !reels_.count(".lammpstrj")) write_topology(directory_.file(directory_.free_name(name_) + ".data"), model, shot.state, title_);
     if (particles) add_dump(".lammpstrj", shot, false);
     if (bodies) add_dump(particles ? ".bodies.lammpstrj" : ".lammpstrj", shot, true);
   }

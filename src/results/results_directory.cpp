@@ -107,9 +107,14 @@ void ResultsDirectory::remove(const std::string& beginning) {
     if (const fs::path file = place(directory_, *it); !kept_.count(located(file))) fs::remove(file, error);
 }
 
-bool ResultsDirectory::has_foreign(const std::string& name) const {
+std::string ResultsDirectory::free_name(std::string name) const {
   std::error_code error;
-  return !listed_.count(name) && fs::exists(place(directory_, name), error);
+  const auto taken = [&](const std::string& data) {
+    const fs::path file = place(directory_, data);
+    return kept_.count(located(file)) || (!listed_.count(data) && fs::exists(file, error));
+  };
+  while (taken(name + ".data")) name += "-again";
+  return name;
 }
 
 }  // namespace elamin

@@ -32,8 +32,8 @@ class ResultsDirectory {
   /// Removes what has been written under names that begin so, but for the files kept.
   void remove(const std::string& beginning);
 
-  /// Whether a file is there that was not written by elamin.
-  bool has_foreign(const std::string& name) const;
+  /// The name, or with "-again" behind it, so that NAME.data is neither a file kept nor one that was not written by elamin.
+  std::string free_name(std::string name) const;
 
   const std::string& path() const { return directory_; }
 

@@ -234,19 +234,14 @@ void RunDirectory::finish(const Summary& summary) {
   write_summary(results_.file("summary.json"), summary, record_.path(), record_.events());
 }
 
-std::string RunDirectory::free_name(std::string name) const {
-  while (results_.has_foreign(name + ".data") || inputs_.count(located(fs::path(directory()) / (name + ".data")))) name += "-again";
-  return name;
-}
-
 std::string RunDirectory::state_name(const std::string& label) const {
   std::string name = label;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
-  return free_name("states/" + name);
+  return results_.free_name("states/" + name);
 }
 
-std::string RunDirectory::frame_name(int step) const { return free_name(fmt::format("frames/{}", step)); }
+std::string RunDirectory::frame_name(int step) const { return results_.free_name(fmt::format("frames/{}", step)); }
 
 std::string RunDirectory::state_file(const std::string& label) const {
   return (fs::path(directory()) / (state_name(label) + ".data")).string();

@@ -84,7 +84,6 @@ class RunDirectory {
   std::string state_file(const std::string& label) const;
 
  private:
-  std::string free_name(std::string name) const;
   std::string state_name(const std::string& label) const;                                 // "states/branch-1"
   std::string frame_name(int step) const;                                                 // "frames/12"
   void add_state_file(const std::string& name, const Model& model, const State& state, const std::string& called);

@@ -199,7 +199,10 @@ TEST_CASE("bodies have a dump of their own beside particles", "[film]") {
   motion.state = m.start, motion.velocity = Field::Random(3, 5), motion.force = Field::Random(3, 5);
   motion.body_velocity = Field::Random(3, 1), motion.body_force = Field::Random(3, 1);
   const std::vector<Touch> none;
+  scratch.file("run/trajectory.data", "somebody's");
   film.add({12, "", 0.5, m, motion.state, fields, none, {}, &motion});
+  CHECK(text_of(scratch / "run/trajectory.data") == "somebody's");
+  CHECK(read_lammps_data(scratch / "run/trajectory-again.data").position == m.start.position);
   const std::string xyz = text_of(scratch / "run/trajectory.xyz");
   CHECK(xyz.starts_with("6\nProperties=species:S:1:pos:R:3:id:I:1:kind:I:1:molecule:I:1:radius:R:1:velo:R:3:force:R:3:energy:R:1 step=12 time=0.5 pbc=\"F F F\"\n"));
   CHECK(std::count(xyz.begin(), xyz.end(), '\n') == 8);
