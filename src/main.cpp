@@ -180,7 +180,8 @@ int main(int argc, char** argv) {
     if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
     const RunResult result = run(options);
-    if (and_plot) fmt::print("{}", terminal_figure({.directory = result.directory}, terminal_width(stdout)));
+    figure.directory = result.directory;
+    if (and_plot) fmt::print("{}", terminal_figure(figure, terminal_width(stdout)));
     if (and_report) report_command({{result.directory}, "", options.quiet});
     if (!options.quiet) fmt::print("{}", next_steps(result.directory, and_report));
     return result.exit_status;
