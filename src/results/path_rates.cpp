@@ -13,6 +13,7 @@ namespace {
 
 constexpr double distortion = 0.1;     // of the longest step: how far it turns or stretches a bond, turns a body, moves a grain by its size
 constexpr int least_halvings = 12, most_halvings = 40;
+constexpr double just = 1e-8;          // touching: a gap in sizes, a hard contact's force in parts of the largest
 constexpr int refinements = 2;
 constexpr double no_work = 1e-6;       // of loads on a critical mode, relative: a branch point, else a limit point
 
@@ -40,10 +41,31 @@ class Limit {
 
 }  // namespace
 
+// Whether a contact is made or lost here whose stiffness sets in at once: a hard one, one of a body.
+bool PathRates::corner(const State& state) {
+  Energy& energy = newton_.energy();
+  const Model& model = energy.model();
+  const double size = largest_size(model);
+  for (const HardForce& contact : any_hard(model) ? energy.hard_contacts(state, just * size) : std::vector<HardForce>{}) {
+    const auto same = [&](const HardForce& h) { return key(h) == key(contact); };
+    const auto closed = std::find_if(state.hard.begin(), state.hard.end(), same);
+    HardGap gap;
+    if (closed != state.hard.end() ? energy.relative(Vector::Constant(1, closed->force)) <= just
+                                   : hard_gap(model, contact, state, gap) && gap.value <= just * model.diameter[contact.particle])
+      return true;
+  }
+  if (model.rounded.empty() && model.bodies.empty()) return false;
+  const std::vector<Touch> touches = energy.touches(state, just * size);
+  return std::any_of(touches.begin(), touches.end(), [&](const Touch& t) {
+    return (is_body(model, t.particle) || (t.other >= 0 && is_body(model, t.other))) && std::abs(t.gap) <= just * size_of(model, t.particle);
+  });
+}
+
 std::optional<PathRates::Tangent> PathRates::tangent(const State& state) {
   Energy& energy = newton_.energy();
   const Equilibrium e = assess(newton_, state, {});
   Tangent t{e.tangent, {}, 1};
+  if (corner(state)) return std::nullopt;
   const bool critical = e.point.stability.critical > 0;
   if (!state.hard.empty()) {
     if (critical) return std::nullopt;

@@ -9,7 +9,7 @@ namespace elamin {
 /// prescribed coordinates at their rates, motions that cost nothing held, hard contacts kept closed by forces that change; no other point of the
 /// path is asked for. Along the tangent P is differentiated by central differences of halved steps, extrapolated: about nine digits.
 /// At a limit point dx/dλ is infinite: there the tangent is the null vector of K, and dλ = 0. Where the path has more than one, at a branch
-/// point, there are no rates.
+/// point, or a corner, where a hard contact or one of a body is made or lost, there are no rates.
 /// Source: Ridders 1982, Adv. Eng. Software 4, 75 (differences).
 class PathRates {
  public:
@@ -27,6 +27,7 @@ class PathRates {
     Vector q, force;                   // of the free dofs [length], of the hard contacts
     double load = 0;                   // dλ
   };
+  bool corner(const State& state);
   std::optional<Tangent> tangent(const State& state);
   struct Steps { double longest; int halvings; };
   Steps steps(const State& state, const Tangent& tangent);

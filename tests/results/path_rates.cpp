@@ -189,4 +189,7 @@ TEST_CASE("hard contacts stay closed along the path, with forces that change", "
   CHECK(v[1] == Approx(3.5).epsilon(1e-12));
   CHECK(v[2] == Approx(-14).epsilon(1e-9));                               // their equations are softened by 1e-10 of the stiffness, see limits.hpp
   CHECK(v[3] == Approx(14).epsilon(1e-9));
+  // Where it just touches, the path has a corner.
+  state.position(2, 0) = 0, state.load_factor = 0, state.hard.clear();
+  CHECK_FALSE(std::isfinite(values(problem, m, state)[2]));
 }
