@@ -203,7 +203,8 @@ std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::
     const Watch& w = watches[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
     const double there = w.side(b.point.state);
-    if (sides[k] == 0 || (there != 0 && (sides[k] < 0) == (there < 0))) continue;
+    if (sides[k] == 0 || std::isnan(sides[k]) || std::isnan(there)) continue;      // not known; or nothing, as a derivative at a corner
+    if (there != 0 && (sides[k] < 0) == (there < 0)) continue;
     if ((f(a) < 0) != (sides[k] < 0)) continue;                // it changes within rounding of `a`, where it has been told
     std::optional<Event> event = there == 0 ? event_at(b, segment.b) : locate_root(segment, a, b, f);
     if (!event) {
