@@ -110,3 +110,24 @@ TEST_CASE("in motion: what flies apart, and a spring's tension and energy as it 
   INFO(answer.text);
   CHECK(answer.status == 0);
 }
+
+TEST_CASE("a stiffness that sets in at a corner of the path is nothing there, and passes an event's value nowhere", "[observed]") {
+  const ScratchDirectory scratch;
+  // A spring over a hard floor that rises: from load factor ½ on it is pressed.
+  const std::string file = scratch.file(
+      "p.toml",
+      "plane = \"xz\"\n[[beam]]\nname = \"spring\"\nparticles = 2\nfrom = [0, 0, 0]\nto = [0, 0, 4]\ndiameter = 1\nbond_stiffness = 3\nangle_stiffness = 1\n"
+      "[[group]]\nname = \"top\"\nof = \"spring\"\nlast = 1\n[[group]]\nname = \"ball\"\nof = \"spring\"\nfirst = 1\n"
+      "[[support]]\ngroup = \"top\"\n[[support]]\ngroup = \"ball\"\ndirections = \"xy\"\n"
+      "[[wall]]\nname = \"floor\"\ngroup = \"ball\"\nshape = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\nhard = true\ndisplacement = [0, 0, 1]\n"
+      "[solver]\nmethod = \"ipopt\"\n" +
+          observe("force", "reaction.z", "group = \"top\"") + observe("stiffness", "derivative", "of = \"force\"") +
+          "[path]\nsteps = 4\n[[event]]\nname = \"stiff\"\nobservable = \"stiffness\"\nvalue = -3\n" + expect("lambda", "contact:1", 0.5, "1e-9") +
+          expect("stiffness", "lambda=0.75", -6, "1e-8") + expect("force", "final", -3, "1e-9"));
+  const Answer answer = elamin_says("verify '" + file + "' --quiet");
+  INFO(answer.text);
+  CHECK(answer.status == 0);
+  CHECK(row_of(table_of(scratch / "p/events.csv"), "contact:1").text("stiffness").empty());
+  CHECK(table_of(scratch / "p/events.csv").size() == 1);
+  CHECK(table_of(scratch / "p/path.csv").size() <= 10);
+}
