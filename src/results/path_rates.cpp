@@ -46,6 +46,7 @@ bool PathRates::corner(const State& state) {
   Energy& energy = newton_.energy();
   const Model& model = energy.model();
   const double size = largest_size(model);
+  if (any_hard(model)) energy.evaluate(state, false);            // the scale of forces
   for (const HardForce& contact : any_hard(model) ? energy.hard_contacts(state, just * size) : std::vector<HardForce>{}) {
     const auto same = [&](const HardForce& h) { return key(h) == key(contact); };
     const auto closed = std::find_if(state.hard.begin(), state.hard.end(), same);
@@ -62,10 +63,10 @@ bool PathRates::corner(const State& state) {
 }
 
 std::optional<PathRates::Tangent> PathRates::tangent(const State& state) {
+  if (corner(state)) return std::nullopt;
   Energy& energy = newton_.energy();
   const Equilibrium e = assess(newton_, state, {});
   Tangent t{e.tangent, {}, 1};
-  if (corner(state)) return std::nullopt;
   const bool critical = e.point.stability.critical > 0;
   if (!state.hard.empty()) {
     if (critical) return std::nullopt;
