@@ -179,6 +179,7 @@ int main(int argc, char** argv) {
     if (*report_app) return report_command(report), exit_done;
     if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
+    options.report = and_report;
     const RunResult result = run(options);
     figure.directory = result.directory;
     if (and_plot) fmt::print("{}", terminal_figure(figure, terminal_width(stdout)));

@@ -18,6 +18,6 @@ struct RelaxOptions {
 /// Bodies: in the coordinates (x, ℓθ), a step no longer than a tenth of the radius of their rounding, by the exact forces throughout.
 /// Plain doubles while the residual is above what they can tell; the exact forces of the energy from there on.
 /// The history has every thousandth step. Report::negative stays −1: a saddle is left sooner or later, but not looked for.
-Report relax(Energy& energy, State& state, const RelaxOptions& options = {});
+[[nodiscard]] Report relax(Energy& energy, State& state, const RelaxOptions& options = {});
 
 }  // namespace elamin

@@ -39,9 +39,9 @@ class Arc {
   /// system  H p + c δ = 0,  t_x·p/L² + t_λ δ/Λ² = 1,  which is regular where H is not: at limit points, beside branch points.
   Equilibrium at(double s, const Equilibrium& nearest) const;
   /// The state of it alone, without what is known of the equilibrium there.
-  Report correct(State& state, double s, const Equilibrium& nearest) const;
+  [[nodiscard]] Report correct(State& state, double s, const Equilibrium& nearest) const;
   /// The equilibrium at the arc length of a state that is near to it, some directions (dofs × m) held.
-  Report settle(State& state, const Eigen::MatrixXd& held) const;
+  [[nodiscard]] Report settle(State& state, const Eigen::MatrixXd& held) const;
   /// dλ/ds of the branch at an equilibrium.
   double load_rate(const Equilibrium& e) const;
   /// s of an equilibrium, and how far the state lies from the branch's tangent at `from`, in the metric.
@@ -52,7 +52,7 @@ class Arc {
 
  private:
   Plane plane() const;
-  Report on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const;
+  [[nodiscard]] Report on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const;
   Direction along(const Equilibrium& nearest) const;
   Newton& newton_;
   Equilibrium from_;

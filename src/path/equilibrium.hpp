@@ -42,7 +42,7 @@ Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const
 
 /// Corrects a state beside an equilibrium with these conditions held, and shifts it along the neutral modes until c is what it was: an oval
 /// does not slide along its ring. `correct` is called again after each shift.
-Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
+[[nodiscard]] Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
                         const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct);
 
 /// The columns of both, for what is held together.

@@ -9,7 +9,7 @@ namespace elamin {
 /// sweeping process. from: what is prescribed stands at its new place already; way: how far that has come at most [length]; state: a guess, then the answer.
 /// Not converged where something is caught, so that forces arise, or where parts are glued that nothing holds.
 /// Source: Moreau 1977, J. Differential Equations 26, 347, the catching-up algorithm.
-Report push_aside(Newton& newton, const State& from, double way, State& state);
+[[nodiscard]] Report push_aside(Newton& newton, const State& from, double way, State& state);
 
 /// How far what is prescribed moves at most, supports and walls, while the load factor changes by so much [length].
 double driven_way(const Energy& energy, double load_change);

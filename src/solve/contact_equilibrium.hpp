@@ -24,19 +24,19 @@ class ContactEquilibrium {
   /// prediction led here from (see Energy::evaluate).
   /// `reach`: how far coordinates may move [length]. Directions in the columns of `held` (orthonormal, dofs × any number) keep their
   /// value: motions that cost nothing. Ends as close as rounding allows, once the residual is below the tolerance.
-  Report settle(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {}) {
+  [[nodiscard]] Report settle(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {}) {
     return newton(state, tolerance, from, reach, held, nullptr);
   }
 
   /// The same where a contact changes: the load factor is an unknown too, and what is zero there is the force of `changing`, if it is
   /// among the closed ones, else its gap.
-  Report meet(State& state, const HardForce& changing, double tolerance, const State* from, const Eigen::MatrixXd& held) {
+  [[nodiscard]] Report meet(State& state, const HardForce& changing, double tolerance, const State* from, const Eigen::MatrixXd& held) {
     return newton(state, tolerance, from, anywhere, held, &changing);
   }
 
   /// The stationary point where the coordinates have moved by `amount` [length] along `mode` (dofs, normalised) since `origin`; the load
   /// factor λ is an unknown. `slope` gets dλ/d(amount): at a limit point, where the equations at a given λ are singular and these are not, it is zero.
-  Report slide(State& state, const State& origin, const Vector& mode, double amount, double tolerance, const Eigen::MatrixXd& held, double& slope);
+  [[nodiscard]] Report slide(State& state, const State& origin, const Vector& mode, double amount, double tolerance, const Eigen::MatrixXd& held, double& slope);
 
   /// A curvature along `mode`, among the motions that keep the closed gaps: κ of  [ K v ; vᵀ 0 ] [ x ; −κ ] = [ 0 ; 1 ],  K the matrix above. It is zero
   /// where K is singular with a critical mode that is not orthogonal to v, and smooth along the branch.   Source: Govaerts 2000, Numerical
@@ -45,7 +45,7 @@ class ContactEquilibrium {
 
   /// The same, and the right contacts: those that would pull are let go, those that would overlap are taken in, until no gap is
   /// negative and no force either, within rounding; State::hard then holds those that bear a force.
-  Report correct(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {});
+  [[nodiscard]] Report correct(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {});
 
   /// Numbers of eigenvalues below zero and at zero of the Hessian of L among the motions that keep the closed gaps: stability, to
   /// second order.
@@ -69,7 +69,7 @@ class ContactEquilibrium {
 
  private:
   struct Step { Vector p, force; double border = 0; };         // of the last of the directions held
-  Report newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held, const HardForce* changing);
+  [[nodiscard]] Report newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held, const HardForce* changing);
   void linearise(const State& state, const State* from, const Eigen::MatrixXd& held = {});
   [[nodiscard]] bool factorize(double shift);
   [[nodiscard]] bool factorize_near(double shift);

@@ -13,6 +13,6 @@ struct IpoptOptions {
 /// Interior-point minimisation with line search, exact gradients and Hessians in their fixed pattern; hard contacts are its inequality
 /// constraints, gap ≥ 0, and their multipliers come back in State::hard.
 /// Source: Wächter & Biegler 2006, Math. Program. 106; Ipopt 3.11.
-Report minimise_by_ipopt(Energy& energy, State& state, const IpoptOptions& options);
+[[nodiscard]] Report minimise_by_ipopt(Energy& energy, State& state, const IpoptOptions& options);
 
 }  // namespace elamin

@@ -25,11 +25,11 @@ std::string refusal(const Method& method, const Energy& energy);
 /// Finds a minimum near the state by the method: converged means the same of all of them, a residual (Energy::relative) below the
 /// tolerance and a Hessian without a negative eigenvalue. A method that ends at a saddle is sent down its negative
 /// curvature and asked again. `newton`: of the energy that is minimised; it factorises, and polishes where that is asked for.
-Report minimise(Newton& newton, State& state, const Method& method);
+[[nodiscard]] Report minimise(Newton& newton, State& state, const Method& method);
 
 /// The same with any search for an equilibrium, whose reports are added up. At its end, as Newton's method does it too, simplified
 /// Newton steps with the factor that has told the inertia bring the residual down to rounding; `why` counts them.
 /// Where hard contacts bear a force the Hessian is that of a Lagrangian: neither is asked of it.
-Report stable_end(Newton& newton, State& state, const std::function<Report(State&)>& search);
+[[nodiscard]] Report stable_end(Newton& newton, State& state, const std::function<Report(State&)>& search);
 
 }  // namespace elamin

@@ -59,13 +59,13 @@ class Newton {
   /// Finds a minimum: converged means a small residual and (but see Pace) no negative eigenvalue. A saddle is left along its negative
   /// curvature. Steps lower the energy (Armijo on what was predicted); where rounding hides the energy's change, they
   /// must lower the residual. Not more than `most` iterations, where that is less than the options allow.
-  Report minimise(State& state, Pace pace = Pace::long_steps, int most = std::numeric_limits<int>::max());
+  [[nodiscard]] Report minimise(State& state, Pace pace = Pace::long_steps, int most = std::numeric_limits<int>::max());
 
   /// Finds the stationary point near the state, stable or not. Directions in the columns of `held` (orthonormal,
   /// dofs × m) keep their value: zero modes, or the critical modes at an event. `from`: the equilibrium that a predictor
   /// led here from, if one did. With a `plane` the load factor is an unknown too, and the state moves on the plane.
   /// Not converged if the steps do not shrink, or after `most` iterations.
-  Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr,
+  [[nodiscard]] Report correct(State& state, const Eigen::MatrixXd& held = {}, const State* from = nullptr,
                  int most = std::numeric_limits<int>::max(), Plane* plane = nullptr);
 
   /// Moves the state from a saddle down along ± direction (dofs), sign as given, until the energy rises or what is
@@ -121,7 +121,7 @@ class Newton {
   Part part_of(const State& state, const Step& step) const;
   double residual() const;
   void record(Report& report, double step, double shift) const;
-  Report finish(const State& state, Report report, const Halt& halt);
+  [[nodiscard]] Report finish(const State& state, Report report, const Halt& halt);
   std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
   std::optional<Halt> no_factor() const;
   Halt without_factor() const;

@@ -22,7 +22,7 @@ struct NloptOptions {
 /// as far as nothing is in the way, with three quarters of the evaluations, and LD_LBFGS goes on from the lowest state seen.
 /// What an algorithm cannot do (nlopt_refuses) is the report's sentence, not converged.
 /// Source: S. G. Johnson, the NLopt nonlinear-optimization package.
-Report minimise_by_nlopt(Newton& newton, State& state, const NloptOptions& options);
+[[nodiscard]] Report minimise_by_nlopt(Newton& newton, State& state, const NloptOptions& options);
 
 /// Why an algorithm cannot solve a problem of this many dofs, with or without hard contacts: one sentence that names others that can;
 /// "" if it can. Also for names that there are not.

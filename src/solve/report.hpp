@@ -15,7 +15,7 @@ struct Iteration {
   double shift = 0;         // added to the Hessian's diagonal to make it positive definite [force/length]
 };
 
-struct [[nodiscard]] Report {
+struct Report {
   Status status = Status::not_converged;
   std::string why;          // one sentence
   std::vector<Iteration> history;

@@ -12,6 +12,6 @@ int loose_grains(const Energy& energy);
 /// `newton.minimise` decides what is converged. Each descent takes steps p of (H + τI) p = −g with the τ that makes H + τI positive definite and keeps every
 /// step within a part of a diameter, shorter where the energy does not fall as predicted (a trust region: Nocedal & Wright 2006, §4.1, with the shift of Levenberg
 /// and Marquardt for its radius). For models without bodies and without hard contacts. Not converged after `most` steps of one descent.
-Report settle(Newton& newton, State& state, int most);
+[[nodiscard]] Report settle(Newton& newton, State& state, int most);
 
 }  // namespace elamin

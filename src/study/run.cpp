@@ -41,6 +41,11 @@ RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   return {exit_status(result), options.directory, result.verdicts};
 }
 
+// A page's shape follows the path where states of it are kept.
+void keep_frames(Problem& problem) {
+  if (problem.study == StudyType::path && !problem.path.has_frames()) problem.path.frames = 50, problem.path.film.emplace();
+}
+
 }  // namespace
 
 RunResult run(const RunOptions& given) {
@@ -48,7 +53,9 @@ RunResult run(const RunOptions& given) {
   if (options.threads <= 0) options.threads = cores();
   set_threads(options.threads);
   if (options.directory.empty()) options.directory = default_directory(options.file);
-  const PreparedRuns prepared = prepare_runs(options.file, options.settings);
+  PreparedRuns prepared = prepare_runs(options.file, options.settings);
+  if (options.report)
+    for (PreparedRun& run : prepared.runs) keep_frames(run.problem);
   if (prepared.bisection) return run_bisection(prepared, options);
   const bool single = prepared.runs.size() == 1 && prepared.runs.front().swept.empty();
   return single ? run_one(prepared.runs.front(), options) : run_sweep(prepared, options);

@@ -19,6 +19,7 @@ struct RunOptions {
   int threads = 0;                     // 0: all cores
   bool force = false;                  // write to a directory that is not results of elamin, too
   bool quiet = false;
+  bool report = false;                 // a page is made of it: a path that says nothing of frames keeps 50, without films
 };
 
 /// What a run came to.

@@ -27,10 +27,10 @@ std::string on_terminal(std::vector<std::string> arguments, const char* kind, co
   if (child == 0) {
     setenv("TERM", kind, 1), setenv("NO_COLOR", no_color, 1);
     arguments.insert(arguments.begin(), ELAMIN_PROGRAM);
-    std::vector<char*> words;
-    for (std::string& a : arguments) words.push_back(a.data());
-    words.push_back(nullptr);
-    execv(ELAMIN_PROGRAM, words.data());
+    std::vector<char*> pointers;
+    for (std::string& a : arguments) pointers.push_back(a.data());
+    pointers.push_back(nullptr);
+    execv(ELAMIN_PROGRAM, pointers.data());
     _exit(127);
   }
   std::string text;
@@ -44,10 +44,10 @@ std::string on_terminal(std::vector<std::string> arguments, const char* kind, co
   return text;
 }
 
-bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::size_t letters(const std::string& words) {
-  return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 }  // namespace
@@ -148,11 +148,11 @@ TEST_CASE("strains that leave what the model means are told of, and whose they a
 TEST_CASE("words of the command line that mean nothing", "[terminal]") {
   const ScratchDirectory scratch;
   const std::string file = scratch.file("p.toml", pushed), quoted = "'" + file + "'";
-  const auto says = [&](const std::string& arguments, const std::string& words) {
+  const auto says = [&](const std::string& arguments, const std::string& sentence) {
     const Answer answer = elamin_says(arguments);
     INFO(arguments << "\n" << answer.text);
     CHECK(answer.status == 1);
-    CHECK(has(answer.text, words));
+    CHECK(has(answer.text, sentence));
     CHECK(answer.text.size() < 600);
     CHECK(!std::filesystem::exists(scratch / "p"));
   };
