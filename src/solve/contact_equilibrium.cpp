@@ -331,7 +331,7 @@ std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, co
     if (wrong.empty()) return state.hard;
     if (wrong.size() < least) least = wrong.size(), chances = limits::hard::block_chances;
     else --chances;
-    if (chances <= 0) wrong.resize(1);                          // in the order of `slack`
+    if (chances <= 0) wrong.erase(wrong.begin() + 1, wrong.end());                        // in the order of `slack`
     for (const HardForce* h : wrong) {
       if (const auto at = place(state.hard, *h); at != state.hard.end()) state.hard.erase(at);
       else state.hard.push_back({h->particle, h->other, h->wall, h->face, 0});
