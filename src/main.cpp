@@ -71,6 +71,8 @@ std::string not_understood(const CLI::App& app, const std::string& file) {
   for (const std::string& word : words)
     if (word.starts_with('-')) return word + ": is no option; there are: " + elamin::listed(options) + elamin::did_you_mean(word, options);
   const bool too_many = !words.empty();
+  if (runs && !too_many && !std::filesystem::is_regular_file(file) && std::filesystem::is_regular_file(file + ".toml"))
+    return file + ": is no problem file; did you mean \"" + file + ".toml\"?";
   if (runs && !file.empty() && !std::filesystem::exists(file)) words.insert(words.begin(), file);
   for (const std::string& word : words) {
     if (std::filesystem::exists(word)) continue;

@@ -109,13 +109,14 @@ void Progress::draw(double at, std::vector<Piece> pieces) {
   if (pending_ && now - last_time_ < redraw) return;
   const double part = done(at);
   if (steady_ && part > 0.01 && part < 1 && now > 1) pieces.push_back({clock_time(now / part * (1 - part)) + " left"});
-  std::string line = fmt::format("{}▏{:3.0f} %", bar(part), std::floor(100 * part));
+  std::string line = from_ == to_ && parts_ == 1 ? "" : fmt::format("{}▏{:3.0f} %  ", bar(part), std::floor(100 * part));
   std::size_t room = static_cast<std::size_t>(terminal_width(out_)), used = letters(line);
   for (const Piece& p : pieces) {
-    const std::size_t wide = letters(p.words) + 2;
+    const std::size_t wide = letters(p.words);
     if (p.words.empty() || used + wide > room) continue;
-    line += "  " + (p.ink ? (ink_.*p.ink)(p.words) : p.words), used += wide;
+    line += (p.ink ? (ink_.*p.ink)(p.words) : p.words) + "  ", used += wide + 2;
   }
+  line.erase(line.find_last_not_of(' ') + 1);
   fmt::print(out_, "\r{}\x1b[K", line);
   std::fflush(out_);
   pending_ = true, first_ = false, last_time_ = now;

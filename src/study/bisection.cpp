@@ -33,7 +33,7 @@ class Halving {
 
   Side run(const PreparedRun& prepared, double value) {
     const std::string name = run_name(++count_, 10, prepared.swept);
-    Progress progress(stdout, Progress::style_for(stdout, options_.quiet), 0, 1);
+    Progress progress(stdout, Progress::style_for(stdout, options_.quiet), 0, 0);
     const Stopwatch watch;
     std::optional<Heartbeat> at_work(std::in_place, heartbeat, [&](const auto&) {
       progress.wait(fmt::format("run {}: {}: at work for {:.0f} s", count_, name, watch.seconds()));

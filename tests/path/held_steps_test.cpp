@@ -138,8 +138,8 @@ Model springs_under_lid(const std::vector<double>& at, double size, double stiff
 TEST_CASE("what a lid touches does not depend on the number of steps, their direction, sizes and stiffnesses", "[path][hard]") {
   const double size = GENERATE(1e-6, 1.0, 1e3), stiffness = GENERATE(1.0, 1e11);
   const std::vector<double> at{0.5, 0.25, 0.5, 0.7, 0.5, 0.25 + 1e-6};
-  const std::vector<Seen> right{{0.25, "contact:1", "particle 4"}, {0.25 + 1e-6, "contact:2", "particle 12"},
-                                {0.5, "contact:3", "particle 2 VERB wall lid, particle 6 VERB wall lid, particle 10"}, {0.7, "contact:4", "particle 8"}};
+  const std::vector<Seen> right{{0.25, "contact:1", "chain 4"}, {0.25 + 1e-6, "contact:2", "chain 12"},
+                                {0.5, "contact:3", "chain 2 VERB wall lid, chain 6 VERB wall lid, chain 10"}, {0.7, "contact:4", "chain 8"}};
   const Model m = springs_under_lid(at, size, stiffness);
   for (const int steps : {1, 6, 7, 8, 10, 11, 13, 20}) {
     INFO("size " << size << ", stiffness " << stiffness << ", " << steps << " steps");

@@ -79,6 +79,14 @@ TEST_CASE("the bar goes on through the stages, and what does not fit is left out
   CHECK(text_of(scratch / "out") == "\r████            ▏ 25 %  12 s at work  iteration 7  y\x1b[K\ra line\x1b[K\n\r██████          ▏ 37 %\x1b[K\r\x1b[K");
 }
 
+TEST_CASE("what has no way to go has no bar", "[progress]") {
+  ScratchDirectory scratch;
+  std::FILE* out = std::fopen((scratch / "out").c_str(), "w");
+  Progress(out, Progress::Style::terminal, 1, 1).wait("", {"12 s at work", "iteration 7"});
+  std::fclose(out);
+  CHECK(text_of(scratch / "out") == "\r12 s at work  iteration 7\x1b[K\r\x1b[K");
+}
+
 TEST_CASE("the closing table lists the events", "[progress]") {
   const Model m = sample_model();
   Table events{event_columns({}), {}};

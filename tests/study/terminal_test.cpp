@@ -158,6 +158,7 @@ TEST_CASE("words of the command line that mean nothing", "[terminal]") {
   };
   says("chekc " + quoted, "chekc: is no command and no file; did you mean \"check\"?");
   says("veryfy", "veryfy: is no command and no file; did you mean \"verify\"?");
+  says("'" + (scratch / "p'"), "p: is no problem file; did you mean \"" + file + "\"?");
   says("no-such-file.toml", "no-such-file.toml: there is no such file");
   says(quoted + " " + quoted, "is one word too many; a run has one problem file");
   says("check " + quoted + " " + quoted, "is one word too many");
