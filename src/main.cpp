@@ -80,14 +80,16 @@ std::string not_understood(const CLI::App& app, const std::string& file) {
     if (const std::string meant = elamin::did_you_mean(word, commands); runs && &word == &words.front() && !meant.empty())
       return word + ": is no command and no file" + meant;
   }
-  return too_many ? words.back() + ": is one word too many; " + (runs ? "a run has one problem file" : "--help tells what the command takes") : "";
+  if (!too_many) return "";
+  return words.back() + ": is one word too many; " + (runs ? "a run has one problem file" : "--help tells what the command takes");
 }
 
 // What to do with results, in words that a shell understands.
 std::string next_steps(const std::string& directory, bool has_report) {
-  const bool plain = std::all_of(directory.begin(), directory.end(), [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./,+=", c); });
-  const std::string name = plain ? directory : "'" + directory + "'";
-  return fmt::format("next: {}elamin plot {} (a figure)\n", has_report ? "" : fmt::format("elamin report {} (a page to look at), ", name), name);
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./,+=", c); };
+  const std::string name = std::all_of(directory.begin(), directory.end(), plain) ? directory : "'" + directory + "'";
+  const std::string report = has_report ? "" : "elamin report " + name + " (a page to look at), ";
+  return "next: " + report + "elamin plot " + name + " (a figure)\n";
 }
 
 // Of an option that needs a number above 0; `what`: of which kind.

@@ -51,11 +51,11 @@ bool is_part(const std::string& word, const std::string& candidate) {
 
 /// The letters of papers.
 constexpr std::pair<const char*, const char*> letters[]{
-    {"E", "youngs_modulus"}, {"nu", "poissons_ratio"}, {"rho", "density"}, {"mu", "friction"}, {"K", "bond_stiffness"}, {"B", "angle_stiffness"},
-    {"EA", "axial_stiffness"}, {"EI", "bending_stiffness"}, {"N", "particles"}, {"d", "diameter"}, {"D", "diameter"}, {"t", "thickness"},
+    {"E", "youngs_modulus"}, {"nu", "poissons_ratio"}, {"rho", "density"}, {"mu", "friction"}, {"K", "bond_stiffness"},
+    {"B", "angle_stiffness"}, {"EA", "axial_stiffness"}, {"EI", "bending_stiffness"}, {"N", "particles"}, {"d", "diameter"}, {"D", "diameter"}, {"t", "thickness"},
     {"r", "radius"}, {"R", "radius"}, {"F", "force"}, {"g", "acceleration"}, {"p", "pressure"}, {"dt", "timestep"}, {"r0", "rest_length"},
-    {"x", "position.x"}, {"y", "position.y"}, {"z", "position.z"}, {"ux", "displacement.x"}, {"uy", "displacement.y"}, {"uz", "displacement.z"},
-    {"fx", "reaction.x"}, {"fy", "reaction.y"}, {"fz", "reaction.z"}, {"vx", "velocity.x"}, {"vy", "velocity.y"}, {"vz", "velocity.z"}};
+    {"x", "position.x"}, {"y", "position.y"}, {"z", "position.z"}, {"ux", "displacement.x"}, {"uy", "displacement.y"},
+    {"uz", "displacement.z"}, {"fx", "reaction.x"}, {"fy", "reaction.y"}, {"fz", "reaction.z"}, {"vx", "velocity.x"}, {"vy", "velocity.y"}, {"vz", "velocity.z"}};
 
 const std::string* meant(const std::string& word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64, most = 1000;

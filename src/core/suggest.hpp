@@ -5,8 +5,8 @@
 
 namespace elamin {
 
-/// `; did you mean "steps"?` with the candidate that `word` is a letter or an abbreviation of, that is nearest to it or has it as a part; ""
-/// if there is none.
+/// `; did you mean "steps"?` with the candidate that `word` is a letter or an abbreviation of, that is nearest to it or has it
+/// as a part; "" if there is none.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 /// `a, b, c`; a long list is cut short.

@@ -43,7 +43,8 @@ class Dots {
 
  private:
   std::pair<int, int> cell(const Vec2& at) const {
-    return {std::clamp(static_cast<int>(std::lround(at.x())), 0, 2 * width_ - 1), std::clamp(static_cast<int>(std::lround(at.y())), 0, 4 * height_ - 1)};
+    const auto within = [](double v, int count) { return std::clamp(static_cast<int>(std::lround(v)), 0, count - 1); };
+    return {within(at.x(), 2 * width_), within(at.y(), 4 * height_)};
   }
   int width_, height_;
   std::vector<unsigned char> dots_;
@@ -65,11 +66,12 @@ std::string braille(const Diagram& d, int width, int height) {
     return Vec2((p.x() - x.lo) / (x.hi - x.lo) * (2 * columns - 1), (y.hi - p.y()) / (y.hi - y.lo) * (4 * height - 1));
   };
   for (const Curve& c : d.curves) {
-    const int on = c.kind == Curve::Kind::unstable ? 2 : 1, period = c.kind == Curve::Kind::unstable ? 4 : c.kind == Curve::Kind::snap ? 3 : 1;
+    const bool unstable = c.kind == Curve::Kind::unstable, points = c.kind == Curve::Kind::points;
+    const int on = unstable ? 2 : 1, period = unstable ? 4 : c.kind == Curve::Kind::snap ? 3 : 1;
     int count = 0;
-    for (const Vec2& p : c.points)
-      if (c.kind == Curve::Kind::points) dots.letter(at(p), 'o');
-    for (std::size_t i = 1; i < c.points.size() && c.kind != Curve::Kind::points; ++i) dots.line(at(c.points[i - 1]), at(c.points[i]), on, period, count);
+    for (std::size_t i = 0; i < c.points.size(); ++i)
+      if (points) dots.letter(at(c.points[i]), 'o');
+      else if (i > 0) dots.line(at(c.points[i - 1]), at(c.points[i]), on, period, count);
   }
   std::map<std::string, char> letters;                     // a kind's first letter that is free
   for (const EventMark& m : d.marks) {
@@ -85,7 +87,8 @@ std::string braille(const Diagram& d, int width, int height) {
     text += fmt::format("{:>{}} │{}\n", k == 0 ? number(y.hi) : k + 1 == height ? number(y.lo) : "", margin, dots.row(k));
   const std::string lo = number(x.lo), hi = number(x.hi), name = d.x;
   const int between = columns - static_cast<int>(lo.size() + hi.size() + name.size());
-  text += fmt::format("{:>{}} {}{:>{}}{}{:>{}}{}\n", "", margin + 1, lo, "", std::max(1, between / 2), name, "", std::max(1, between - between / 2), hi);
+  const auto blanks = [](int n) { return std::string(static_cast<std::size_t>(std::max(1, n)), ' '); };
+  text += blanks(margin + 2) + lo + blanks(between / 2) + name + blanks(between - between / 2) + hi + "\n";
   std::string key;
   for (const auto& [kind, letter] : letters) key += fmt::format("{}{} {}", key.empty() ? "" : ", ", letter, kind);
   return key.empty() ? text : text + fmt::format("{:>{}} {}\n", "", margin + 1, key);

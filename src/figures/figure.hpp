@@ -17,7 +17,8 @@ struct FigureOptions {
 /// the file cannot be written.
 std::string write_figure(const FigureOptions& options);
 
-/// The diagram for a terminal, as wide as that is, see braille; "" where there is one point at most. Throws InputError as write_figure does.
+/// The diagram for a terminal, as wide as that is, see braille; "" where there is one point at most. Throws InputError as
+/// write_figure does.
 std::string terminal_figure(const FigureOptions& options, int width);
 
 }  // namespace elamin

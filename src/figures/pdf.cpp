@@ -26,7 +26,8 @@ void write_pdf(const std::string& svg, const std::string& file) {
   const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed == ENOENT)
-    throw InputError(file + ": a PDF is made by rsvg-convert, which is not installed; it is in the Debian package librsvg2-bin (an .svg needs nothing)");
+    throw InputError(file + ": a PDF is made by rsvg-convert, which is not installed; it is in the Debian package librsvg2-bin "
+                            "(an .svg needs nothing)");
   int status = -1;
   if (failed || waitpid(child, &status, 0) < 0 || status != 0) throw InputError(file + ": cannot be written: rsvg-convert has failed");
 }

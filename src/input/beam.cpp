@@ -169,8 +169,8 @@ std::string common_measure(const BeamTable& table) {
   const double length = std::accumulate(are.begin(), are.end(), 0.0), shortest = *std::min_element(are.begin(), are.end());
   const double spacing = shortest / std::max(1.0, std::round(shortest * (table.particles - 1) / length));
   for (const double l : are) could.push_back(std::round(l / spacing) * spacing);
-  return fmt::format("the lengths between corners must have a common measure; they are {:.6g}, while {:.6g} would do; or give every piece a [[beam]] of "
-                     "its own and join them with [[connect]]", fmt::join(are, ", "), fmt::join(could, ", "));
+  return fmt::format("the lengths between corners must have a common measure; they are {:.6g}, while {:.6g} would do; or give every "
+                     "piece a [[beam]] of its own and join them with [[connect]]", fmt::join(are, ", "), fmt::join(could, ", "));
 }
 
 void not_on_corners(const BeamTable& table, Mistakes& mistakes) {

@@ -269,7 +269,8 @@ bool add_glue(const Problem& problem, Groups& groups, Model& model, Mistakes& mi
     const Pose& pose = model.start.bodies[b];
     for (const int p : group->particles) {
       if (const auto [first, fresh] = glued.emplace(p, &table); !fresh) {
-        mistakes.add(table.place, "group", fmt::format("{} is glued by {} already; once is enough", called(model, p), named(first->second->place)));
+        mistakes.add(table.place, "group",
+                     fmt::format("{} is glued by {} already; once is enough", called(model, p), named(first->second->place)));
         break;
       }
       const ExactVector apart = model.start.at(p) - pose.position;

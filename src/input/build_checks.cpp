@@ -42,7 +42,8 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
         mistakes.add(
             place_of(problem, second),
             fmt::format(
-                "{} is in the same place as {}, [{}, {}, {}]; particles must lie apart", called(model, j), called(model, i), x[0], x[1], x[2]));
+                "{} is in the same place as {}, [{}, {}, {}]; particles must lie apart", called(model, j), called(model, i), x[0], x[1],
+                x[2]));
       }
       if (told.size() > 20) return;
       break;   // on to the next of the list, so that a heap of many in one place takes no longer

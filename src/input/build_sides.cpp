@@ -44,7 +44,8 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
       tell(w.particles, [](const State& state, int i) { return state.at(i); },
            [&](int i) { return called(model, i); });
     if (w.kernel.normal > 0 && !w.lammps)
-      tell(w.bodies, [](const State& state, int b) { return state.bodies[b].position; }, [&](int b) { return called(model, model.particles() + b); });
+      tell(w.bodies, [](const State& state, int b) { return state.bodies[b].position; },
+           [&](int b) { return called(model, model.particles() + b); });
   }
 }
 

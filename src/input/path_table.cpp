@@ -140,7 +140,8 @@ void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
     mistakes.add(t.place, given ? "start_lambda" : "start",
                  fmt::format("is at the load factor where the path ends, {}; {}", t.to,
                              given ? "a path leads from one to another"
-                                   : fmt::format("start_lambda = {} begins a new path from this state, another `to` goes on with the old one", t.from)));
+                                   : fmt::format("start_lambda = {} begins a new path from this state, another `to` goes on with "
+                                                 "the old one", t.from)));
   }
   check_method(t, mistakes);
   check_range(t, mistakes);

@@ -43,7 +43,8 @@ void toggle(std::vector<HardForce>& contacts, const HardForce& contact) {
 
 // Who touches or leaves whom.
 std::string told(const Model& model, const HardForce& h, bool made) {
-  return called(model, h.particle) + (made ? " touches " : " leaves ") + (h.wall >= 0 ? "wall " + model.walls[h.wall].name : called(model, h.other));
+  const std::string other = h.wall >= 0 ? "wall " + model.walls[h.wall].name : called(model, h.other);
+  return called(model, h.particle) + (made ? " touches " : " leaves ") + other;
 }
 
 }  // namespace

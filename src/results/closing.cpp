@@ -35,15 +35,15 @@ std::string closing_table(const Table& events, const Ink& ink) {
   const std::size_t count = events.rows.size() > most ? most - 5 : events.rows.size();
   std::size_t widest = 5;
   for (std::size_t k = 0; k < count; ++k) widest = std::max(widest, csv_text(Entries{events.columns, events.rows[k]}["label"]).size());
-  std::string text = ink.strong(fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {}", "event", widest, "load factor", "multiplicity", "energy",
-                                            "negative", "stable")) + "\n";
+  constexpr auto line = "{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {:<6}{}";
+  std::string text = ink.strong(fmt::format(line, "event", widest, "load factor", "multiplicity", "energy", "negative", "stable", "")) + "\n";
   for (std::size_t k = 0; k < count; ++k) {
     const Entries e{events.columns, events.rows[k]};
     const Cell what = e["what"];
     const auto* words = std::get_if<std::string>(&what);
-    text += trimmed(fmt::format("{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {:<6}{}{}", csv_text(e["label"]), widest, shown(e["lambda"], "{:.10g}"),
-                                shown(e["multiplicity"], "{:.0f}"), shown(e["energy"], "{:.7g}"), shown(e["negative"], "{:.0f}"),
-                                as_number(e["stable"]).value_or(0) != 0 ? "yes" : "no", words && !words->empty() ? "  " : "", words ? *words : ""));
+    text += trimmed(fmt::format(line, csv_text(e["label"]), widest, shown(e["lambda"], "{:.10g}"), shown(e["multiplicity"], "{:.0f}"),
+                                shown(e["energy"], "{:.7g}"), shown(e["negative"], "{:.0f}"),
+                                as_number(e["stable"]).value_or(0) != 0 ? "yes" : "no", words && !words->empty() ? "  " + *words : ""));
   }
   if (count < events.rows.size()) text += fmt::format("… and {} more in events.csv\n", events.rows.size() - count);
   return text;
@@ -52,11 +52,15 @@ std::string closing_table(const Table& events, const Ink& ink) {
 std::string closing_values(const Table& path, const std::vector<std::string>& observables, const Ink& ink) {
   if (path.rows.empty()) return "";
   const Entries last{path.columns, path.rows.back()};
-  const bool in_time = column_index(path.columns, "time") >= 0, stable = as_number(last["stable"]).value_or(0) != 0;
-  std::string text = in_time ? fmt::format("time {}  kinetic energy {}  energy {}\n", shown(last["time"], "{:.7g}"), shown(last["kinetic"], "{:.7g}"),
-                                           shown(last["energy"], "{:.7g}"))
-                             : fmt::format("energy {}  residual {}  {}\n", shown(last["energy"], "{:.10g}"), shown(last["residual"], "{:.0e}"),
-                                           stable ? ink.good("stable") : ink.warning("not stable"));
+  std::string text;
+  if (column_index(path.columns, "time") >= 0) {
+    for (const char* name : {"time", "kinetic", "energy"}) text += fmt::format("{}{} {}", text.empty() ? "" : "  ", name, shown(last[name], "{:.7g}"));
+  } else {
+    const bool stable = as_number(last["stable"]).value_or(0) != 0;
+    text = fmt::format("energy {}  residual {}  {}", shown(last["energy"], "{:.10g}"), shown(last["residual"], "{:.0e}"),
+                       stable ? ink.good("stable") : ink.warning("not stable"));
+  }
+  text += "\n";
   std::size_t widest = 0;
   for (const std::string& name : observables) widest = std::max(widest, name.size());
   for (const std::string& name : observables) text += fmt::format("  {:<{}}  {}\n", name, widest, shown(last[name], "{:.10g}"));

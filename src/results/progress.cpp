@@ -12,7 +12,8 @@ namespace {
 constexpr double redraw = 0.05;   // seconds between two drawings of the overwritten line
 
 std::size_t letters(const std::string& words) {
-  return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };        // a character of UTF-8
+  return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), begins));
 }
 
 std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
@@ -45,8 +46,9 @@ std::string clock_time(double seconds) {
 
 std::string progress_line(const PathPoint& p, int contacts) {
   return fmt::format("step {:4}  load factor {:<10.7g}  energy {:<12}  residual {}  {}{}{}  {}{}", p.step, p.state.load_factor,
-                     number("{:.6g}", p.energy.total()), number("{:.0e}", p.report.residual), stability(p), p.label.empty() ? "" : "  ", p.label,
-                     counted(p.report.iterations, "iteration"), contacts > 0 ? "  " + counted(contacts, "contact") : "");
+                     number("{:.6g}", p.energy.total()), number("{:.0e}", p.report.residual), stability(p),
+                     p.label.empty() ? "" : "  ", p.label, counted(p.report.iterations, "iteration"),
+                     contacts > 0 ? "  " + counted(contacts, "contact") : "");
 }
 
 Progress::Style Progress::style_for(std::FILE* out, bool quiet) {
@@ -76,8 +78,8 @@ void Progress::show(const PathPoint& p, int contacts) {
   } else if (style_ == Style::terminal) {
     const auto ink = p.stability.stable ? &Ink::good : p.report.status == Status::not_converged ? &Ink::bad : &Ink::warning;
     if (event)
-      keep(fmt::format("load factor {:<14.10g} {}{}{}", at, p.stability.stable ? "" : (ink_.*ink)(stability(p)) + "  ", ink_.strong(p.label),
-                       p.what.empty() ? "" : "  " + p.what));
+      keep(fmt::format("load factor {:<14.10g} {}{}{}", at, p.stability.stable ? "" : (ink_.*ink)(stability(p)) + "  ",
+                       ink_.strong(p.label), p.what.empty() ? "" : "  " + p.what));
     draw(at, {{fmt::format("load factor {:.4g}", at)}, {stability(p), ink}, {fmt::format("step {}", p.step)},
               {contacts > 0 ? counted(contacts, "contact") : ""}, {counted(p.report.iterations, "iteration")}});
   }

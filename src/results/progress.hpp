@@ -13,8 +13,8 @@ namespace elamin {
 /// One line of a point: step, load factor, energy, residual, stability, label, iterations, closed contacts where there are any.
 std::string progress_line(const PathPoint& point, int contacts = 0);
 
-/// terminal: one line that is overwritten, with a bar where there is a way to go; events stay. plain: lines, at most one for every tenth of the path or every
-/// second, and one for every event. silent: nothing.
+/// terminal: one line that is overwritten, with a bar where there is a way to go; events stay. plain: lines, at most one for every
+/// tenth of the path or every second, and one for every event. silent: nothing.
 class Progress {
  public:
   enum class Style { silent, plain, terminal };

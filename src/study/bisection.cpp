@@ -105,8 +105,8 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
   const std::string message =
       interrupted() ? "interrupted"
       : changes && (at_lo == Side::missing || at_hi == Side::missing)
-          ? fmt::format("{} at {} is missing with {} = {:.17g} and there with {:.17g}", b.observable, b.at, keys, at_lo == Side::missing ? b.lo : b.hi,
-                        at_lo == Side::missing ? b.hi : b.lo)
+          ? fmt::format("{} at {} is missing with {} = {:.17g} and there with {:.17g}", b.observable, b.at, keys,
+                        at_lo == Side::missing ? b.lo : b.hi, at_lo == Side::missing ? b.hi : b.lo)
       : changes     ? fmt::format("{} at {} passes {:.10g} for {} between {:.17g} ({}) and {:.17g} ({})", b.observable, b.at, b.level,
                                   keys, b.lo, name_of(at_lo), b.hi, name_of(at_hi))
                     : fmt::format("{} at {} is {} at both ends, {} = {:.10g} and {:.10g}; there is no threshold to find between",

@@ -226,8 +226,8 @@ std::vector<std::string> doubts(const Problem& problem, const Model& model) {
                                   "side: a path may end where the structure becomes flat{}", s.kind, s.name, remedy(s)));
     if (const auto first = std::find_if(model.bonds.begin(), model.bonds.end(), slack); first != model.bonds.end())
       lines.push_back(fmt::format("{} of the bonds of {} '{}' have stiffness 0 and hold nothing; the first joins {} and {}",
-                                  std::count_if(model.bonds.begin(), model.bonds.end(), slack), s.kind, s.name, called(model, first->particles[0]),
-                                  called(model, first->particles[1])));
+                                  std::count_if(model.bonds.begin(), model.bonds.end(), slack), s.kind, s.name,
+                                  called(model, first->particles[0]), called(model, first->particles[1])));
   }
   return lines;
 }

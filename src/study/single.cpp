@@ -55,8 +55,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
     if (last && point.label.empty()) point.label = "final";
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
       const Iteration& i = point.report.history[k];
-      teller.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy), number("{:.3g}", i.residual),
-                             number("{:.3g}", i.step), number("{:.3g}", i.shift)));
+      teller.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy),
+                             number("{:.3g}", i.residual), number("{:.3g}", i.step), number("{:.3g}", i.shift)));
     }
     teller.log(log_line(point));
     const Doing writing("writing");
@@ -128,8 +128,9 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   summary.tolerances = {{"residual", problem.solver.tolerance}};
   results.finish(summary);
 
-  SingleResult result{outcome.status, outcome.why, results.record().path(), results.record().events(), results.record().columns(), std::move(found),
-                      summary.zero_modes, summary.warnings, {}};
+  const Record& record = results.record();
+  SingleResult result{outcome.status, outcome.why, record.path(), record.events(), record.columns(), std::move(found), summary.zero_modes,
+                      summary.warnings, {}};
   result.verdicts = check_expectations(problem, result.path, result.events);
   return result;
 }

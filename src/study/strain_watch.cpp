@@ -30,8 +30,11 @@ void StrainWatch::look(const Model& model, const State& state, const std::string
   const std::vector<HarmonicBond> bonds = bond_laws(model, state.load_factor);
   const std::vector<CosineAngle> angles = angle_laws(model, state.load_factor);
   std::optional<std::size_t> bond, angle;                  // the largest
-  for (std::size_t b = 0; b < bonds.size(); ++b)
-    if (bonds[b].K > 0 && bonds[b].r0 > 0 && strain_.grows(std::abs(bonds[b].strain(points<2>(state, model.bonds[b].particles))), small_strain, where)) bond = b;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    if (!(bonds[b].K > 0 && bonds[b].r0 > 0)) continue;
+    const double strain = bonds[b].strain(points<2>(state, model.bonds[b].particles));
+    if (strain_.grows(std::abs(strain), small_strain, where)) bond = b;
+  }
   for (std::size_t a = 0; a < angles.size(); ++a) {
     const double turn = angles[a].bending(points<3>(state, angle_sites(model, model.angles[a]))).turn;
     const double off = std::abs(std::remainder(turn - (pi - model.angle_types[model.angles[a].type].rest), 2 * pi));

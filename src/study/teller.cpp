@@ -26,8 +26,8 @@ std::string first_of(StudyType study) {
 
 Teller::Teller(const Problem& problem, RunDirectory& results, Progress::Style style)
     : problem_(problem), results_(results), style_(style),
-      progress_(stdout, style, problem.in_time() ? 0 : starting_load_factor(problem), problem.in_time() ? problem.dynamics.steps : problem.path.to,
-                steady(problem)),
+      progress_(stdout, style, problem.in_time() ? 0 : starting_load_factor(problem),
+                problem.in_time() ? problem.dynamics.steps : problem.path.to, steady(problem)),
       after_(first_of(problem.study)), heartbeat_(glance, [this](const auto& doing) { at_work(doing); }) {}
 
 void Teller::log(const std::string& line) {
@@ -68,7 +68,8 @@ void Teller::at_work(const std::vector<std::string>& doing) {
   const double seconds = since_point_.seconds();
   const bool silent = since_line_.seconds() >= longest_silence;
   if (problem_.in_time() || seconds < longest_silence / 2 || !(silent || style_ == Progress::Style::terminal)) return;
-  const std::string line = fmt::format("at work on {} for {:.0f} s{}{}", after_, seconds, doing.empty() ? "" : ": ", fmt::join(doing, ", "));
+  const std::string line =
+      fmt::format("at work on {} for {:.0f} s{}{}", after_, seconds, doing.empty() ? "" : ": ", fmt::join(doing, ", "));
   std::vector<std::string> pieces{fmt::format("{:.0f} s at work", seconds)};
   pieces.insert(pieces.end(), doing.begin(), doing.end());
   if (silent) results_.log(line), since_line_ = Stopwatch();

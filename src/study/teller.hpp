@@ -10,8 +10,8 @@
 
 namespace elamin {
 
-/// log.txt and the lines on the terminal; where the next point takes long, in both at least every few seconds that it is at work on it, and what that
-/// is doing. That comes from a thread of its own.
+/// log.txt and the lines on the terminal; where the next point takes long, in both at least every few seconds that it is at work on
+/// it, and what that is doing. That comes from a thread of its own.
 class Teller {
  public:
   /// Both must outlive this.
