@@ -1,5 +1,6 @@
 #include "study/describe.hpp"
 
+#include "core/error.hpp"
 #include "dynamics/timestep.hpp"
 #include "energy/changes.hpp"
 #include "input/conditions.hpp"
