@@ -160,16 +160,17 @@ std::optional<Centerline> arch_of(const BeamTable& table, const std::string& pla
   return arc(a, turns_of_rise(chord, std::abs(*table.rise)), table.particles, clamped_ends(table));
 }
 
-/// What can be done where no number of particles has one on every corner: the lengths as they are, and what they could be if the shortest
-/// stays.
+/// What can be done where no number of particles has one on every corner: the lengths as they are, and multiples of a round spacing near
+/// them.
 std::string common_measure(const BeamTable& table) {
   const std::vector<Vec3>& corners = *table.through;
   std::vector<double> are, could;
   for (std::size_t i = 1; i < corners.size(); ++i) are.push_back((corners[i] - corners[i - 1]).norm());
   const double length = std::accumulate(are.begin(), are.end(), 0.0), shortest = *std::min_element(are.begin(), are.end());
-  const double spacing = shortest / std::max(1.0, std::round(shortest * (table.particles - 1) / length));
+  const double pieces = std::max(1.0, std::round(shortest * (table.particles - 1) / length));
+  const double spacing = std::stod(fmt::format("{:.4g}", shortest / pieces));
   for (const double l : are) could.push_back(std::round(l / spacing) * spacing);
-  return fmt::format("the lengths between corners must have a common measure; they are {:.6g}, while {:.6g} would do; or give every "
+  return fmt::format("the lengths between corners must have a common measure; they are {:.6g}, while {:.10g} would do; or give every "
                      "piece a [[beam]] of its own and join them with [[connect]]", fmt::join(are, ", "), fmt::join(could, ", "));
 }
 
