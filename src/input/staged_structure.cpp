@@ -33,21 +33,6 @@ template <class P, class Call> void for_structures(P& problem, const Call& call)
   all(problem.beams), all(problem.loops), all(problem.sheets), all(problem.grains);
 }
 
-/// The particles that are not there.
-std::vector<bool> absent_in(const Problem& problem, int stage, const Model& model) {
-  std::vector<bool> absent(model.particles());
-  const auto mark = [&](const std::string& group) {
-    const std::vector<bool> of = members_of(model, group);
-    for (std::size_t p = 0; p < of.size(); ++p) absent[p] = absent[p] || of[p];
-  };
-  for_structures(problem, [&](const auto& t) {
-    if (stage_number(problem, t.from_stage) > stage) mark(t.name);
-  });
-  for (const RemoveTable& r : problem.removals)
-    if (r.what == RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) mark(r.group);
-  return absent;
-}
-
 template <class Element> bool any_of(const Element& element, const std::vector<bool>& marked) {
   return std::any_of(element.particles.begin(), element.particles.end(), [&](int p) { return marked[p]; });
 }
@@ -107,6 +92,20 @@ int stage_number(const Problem& problem, const std::string& name) {
   for (std::size_t k = 0; k < problem.stages.size(); ++k)
     if (problem.stages[k].name == name) return static_cast<int>(k);
   return 0;
+}
+
+std::vector<bool> absent_in(const Problem& problem, int stage, const Model& model) {
+  std::vector<bool> absent(model.particles());
+  const auto mark = [&](const std::string& group) {
+    const std::vector<bool> of = members_of(model, group);
+    for (std::size_t p = 0; p < of.size(); ++p) absent[p] = absent[p] || of[p];
+  };
+  for_structures(problem, [&](const auto& t) {
+    if (stage_number(problem, t.from_stage) > stage) mark(t.name);
+  });
+  for (const RemoveTable& r : problem.removals)
+    if (r.what == RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) mark(r.group);
+  return absent;
 }
 
 bool connects_before(const Problem& problem, int stage) {

@@ -5,6 +5,7 @@
 #include "input/problem.hpp"
 
 #include <string>
+#include <vector>
 
 namespace elamin {
 
@@ -17,6 +18,9 @@ std::string connect_in(const Problem& problem, int stage, Model& all, const Stat
 
 /// Whether a connection is made as a stage behind the first begins, up to this one.
 bool connects_before(const Problem& problem, int stage);
+
+/// Of every particle, whether it is not there in a stage: not yet, or not any more.
+std::vector<bool> absent_in(const Problem& problem, int stage, const Model& model);
 
 /// Leaves out of a stage's model what is not there in it. Particles that have not come yet, or are gone, keep their numbers; they are
 /// held where they are `now`, and nothing acts on them.

@@ -33,6 +33,7 @@ class Run {
     this.shape = data.structure ? decodedStructure(data.structure) : null;
     const ids = this.shape ? this.shape.id : [];
     this.index = new Map(Array.from(ids, (id, k) => [id, k]));
+    for (const s of this.states) s.run = this;
   }
 
   /// The stored state that is nearest to a row: on its branch if there is one.
@@ -60,17 +61,30 @@ class Run {
 }
 
 function decodedStructure(s) {
+  const set = (text) => new Set(decoded(text, Int32Array));
   return {...s, id: decoded(s.id, Int32Array), radius: decoded(s.radius, Float32Array), bonds: decoded(s.bonds, Int32Array),
-    surfaces: s.surfaces.map((f) => ({points: decoded(f.points, Float32Array), triangles: decoded(f.triangles, Int32Array)}))};
+    surfaces: s.surfaces.map((f) => ({points: decoded(f.points, Float32Array), triangles: decoded(f.triangles, Int32Array)})),
+    stages: s.stages.map((t) => ({...t, absent: set(t.absent), unbound: set(t.unbound)}))};
 }
 
 /// The arrays of a state, made when they are first wanted.
 function arrays(state) {
-  state.arrays ||= {x: decoded(state.x, Float32Array), poses: decoded(state.poses, Float32Array),
-    fields: Object.fromEntries(Object.entries(state.fields).map(([name, text]) => [name, decoded(text, Float32Array)])),
+  if (state.arrays) return state.arrays;
+  const a = state.arrays = {x: decoded(state.x, Float32Array), poses: decoded(state.poses, Float32Array),
     contacts: contactsOf(state.contacts),
+    fields: Object.fromEntries(Object.entries(state.fields).map(([name, text]) => [name, decoded(text, Float32Array)])),
     modes: state.modes.map((m) => ({name: m.name, u: decoded(m.u, Float32Array), v: decoded(m.v, Float32Array)}))};
-  return state.arrays;
+  a.fields.force = contactForces(a.contacts, state.run.index);
+  return a;
+}
+
+/// Of every particle the size of the sum of its contact forces.
+function contactForces(contacts, index) {
+  const sums = Array.from(index, () => [0, 0, 0]);
+  for (const c of contacts)
+    for (const [id, sign] of [[c.first, 1], [c.second, -1]])
+      if (index.has(id)) c.force.forEach((f, k) => { sums[index.get(id)][k] += sign * f; });
+  return Float32Array.from(sums, (f) => Math.hypot(...f));
 }
 
 function contactsOf(text) {

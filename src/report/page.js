@@ -119,6 +119,7 @@ function showLegend(field) {
   if (arrays(page.state).contacts.length && shape.most > 0) line(swatch(t.index[0]),
       `contact forces, at most ${short(+shape.most.toPrecision(3))}`);
   if (page.state.loads.some((v) => v)) line(swatch(t.series[2]), 'loads');
+  if (shape.mounts.some((m) => m.visible)) line(swatch(t.quiet), 'held: bars, directions; rings, turns');
   if (shape.enlarged) line(element('span'), 'particles are drawn larger than they are');
   $('legend').replaceChildren(...rows);
 }

@@ -80,10 +80,11 @@ Json run_data(const std::string& directory, std::size_t most_bytes) {
     const Problem problem = read_problem(resolved);
     if (j["title"] == "") j["title"] = problem.title;
     j["expected"] = expected_data(problem, run);
-    const Model model = build_model(problem);
+    Model model = build_model(problem);
     j["described"] = describe(problem, model);
-    j["structure"] = structure_data(model);
-    j["states"] = states_data(run, problem, model, most_bytes);
+    const std::vector<RunStage> stages = stages_of(run, problem, model);
+    j["structure"] = structure_data(model, stages);
+    j["states"] = states_data(run, stages, model, most_bytes);
   } catch (const InputError& error) {
     j["no_shape"] = error.what();
   }

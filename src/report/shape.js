@@ -3,6 +3,10 @@
 
 const up = new THREE.Vector3(0, 1, 0);
 const vector = (a) => new THREE.Vector3(a[0], a[1], a[2]);
+const place = (x, k) => vector(x.subarray(3 * k, 3 * k + 3));
+const evenly = (size) => new THREE.Vector3().setScalar(size);
+const turnTo = (from, to) => new THREE.Quaternion().setFromUnitVectors(from, to);
+const axes = ['x', 'y', 'z'].map((_, c) => new THREE.Vector3().setComponent(c, 1));
 
 /// Many copies of a form, each with its own place, turn, size and colour.
 class Copies {
@@ -45,15 +49,16 @@ class ShapeView {
     this.balls = new Copies(ball, n);
     this.rods = new Copies(new THREE.CylinderBufferGeometry(1, 1, 1, 8, 1, true), s.bonds.length / 2);
     this.ghostBalls = new Copies(ball.clone(), n, {transparent: true, opacity: 0.28, depthWrite: false});
-    const held = s.supports.flatMap((p) => (p.held.length > 1 ? p.particles : []));
-    this.held = [...new Set(held)];
-    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.length, {transparent: true, opacity: 0.3,
+    this.held = new Map();                                      // particles that cannot move in two directions, and by which supports
+    s.supports.forEach((p, k) => { if (p.held.length > 1) for (const q of p.particles) this.held.set(q, [...this.held.get(q) || [], k]); });
+    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.size, {transparent: true, opacity: 0.3,
         depthWrite: false});
+    this.mounts = s.supports.flatMap((p, k) => p.bodies.map((b) => this.mount(p, k, b)));
     this.bodies = this.solids(1), this.ghostBodies = this.solids(0.28);
     this.walls = s.walls.map((w) => this.wall(w));
     this.arrows = new THREE.Group();
     this.scene.add(this.balls.mesh, this.rods.mesh, this.ghostBalls.mesh, this.blocks.mesh, this.arrows, ...this.bodies,
-        ...this.ghostBodies, ...this.walls);
+        ...this.ghostBodies, ...this.mounts, ...this.walls);
     this.look('');
   }
   close() {
@@ -63,13 +68,12 @@ class ShapeView {
   /// The box around every stored state, the largest contact force, and how far the values of each field reach.
   measure() {
     this.box = new THREE.Box3(), this.most = 0, this.reach = {}, this.signed = {};
-    const reach = new Map(this.run.shape.bodies
-        .map((b, k) => [k, Math.max(...Array.from(this.run.shape.surfaces[b.shape].points, Math.abs))]));
+    this.reaches = this.run.shape.bodies.map((b) => Math.max(...Array.from(this.run.shape.surfaces[b.shape].points, Math.abs)));
     for (const state of this.run.states) {
       const a = arrays(state);
-      for (let k = 0; k < a.x.length; k += 3) this.box.expandByPoint(vector(a.x.subarray(k, k + 3)));
+      for (let k = 0; 3 * k < a.x.length; ++k) this.box.expandByPoint(place(a.x, k));
       for (let k = 0; k < a.poses.length; k += 7) {
-        const p = vector(a.poses.subarray(k, k + 3)), r = reach.get(k / 7);
+        const p = vector(a.poses.subarray(k, k + 3)), r = this.reaches[k / 7];
         this.box.expandByPoint(p.clone().addScalar(r)).expandByPoint(p.clone().addScalar(-r));
       }
       for (const c of a.contacts) this.most = Math.max(this.most, c.size);
@@ -101,14 +105,35 @@ class ShapeView {
     return this.run.shape.structures.length > 1 ? k : b;
   }
 
+  /// What holds a body: a bar in every direction in which it cannot move, a ring about every axis about which it cannot turn.
+  mount(support, k, body) {
+    const group = new THREE.Group(), look = {color: theme().quiet, transparent: true, opacity: 0.75, depthTest: false};
+    const material = new THREE.MeshBasicMaterial(look);
+    const add = (geometry, turn, at) => {
+      const part = new THREE.Mesh(geometry, material);
+      part.position.copy(at), part.quaternion.copy(turn), part.renderOrder = 1;
+      group.add(part);
+    };
+    axes.forEach((axis, c) => {
+      const along = turnTo(up, axis), ends = [1.25, -1.25].map((f) => axis.clone().multiplyScalar(f)), none = new THREE.Vector3();
+      if (support.held.includes('xyz'[c])) {
+        add(new THREE.CylinderBufferGeometry(0.02, 0.02, 2.5, 8), along, none);
+        for (const end of ends) add(new THREE.CylinderBufferGeometry(0.14, 0.14, 0.03, 24), along, end);
+      }
+      if (support.turns.includes('xyz'[c])) add(new THREE.TorusBufferGeometry(0.5, 0.02, 6, 48), turnTo(axes[2], axis), none);
+    });
+    group.scale.setScalar(this.reaches[body]);
+    group.userData = {support: k, body};
+    return group;
+  }
+
   wall(w) {
     const size = this.extent, centre = this.box.getCenter(new THREE.Vector3()), group = new THREE.Group();
     let g, place = new THREE.Vector3();
     if (w.shape === 'plane') {
       const n = vector(w.normal);
       g = new THREE.PlaneBufferGeometry(1.3 * size, 1.3 * size)
-          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1),
-          n)));
+          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(turnTo(axes[2], n)));
       place = centre.sub(n.clone().multiplyScalar(n.dot(centre.clone().sub(vector(w.center)))));
     } else if (w.shape === 'block') {
       const [lo, hi] = [w.lo, w.hi].map((end, side) => vector(end
@@ -121,9 +146,8 @@ class ShapeView {
     } else {
       const middle = centre.getComponent(w.axis), lo = w.lo === null ? middle - 0.7 * size : w.lo, hi = w.hi === null ? middle + 0.7 * size
           : w.hi;
-      const axis = new THREE.Vector3().setComponent(w.axis, 1);
       g = new THREE.CylinderBufferGeometry(w.radius_hi, w.radius_lo, hi - lo, 40, 1, true)
-          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(new THREE.Quaternion().setFromUnitVectors(up, axis)));
+          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(turnTo(up, axes[w.axis])));
       place = vector(w.center).setComponent(w.axis, (lo + hi) / 2);
     }
     const t = theme();
@@ -139,7 +163,7 @@ class ShapeView {
   show(state, {ghost = null, mode = null, amplitude = 0, field = '', size = 1} = {}) {
     this.shown = {state, ghost, mode, amplitude, field, size};
     if (!this.run.shape || !state) return;
-    const a = arrays(state), s = this.run.shape, one = new THREE.Quaternion(), t = theme();
+    const a = arrays(state), s = this.run.shape, one = new THREE.Quaternion(), t = theme(), stage = s.stages[state.stage];
     const x = this.positions = Float32Array.from(a.x);
     let scale = 0;
     if (mode) {
@@ -151,39 +175,45 @@ class ShapeView {
     }
     const tints = this.tints(a, field, t);
     for (let k = 0; k < this.radius.length; ++k) {
-      this.balls.put(k, vector(x.subarray(3 * k, 3 * k + 3)), one, new THREE.Vector3().setScalar(size * this.radius[k]));
+      this.balls.put(k, place(x, k), one, evenly(stage.absent.has(k) ? 0 : size * this.radius[k]));
       this.balls.tint(k, tints.particles[k]);
     }
     this.balls.done();
     for (let b = 0; 2 * b < s.bonds.length; ++b) {
-      const [p, q] = [s.bonds[2 * b], s.bonds[2 * b + 1]].map((k) => vector(x.subarray(3 * k, 3 * k + 3)));
-      const along = q.clone().sub(p), length = along.length();
-      this.rods.put(b, p.add(q).multiplyScalar(0.5), new THREE.Quaternion().setFromUnitVectors(up, along.divideScalar(length || 1)),
-          new THREE.Vector3(this.thick, length, this.thick));
+      const [p, q] = [s.bonds[2 * b], s.bonds[2 * b + 1]].map((k) => place(x, k));
+      const along = q.clone().sub(p), length = along.length(), thick = stage.unbound.has(b) ? 0 : this.thick;
+      this.rods.put(b, p.add(q).multiplyScalar(0.5), turnTo(up, along.divideScalar(length || 1)),
+          new THREE.Vector3(thick, length, thick));
       this.rods.tint(b, tints.bonds[b]);
     }
     this.rods.done();
     const grey = new THREE.Color(t.quiet);
-    this.held.forEach((p, k) => { this.blocks.put(k, vector(x.subarray(3 * p, 3 * p + 3)), one,
-        new THREE.Vector3().setScalar(this.radius[p])); this.blocks.tint(k, grey); });
+    [...this.held].forEach(([p, supports], k) => {
+      const there = supports.some((i) => stage.supports[i]) && !stage.absent.has(p);
+      this.blocks.put(k, place(x, p), one, evenly(there ? this.radius[p] : 0));
+      this.blocks.tint(k, grey);
+    });
     this.blocks.done();
     this.pose(this.bodies, a.poses, mode, scale);
+    for (const m of this.mounts) m.position.copy(this.bodies[m.userData.body].position), m.visible = stage.supports[m.userData.support];
     this.behind(ghost, grey);
     this.walls.forEach((w, k) => {
+      w.visible = stage.walls[k];
       const [dx, dy, dz, growth] = state.walls[k], radius = w.userData.radius, f = radius > 0 ? (radius + growth) / radius : 1;
       w.position.copy(w.userData.place).add(new THREE.Vector3(dx, dy, dz));
       w.scale.set(...[0, 1, 2].map((c) => (c === w.userData.axis ? 1 : f)));
     });
-    this.draw(state, a, x);
+    this.draw(state, a, x, stage.absent);
     this.render();
   }
   behind(ghost, colour) {
     this.ghostBalls.mesh.visible = !!ghost;
     for (const b of this.ghostBodies) b.visible = !!ghost;
     if (!ghost) return;
-    const a = arrays(ghost), one = new THREE.Quaternion();
+    const a = arrays(ghost), one = new THREE.Quaternion(), {absent} = this.run.shape.stages[ghost.stage];
     for (let k = 0; k < this.radius.length; ++k) {
-      this.ghostBalls.put(k, vector(a.x.subarray(3 * k, 3 * k + 3)), one, new THREE.Vector3().setScalar(this.radius[k]));
+      const radius = absent.has(k) ? 0 : this.radius[k];
+      this.ghostBalls.put(k, place(a.x, k), one, evenly(radius));
       this.ghostBalls.tint(k, colour);
     }
     this.ghostBalls.done();
@@ -197,6 +227,7 @@ class ShapeView {
       const angle = Math.hypot(v[3], v[4], v[5]);
       if (angle > 0) m.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(v[3] / angle, v[4] / angle,
           v[5] / angle), angle));
+      m.updateMatrixWorld();
     });
   }
 
@@ -204,12 +235,13 @@ class ShapeView {
   tints(a, field, t) {
     const s = this.run.shape, n = this.radius.length, plain = s.structures.map((_, k) => new THREE.Color(seriesColour(t, k)));
     const own = Array.from({length: n}, (_, k) => plain[this.structureOf(k)] || new THREE.Color(t.quiet));
-    if (!field || !a.fields[field]) return {particles: own, bonds: Array.from({length: s.bonds.length / 2}, (_, b) => own[s.bonds[2 * b]])};
+    const ofFirst = (particles) => ({particles, bonds: Array.from({length: s.bonds.length / 2}, (_, b) => particles[s.bonds[2 * b]])});
+    if (!field || !a.fields[field]) return ofFirst(own);
     const most = this.reach[field] || 1, values = a.fields[field], of = s.fields.find((f) => f.key === field).of;
     const colour = (v) => new THREE.Color(d3.interpolateRdBu(0.5 - 0.5 * v / most));
-    if (of === 'particle') {
-      const particles = Array.from(values, colour);
-      return {particles, bonds: Array.from({length: s.bonds.length / 2}, (_, b) => particles[s.bonds[2 * b]])};
+    if (of !== 'bond') {
+      const known = (k) => of === 'particle' || s.structures[this.structureOf(k)]?.kind === 'sheet';
+      return ofFirst(Array.from(values, (v, k) => (known(k) ? colour(v) : new THREE.Color(t.rule))));
     }
     const sum = new Float64Array(n), count = new Float64Array(n);
     values.forEach((v, b) => { for (const p of [s.bonds[2 * b], s.bonds[2 * b + 1]]) { sum[p] += v; ++count[p]; } });
@@ -217,34 +249,46 @@ class ShapeView {
         bonds: Array.from(values, colour)};
   }
 
-  /// Arrows: contact forces in their proportion to the largest of the run, and loads.
-  draw(state, a, x) {
-    const t = theme(), add = (from, force, length, colour) => {
-      const arrow = new THREE.ArrowHelper(vector(force).normalize(), vector(from), length, colour, 0.35 * length, 0.2 * length);
-      for (const part of [arrow.line, arrow.cone]) Object.assign(part.material, {depthTest: false, transparent: true});
-      arrow.renderOrder = 1;
-      this.arrows.add(arrow);
+  /// Arrows: contact forces in their proportion to the largest of the run, and loads; torques as rings that turn.
+  draw(state, a, x, absent) {
+    const t = theme(), size = this.extent, onTop = (object) => {
+      object.traverse((part) => {
+        if (part.material) Object.assign(part.material, {depthTest: false, transparent: true});
+        part.renderOrder = 1;
+      });
+      this.arrows.add(object);
     };
-    for (const old of this.arrows.children) { old.line.material.dispose(); old.cone.material.dispose(); }
+    const add = (from, force, length, colour) =>
+      onTop(new THREE.ArrowHelper(vector(force).normalize(), vector(from), length, colour, 0.35 * length, 0.2 * length));
+    this.arrows.traverse((part) => { if (part.material) part.material.dispose(); });
     this.arrows.remove(...this.arrows.children);
-    const strongest = [...a.contacts].sort((c, d) => d.size - c.size).slice(0, 150);
+    const strongest = [...a.contacts].sort((c, d) => d.size - c.size).slice(0, 150).filter((c) => c.size > 1e-3 * this.most);
     for (const c of strongest)
-      if (c.size > 1e-3 * this.most) {
-        add(c.point, c.force, 0.02 * this.extent + 0.12 * this.extent * c.size / this.most, t.index[0]);
-        if (c.second >= 0) add(c.point, c.force.map((f) => -f), 0.02 * this.extent + 0.12 * this.extent * c.size / this.most, t.index[0]);
-      }
+      for (const sign of c.second >= 0 ? [1, -1] : [1])
+        add(c.point, c.force.map((f) => sign * f), (0.02 + 0.12 * c.size / this.most) * size, t.index[0]);
     this.run.shape.loads.forEach((load, k) => {
-      const acts = state.loads[k], forces = load.forces ||= decoded(load.force, Float32Array),
-          every = Math.ceil(load.particles.length / 40);
-      if (!acts) return;
-      for (let p = 0; p < load.particles.length; p += every) {
-        const f = forces.subarray(3 * p, 3 * p + 3).map((v) => acts * v);
-        if (Math.hypot(...f) > 0) add(x.subarray(3 * load.particles[p], 3 * load.particles[p] + 3), f, 0.09 * this.extent, t.series[2]);
+      const acts = state.loads[k], forces = load.forces ||= decoded(load.force, Float32Array);
+      const times = (v) => Array.from(v, (c) => acts * c), some = (v) => Math.hypot(...v) > 0;
+      for (let p = 0; p < load.particles.length; p += Math.ceil(load.particles.length / 40)) {
+        const f = times(forces.subarray(3 * p, 3 * p + 3)), q = load.particles[p];
+        if (some(f) && !absent.has(q)) add(x.subarray(3 * q, 3 * q + 3), f, 0.09 * size, t.series[2]);
       }
-      for (const b of load.bodies)
-        if (Math.hypot(...load.on_body) > 0) add(this.bodies[b].localToWorld(vector(load.point)).toArray(), load.on_body
-            .map((v) => acts * v), 0.12 * this.extent, t.series[2]);
+      for (const b of load.bodies) {
+        const force = times(load.on_body), torque = times(load.torque), body = this.bodies[b];
+        const from = body.localToWorld(vector(load.point)).toArray(), length = Math.max(0.12 * size, 0.8 * this.reaches[b]);
+        if (some(force)) add(from, force, length, t.series[2]);
+        if (some(torque)) onTop(this.turning(body.position, vector(torque).normalize(), 1.15 * this.reaches[b], t.series[2]));
+      }
     });
+  }
+  /// Three quarters of a ring about an axis, with a head where it leads to.
+  turning(at, axis, radius, colour) {
+    const group = new THREE.Group(), material = new THREE.MeshBasicMaterial({color: colour});
+    this.ring ||= [new THREE.TorusBufferGeometry(1, 0.03, 6, 48, 1.5 * Math.PI),
+      new THREE.ConeBufferGeometry(0.12, 0.3, 12).rotateZ(-Math.PI / 2).translate(0.1, -1, 0)];
+    group.add(...this.ring.map((form) => new THREE.Mesh(form, material)));
+    group.position.copy(at), group.quaternion.copy(turnTo(axes[2], axis)), group.scale.setScalar(radius);
+    return group;
   }
 
   /// Looks along an axis; "": across what is flat or slender, else from a corner.
@@ -280,7 +324,7 @@ class ShapeView {
   key(name) {
     const offset = this.camera.position.clone().sub(this.controls.target), spin = {ArrowLeft: 0.12, ArrowRight: -0.12}[name],
         tilt = {ArrowUp: -0.12, ArrowDown: 0.12}[name];
-    const s = new THREE.Spherical(), turn = new THREE.Quaternion().setFromUnitVectors(this.camera.up, up);
+    const s = new THREE.Spherical(), turn = turnTo(this.camera.up, up);
     s.setFromVector3(offset.applyQuaternion(turn));
     s.theta += spin || 0, s.phi = Math.min(Math.PI - 0.01, Math.max(0.01, s.phi + (tilt || 0))), s.radius *= {'+': 0.9, '-': 1.1}[name]
         || 1;

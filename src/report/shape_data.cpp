@@ -1,8 +1,6 @@
 #include "report/shape_data.hpp"
 
 #include "core/error.hpp"
-#include "input/conditions.hpp"
-#include "input/state_tail.hpp"
 #include "report/base64.hpp"
 #include "results/body_picture.hpp"
 #include "results/fields.hpp"
@@ -13,6 +11,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace elamin {
 namespace {
@@ -60,41 +60,32 @@ Json names(const std::array<bool, 3>& held) {
   return all;
 }
 
-// How much of each condition acts at a state; the stages of a path have amounts of their own.
-std::vector<double> amounts(const Problem& problem, const Model& model, const StoredState& stored, double load_factor) {
-  std::vector<Scaling> scaling = scalings_in(model);
-  std::vector<std::string> off;
-  if (stored.file.ends_with(".data"))
-    if (const auto tail = read_tail(stored.file); tail && tail->stage) {
-      if (tail->stage->scaling.size() == scaling.size()) scaling = tail->stage->scaling;
-      for (const StageTable& s : problem.stages)
-        if (s.name == tail->stage->name) off = s.off;
-    }
-  std::vector<double> all;
-  for (const Scaling& s : scaling) all.push_back(s.at(load_factor));
-  const std::vector<Condition> conditions = conditions_of(problem);
-  for (const std::string& word : off)
-    if (const int k = find_condition(conditions, word); k >= 0 && k < static_cast<int>(all.size())) all[k] = 0;
-  return all;
-}
-
 float finite_float(double v) { return std::isfinite(v) ? static_cast<float>(v) : 0; }
 
-// Of a particle the largest moment of the angles whose middle it is.
-Json fields_data(Energy& energy, const State& state) {
+bool is_sheet(const Structure& s) { return s.kind == "sheet"; }
+
+constexpr std::array<const char*, 6> resultants{"N11", "N22", "N12", "M11", "M22", "M12"};
+
+// Bonds are those of all stages. Of a particle the largest moment of the angles whose middle it is.
+Json fields_data(Energy& energy, const State& state, const std::vector<int>& bonds, const Model& all) {
   const Model& model = energy.model();
   const Fields fields = fields_at(energy, state, {});
-  std::vector<float> tension, moment(model.particles()), energies;
-  for (const BondField& b : fields.bonds) tension.push_back(finite_float(b.tension));
+  std::vector<float> tension(all.bonds.size()), moment(model.particles()), energies;
+  for (std::size_t b = 0; b < bonds.size(); ++b) tension[static_cast<std::size_t>(bonds[b])] = finite_float(fields.bonds[b].tension);
   for (std::size_t k = 0; k < fields.angles.size(); ++k) {
     float &most = moment[model.angles[k].particles[1]], here = finite_float(fields.angles[k].moment);
     if (std::abs(here) > std::abs(most)) most = here;
   }
   for (int i = 0; i < model.particles(); ++i) energies.push_back(finite_float(fields.energy[i]));
   Json j = Json::object();
-  if (!model.bonds.empty()) j["tension"] = base64(tension);
-  if (!model.angles.empty()) j["moment"] = base64(moment);
+  if (!all.bonds.empty()) j["tension"] = base64(tension);
+  if (!all.angles.empty()) j["moment"] = base64(moment);
   if (model.particles() > 0) j["energy"] = base64(energies);
+  for (std::size_t c = 0; c < resultants.size() && !fields.sheets.empty(); ++c) {
+    std::vector<float> of;
+    for (const StressResultants& r : fields.sheets) of.push_back(finite_float(c < 3 ? r.N[static_cast<int>(c)] : r.M[static_cast<int>(c) - 3]));
+    j[resultants[c]] = base64(of);
+  }
   return j;
 }
 
@@ -146,9 +137,9 @@ Json modes_data(const StoredRun& run, const StoredState& stored, const Model& mo
   return all;
 }
 
-Json state_data(const StoredRun& run, const StoredState& stored, const std::vector<const Row*>& contacts, const Problem& problem,
-                Energy& energy) {
-  const Model& model = energy.model();
+Json state_data(const StoredRun& run, const StoredState& stored, const std::vector<const Row*>& contacts, const RunStage& in, Energy& energy,
+                const Model& all) {
+  const Model& model = in.model;
   State state = read_state(stored, model);
   if (!stored.file.ends_with(".data")) state.load_factor = model.start.load_factor;
   const double load_factor = state.load_factor;
@@ -157,15 +148,16 @@ Json state_data(const StoredRun& run, const StoredState& stored, const std::vect
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     poses.col(static_cast<Eigen::Index>(b)) << state.bodies[b].position.hi, state.bodies[b].rotation.coeffs();   // x, y, z, w
   j["poses"] = floats(poses);
-  j["fields"] = fields_data(energy, state);
+  j["fields"] = fields_data(energy, state, in.bonds, all);
   j["contacts"] = contacts_data(contacts, model);
-  const std::vector<double> acts = amounts(problem, model, stored, load_factor);
+  const std::size_t first_wall = in.stage.scaling.size() - all.walls.size(), first_load = all.supports.size();
+  const auto acts = [&](std::size_t k) { return in.stage.in_force[k] ? in.stage.scaling[k].at(load_factor) : 0; };
   j["loads"] = Json::array(), j["walls"] = Json::array();
-  for (std::size_t k = 0; k < model.loads.size(); ++k) j["loads"].push_back(acts[model.supports.size() + k]);
-  for (std::size_t k = 0; k < model.walls.size(); ++k) {
-    const double s = acts[acts.size() - model.walls.size() + k];
-    j["walls"].push_back({s * model.walls[k].displacement[0], s * model.walls[k].displacement[1], s * model.walls[k].displacement[2],
-                          s * model.walls[k].radius_change});
+  for (std::size_t k = 0; k < all.loads.size(); ++k) j["loads"].push_back(acts(first_load + k));
+  for (std::size_t k = 0; k < all.walls.size(); ++k) {
+    const Wall& wall = all.walls[k];
+    const Vec3 moved = acts(first_wall + k) * wall.displacement;
+    j["walls"].push_back({moved[0], moved[1], moved[2], acts(first_wall + k) * wall.radius_change});
   }
   j["modes"] = modes_data(run, stored, model);
   return j;
@@ -188,9 +180,24 @@ std::vector<StoredState> thinned(const std::vector<StoredState>& all, std::size_
   return states;
 }
 
+// What is not there, and what of supports and walls is in force.
+Json stage_data(const RunStage& in, const Model& all) {
+  std::vector<std::int32_t> absent, unbound;
+  for (std::size_t p = 0; p < in.absent.size(); ++p)
+    if (in.absent[p]) absent.push_back(static_cast<int>(p));
+  for (int b = 0; b < static_cast<int>(all.bonds.size()); ++b)
+    if (!std::binary_search(in.bonds.begin(), in.bonds.end(), b)) unbound.push_back(b);
+  const auto in_force = [&](std::size_t first, std::size_t count) {
+    const auto begin = in.stage.in_force.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::vector<bool>(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  return {{"name", in.stage.name}, {"absent", base64(absent)}, {"unbound", base64(unbound)}, {"supports", in_force(0, all.supports.size())},
+          {"walls", in_force(in.stage.scaling.size() - all.walls.size(), all.walls.size())}};
+}
+
 }  // namespace
 
-Json structure_data(const Model& model) {
+Json structure_data(const Model& model, const std::vector<RunStage>& stages) {
   Json j;
   j["id"] = base64(std::vector<std::int32_t>(model.id.begin(), model.id.end()));
   std::vector<float> radius;
@@ -209,39 +216,55 @@ Json structure_data(const Model& model) {
   j["walls"] = Json::array();
   for (const Wall& w : model.walls) j["walls"].push_back(wall_data(w));
   j["supports"] = Json::array(), j["loads"] = Json::array();
-  for (const Support& s : model.supports) j["supports"].push_back({{"group", s.group}, {"particles", s.particles}, {"held", names(s.held)}});
+  for (const Support& s : model.supports)
+    j["supports"].push_back({{"group", s.group}, {"particles", s.particles}, {"held", names(s.held)}, {"bodies", s.bodies},
+                             {"turns", names(s.turns_held)}});
   for (const Load& l : model.loads) {
     Field force(3, static_cast<Eigen::Index>(l.particles.size()));
     for (std::size_t k = 0; k < l.particles.size(); ++k) force.col(static_cast<Eigen::Index>(k)) = l.on(k);
     j["loads"].push_back({{"group", l.group}, {"particles", l.particles}, {"force", floats(force)}, {"bodies", l.bodies},
-                          {"on_body", numbers(l.force)}, {"point", numbers(l.point)}});
+                          {"on_body", numbers(l.force)}, {"point", numbers(l.point)}, {"torque", numbers(l.torque)}});
   }
   j["fields"] = Json::array();
-  const auto field = [&](const char* key, const char* name, const char* of) { j["fields"].push_back({{"key", key}, {"name", name}, {"of", of}}); };
+  const auto field = [&](const std::string& key, const std::string& name, const char* of) {
+    j["fields"].push_back({{"key", key}, {"name", name}, {"of", of}});
+  };
   if (!model.bonds.empty()) field("tension", "tension of bonds", "bond");
   if (!model.angles.empty()) field("moment", "bending moment", "particle");
   if (model.particles() > 0) field("energy", "energy", "particle");
+  const bool touch = !model.contacts.empty() || !model.rounded.empty() || !model.walls.empty();
+  if (model.particles() > 0 && touch) field("force", "contact force", "particle");
+  if (std::any_of(model.structures.begin(), model.structures.end(), is_sheet))
+    for (const char* r : resultants) field(r, std::string(r) + (r[0] == 'N' ? ", force per length" : ", moment per length"), "sheet");
+  j["stages"] = Json::array();
+  for (const RunStage& s : stages) j["stages"].push_back(stage_data(s, model));
   j["flat"] = model.plane_normal ? Json(*model.plane_normal) : Json(nullptr);
   return j;
 }
 
-Json states_data(const StoredRun& run, const Problem& problem, const Model& model, std::size_t most) {
+Json states_data(const StoredRun& run, const std::vector<RunStage>& stages, const Model& model, std::size_t most) {
   Contacts contacts = by_label(run.contacts);
   std::size_t vectors = run.modes.rows.size(), longest = 0;
   for (const StoredState& s : run.states) vectors += std::filesystem::exists(null_vectors_file(s.file));
   for (const auto& [label, rows] : contacts) longest = std::max(longest, rows.size());
   const std::size_t sites = model.start.position.cols() + 2 * model.bodies.size(), states = std::max<std::size_t>(1, run.states.size());
-  const std::size_t numbers = 3 * sites + 7 * model.bodies.size() + model.bonds.size() + 2 * model.particles() + 9 * longest + 3 * sites * vectors / states;
+  const bool sheets = std::any_of(model.structures.begin(), model.structures.end(), is_sheet);
+  const std::size_t of_bodies = 7 * model.bodies.size(), of_particles = (sheets ? 2 + resultants.size() : 2) * model.particles();
+  const std::size_t numbers = 3 * sites + of_bodies + of_particles + model.bonds.size() + 9 * longest + 3 * sites * vectors / states;
   const std::size_t bytes = 300 + 40 * model.walls.size() + 16 * numbers / 3;
   const std::vector<StoredState> taken = thinned(run.states, std::max<std::size_t>(1, most / bytes));
-  Energy energy(model);
+  const RunStage* in = nullptr;
+  std::optional<Energy> energy;                                            // of its model
   Json j{{"stored", run.states.size()}, {"kept", taken.size()}, {"missing", Json::array()}, {"list", Json::array()}};
   for (const StoredState& s : taken) {
     try {
       const Table of_frame = contacts_of_frame(s);
       std::vector<const Row*> rows = contacts[s.label];
       for (const Row& row : of_frame.rows) rows.push_back(&row);
-      j["list"].push_back(state_data(run, s, rows, problem, energy));
+      const RunStage& stage = stage_of(stages, run, s);
+      if (&stage != std::exchange(in, &stage)) energy.emplace(stage.model);
+      j["list"].push_back(state_data(run, s, rows, stage, *energy, model));
+      j["list"].back()["stage"] = &stage - stages.data();
     } catch (const InputError& error) {
       j["missing"].push_back(error.what());
     }
