@@ -35,9 +35,16 @@ std::string label_in_quotes(std::string label) {
 EntityColumns columns_of(const Shot& shot) {
   const EntityColumn energy{"energy", {"energy"}, finite(shot.fields.energy.transpose())};
   const std::vector<std::string> force{"fx", "fy", "fz"};
-  if (!shot.motion) return {energy, {"contact_force", force, finite(shot.fields.contact_force)}};
-  const Motion& m = *shot.motion;
-  return {{"velocity", {"vx", "vy", "vz"}, joined(m.velocity, m.body_velocity)}, {"force", force, joined(m.force, m.body_force)}, energy};
+  EntityColumns all{energy, {"contact_force", force, finite(shot.fields.contact_force)}};
+  if (const Motion* m = shot.motion)
+    all = {{"velocity", {"vx", "vy", "vz"}, joined(m->velocity, m->body_velocity)}, {"force", force, joined(m->force, m->body_force)}, energy};
+  if (!shot.fields.sheets.empty()) {
+    Field N = Field::Zero(3, entities(shot.model)), M = N;
+    for (int i = 0; i < shot.model.particles(); ++i)
+      if (shot.fields.sheets[i].known) N.col(i) = shot.fields.sheets[i].N, M.col(i) = shot.fields.sheets[i].M;
+    all.push_back({"N", {"N11", "N22", "N12"}, finite(N)}), all.push_back({"M", {"M11", "M22", "M12"}, finite(M)});
+  }
+  return all;
 }
 
 std::vector<Touch> closed_contacts(const std::vector<Touch>& touches, const Model& model, const std::string& label) {

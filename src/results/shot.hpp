@@ -19,7 +19,8 @@ struct Shot {
   const Motion* motion = nullptr;      // if it moves
 };
 
-/// Energy and contact force of particles and bodies; of what moves its velocity, all the force on it, and the energy. What is not finite is 0.
+/// Energy and contact force of particles and bodies; of what moves its velocity, all the force on it, and the energy; where there are sheets N and M.
+/// What is not finite, and N and M beside sheets, is 0.
 EntityColumns columns_of(const Shot& shot);
 
 /// Those of the contacts that count as closed, as in contacts.csv: gap < 0, a hard contact that bears a force, or one that attracts; at an

@@ -108,6 +108,11 @@ def check_frame(name, stem, vtu, label, load_factor, contacts, modes):
         diameter, *x = there[int(p["id"])]
         same(f"{name}: particle {p['id']}", (*g.grid.GetPoint(k), radius[k], energy[k], *force[k]), (*x, diameter / 2, *numbers(p, "energy", "fx", "fy", "fz")))
         same(f"{name}: id", [ids[k]], [int(p["id"])])
+    if "N11" in particles[0]:
+        resultants = [Grid.column(g.points, c) for c in ("N", "M")]
+        for points, p in zip(g.corners(PARTICLE), singles):
+            same(f"{name}: N and M of particle {p['id']}", tuple(v for r in resultants for v in r[points[0]]),
+                 tuple(number(p[c] or "0") for c in ("N11", "N22", "N12", "M11", "M22", "M12")))
     where = {ids[c[0]]: c[0] for c in g.corners(PARTICLE)}
     bonds = rows(pathlib.Path(f"{stem}.bonds.csv"))
     same(f"{name}: bonds", g.of(BOND, "first", "second", "tension", "strain"), [numbers(b, "first", "second", "tension", "strain") for b in bonds])
@@ -180,7 +185,8 @@ def check_run(program, problem, scratch, *settings):
 with tempfile.TemporaryDirectory() as scratch:
     seen = set()
     for problem, *settings in (("problems/two_beams.toml", "path.frames=20"), ("problems/beam_in_tube.toml", "path.frames=4"),
-                               ("problems/box_tips.toml", "path.every=7"), ("problems/cubes_jammed.toml", "path.every=1"), ("problems/truss_tall.toml", "path.frames=30")):
+                               ("problems/box_tips.toml", "path.every=7"), ("problems/cubes_jammed.toml", "path.every=1"), ("problems/truss_tall.toml", "path.frames=30"),
+                               ("problems/sheet_indented.toml", "path.frames=3")):
         seen |= check_run(sys.argv[1], problem, pathlib.Path(scratch), *settings)
     check_motion(sys.argv[1], "problems/column_swings.toml", pathlib.Path(scratch))
     same("kinds of cells", sorted(seen), list(range(6)))
