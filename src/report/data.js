@@ -95,17 +95,16 @@ function contactsOf(text) {
   });
 }
 
+const exponential = (v, digits) => v.toExponential(digits).replace(/\.?0*e/, 'e').replace('e+', 'e');
 /// A number with seven digits, as short as it gets.
 function short(v) {
-  if (typeof v !== 'number') return v === null || v === undefined ? '' : `${v}`;
-  if (v !== 0 && (Math.abs(v) < 1e-3 || Math.abs(v) >= 1e7)) return v.toExponential(6).replace(/\.?0*e/, 'e').replace('e+', 'e');
-  return `${+v.toPrecision(7)}`;
+  if (typeof v !== 'number') return `${v ?? ''}`;
+  return v !== 0 && (Math.abs(v) < 1e-3 || Math.abs(v) >= 1e7) ? exponential(v, 6) : `${+v.toPrecision(7)}`;
 }
 /// Text of the ticks of a scale: powers of ten where numbers are long.
 function ticks(scale) {
   const most = d3.max(scale.domain(), Math.abs);
-  return most > 0 && (most < 1e-3 || most >= 1e6) ? (v) => (v === 0 ? '0' : v.toExponential(2).replace(/\.?0*e/, 'e').replace('e+', 'e'))
-      : undefined;
+  return most > 0 && (most < 1e-3 || most >= 1e6) ? (v) => (v === 0 ? '0' : exponential(v, 2)) : undefined;
 }
 /// Where a scale ends; numbers that agree to nine digits count as one.
 function reach(values, room = 0) {
@@ -116,20 +115,19 @@ function reach(values, room = 0) {
 }
 const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
-const kindOf = (label) => { const m = /^(branch|limit|contact|jump):\d+$/.exec(label || ''); return m ? m[1] : label
-    ? (label === 'initial' || label === 'final' ? label : 'event') : ''; };
+function kindOf(label) {
+  const known = /^(?:(branch|limit|contact|jump):\d+|(initial|final))$/.exec(label || '');
+  return known ? known[1] || known[2] : label ? 'event' : '';
+}
 
 const dark = () => matchMedia('(prefers-color-scheme: dark)').matches;
 
 /// Colours that colour-blind readers can tell apart (after Okabe and Ito); those of saved figures are the light ones.
 function theme(isDark = dark()) {
-  return isDark
-    ? {ink: '#e8ebef', quiet: '#a3adba', rule: '#373e48', page: '#14171b', series: ['#5fb3e6', '#f0b23c', '#3fc79a', '#e29cc4', '#9ad7f7',
-        '#ff9a66'],
-      index: ['#ff8a4d', '#e86fb1', '#b48cff', '#d6c23a']}
-    : {ink: '#16191d', quiet: '#596270', rule: '#d5dae1', page: '#ffffff', series: ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9',
-        '#b85a1c'],
-      index: ['#d55e00', '#b0307a', '#6a3fb5', '#8a7500']};
+  return isDark ? {ink: '#e8ebef', quiet: '#a3adba', rule: '#373e48', page: '#14171b',
+    series: ['#5fb3e6', '#f0b23c', '#3fc79a', '#e29cc4', '#9ad7f7', '#ff9a66'], index: ['#ff8a4d', '#e86fb1', '#b48cff', '#d6c23a']}
+    : {ink: '#16191d', quiet: '#596270', rule: '#d5dae1', page: '#ffffff',
+      series: ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#b85a1c'], index: ['#d55e00', '#b0307a', '#6a3fb5', '#8a7500']};
 }
 const seriesColour = (t, k) => t.series[k % t.series.length];
 const indexColour = (t, negative) => t.index[Math.min(Math.max(negative, 1), t.index.length) - 1];

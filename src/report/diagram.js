@@ -1,24 +1,44 @@
 'use strict';
 // The diagram: one column of the path against another.
 
-const symbols = {branch: d3.symbolDiamond, limit: d3.symbolTriangle, contact: d3.symbolCircle, jump: d3.symbolSquare, event: d3.symbolStar,
-    initial: d3.symbolCross,
-  final: d3.symbolWye};
-const kindNames = {branch: 'branch point', limit: 'limit point', contact: 'contact made or lost', jump: 'end of a snap',
-    event: 'event', initial: 'start', final: 'end'};
+/// Appends an SVG element with these attributes; null: without it.
+const put = (parent, tag, attributes) => {
+  const e = parent.append(tag);
+  for (const [name, value] of Object.entries(attributes)) e.attr(name, value);
+  return e;
+};
+const words = (parent, x, y, text, fill, more = {}) => put(parent, 'text', {x, y, fill, ...more}).text(text);
+const atEnd = {'text-anchor': 'end'}, small = {'font-size': 11};
+const haloed = (t) => ({'paint-order': 'stroke', stroke: t.page, 'stroke-width': 3});
+
+/// An emptied svg, with the size that it has on the page, else this one.
+function blank(svg, usualWidth, usualHeight, t = theme()) {
+  const width = svg.clientWidth || usualWidth, height = svg.clientHeight || usualHeight, root = d3.select(svg);
+  root.attr('viewBox', `0 0 ${width} ${height}`).selectAll('*').remove();
+  return {t, root, width, height};
+}
+
+function axis(root, t, make, place, count) {
+  const g = put(root, 'g', {transform: `translate(${place})`}).call(make.ticks(count).tickSizeOuter(0));
+  g.selectAll('line, path').attr('stroke', t.rule);
+  g.selectAll('text').attr('fill', t.quiet);
+}
+
+const asNumber = (v) => (typeof v === 'boolean' ? +v : v);
+const inWords = (column) => (column === 'lambda' ? 'load factor' : column);
+
+const symbols = {branch: d3.symbolDiamond, limit: d3.symbolTriangle, contact: d3.symbolCircle, jump: d3.symbolSquare,
+  event: d3.symbolStar, initial: d3.symbolCross, final: d3.symbolWye};
+const kindNames = {branch: 'branch point', limit: 'limit point', contact: 'contact made or lost', jump: 'end of a snap', event: 'event'};
 
 /// The rows of a run that have both numbers: row, x, y, branch, negative, stable, label, kind.
 function points(run, x, y) {
-  const p = run.path, number = (v) => (typeof v === 'boolean' ? +v : v), all = [];
-  const [xs, ys] = [p.column(x), p.column(y)];
-  for (let row = 0; row < p.rows; ++row) {
-    if (!Number.isFinite(number(xs[row])) || !Number.isFinite(number(ys[row]))) continue;
-    const label = p.at('label', row) || '';
-    all.push({row, x: number(xs[row]), y: number(ys[row]), branch: p.at('branch', row) || 0, parent: p.at('parent', row) || '',
-      negative: p.at('negative', row) || 0, stable: p.has('stable') ? p.at('stable', row) : true, stage: p.at('stage', row), label,
-          kind: kindOf(label)});
-  }
-  return all;
+  const p = run.path, [xs, ys] = [p.column(x), p.column(y)];
+  return d3.range(p.rows).filter((row) => Number.isFinite(asNumber(xs[row])) && Number.isFinite(asNumber(ys[row]))).map((row) => {
+    const at = (column) => p.at(column, row), label = at('label') || '';
+    return {row, x: asNumber(xs[row]), y: asNumber(ys[row]), branch: at('branch') || 0, parent: at('parent') || '',
+      negative: at('negative') || 0, stable: p.has('stable') ? at('stable') : true, stage: at('stage'), label, kind: kindOf(label)};
+  });
 }
 
 /// The curve in pieces of one branch, stability and Morse index, and the snaps between branches. At an event the stability is
@@ -27,104 +47,81 @@ function pieces(all) {
   const lines = [], snaps = [], last = new Map(), named = new Map();
   const ordinary = (p) => !['branch', 'limit'].includes(p.kind);
   for (const p of all) {
-    const same = (q) => (q && q.stage === p.stage ? q : null), before = same(last.get(p.branch)), from = before
-        || (p.parent ? named.get(p.parent) : null);
-    if (from) {
-      const q = ordinary(p) || !ordinary(from) ? p : from;
-      const stable = q.stable || (!ordinary(q) && q.negative === 0), negative = stable ? 0 : Math.max(q.negative, ordinary(q) ? 0 : 1);
-      if (!before && p.kind === 'jump') snaps.push([from, p]);
-      else {
-        const piece = lines.length ? lines[lines.length - 1] : null;
-        if (piece && piece.branch === p.branch && piece.stable === stable && piece.negative === negative
-            && piece.points[piece.points.length - 1] === from)
-          piece.points.push(p);
-        else lines.push({branch: p.branch, stable, negative, points: [from, p]});
-      }
-    }
+    const previous = last.get(p.branch), before = previous && previous.stage === p.stage, from = before ? previous : named.get(p.parent);
     last.set(p.branch, p);
     if (p.label) named.set(p.label, p);
+    if (!from) continue;
+    if (!before && p.kind === 'jump') {
+      snaps.push([from, p]);
+      continue;
+    }
+    const q = ordinary(p) || !ordinary(from) ? p : from, piece = lines[lines.length - 1];
+    const stable = q.stable || (!ordinary(q) && q.negative === 0), negative = stable ? 0 : Math.max(q.negative, ordinary(q) ? 0 : 1);
+    const goesOn = piece && piece.branch === p.branch && piece.stable === stable && piece.negative === negative;
+    if (goesOn && piece.points[piece.points.length - 1] === from) piece.points.push(p);
+    else lines.push({branch: p.branch, stable, negative, points: [from, p]});
   }
   return {lines, snaps};
 }
 
 /// Draws into an svg of the given size; returns the scales. `view` is a zoom transform, `row` the chosen row.
 function drawDiagram(svg, {run, others = [], x, y, width, height, view = d3.zoomIdentity, t = theme(), row = -1}) {
-  const root = d3.select(svg).attr('viewBox', `0 0 ${width} ${height}`).attr('font-family', 'system-ui, DejaVu Sans, sans-serif')
-      .attr('font-size', 12);
+  const root = d3.select(svg), left = 72, right = width - 16, top = 44, bottom = height - 42;
+  root.attr('viewBox', `0 0 ${width} ${height}`).attr('font-family', 'system-ui, DejaVu Sans, sans-serif').attr('font-size', 12);
   root.selectAll('*').remove();
-  const all = points(run, x, y), ghosts = others.flatMap((r) => points(r, x, y));
-  const margin = {left: 72, right: 16, top: 44, bottom: 42};
-  const domain = (get) => reach([...all, ...ghosts].map(get), 0.05);
-  const sx = view.rescaleX(d3.scaleLinear(domain((p) => p.x), [margin.left, width - margin.right]));
-  const sy = view.rescaleY(d3.scaleLinear(domain((p) => p.y), [height - margin.bottom, margin.top]));
-  root.append('clipPath').attr('id', 'inside').append('rect').attr('x', margin.left).attr('y', margin.top)
-    .attr('width', Math.max(0, width - margin.left - margin.right)).attr('height', height - margin.top - margin.bottom);
-  const axis = (g, make, count) => g.call(make.ticks(count).tickFormat(ticks(make.scale())).tickSizeOuter(0))
-      .call((a) => a.selectAll('line, path').attr('stroke', t.rule))
-    .call((a) => a.selectAll('text').attr('fill', t.quiet));
-  axis(root.append('g').attr('transform', `translate(0,${height - margin.bottom})`), d3.axisBottom(sx), width / 90);
-  axis(root.append('g').attr('transform', `translate(${margin.left},0)`), d3.axisLeft(sy), height / 55);
-  root.append('text').attr('x', width - margin.right).attr('y', height - 8).attr('text-anchor', 'end').attr('fill', t.ink)
-      .text(x === 'lambda' ? 'load factor' : x);
-  root.append('text').attr('x', 8).attr('y', 16).attr('fill', t.ink).text(y === 'lambda' ? 'load factor' : y);
+  const all = points(run, x, y), ghosts = others.map((r) => points(r, x, y));
+  const domain = (get) => reach([...all, ...ghosts.flat()].map(get), 0.05);
+  const sx = view.rescaleX(d3.scaleLinear(domain((p) => p.x), [left, right]));
+  const sy = view.rescaleY(d3.scaleLinear(domain((p) => p.y), [bottom, top]));
+  put(root.append('clipPath').attr('id', 'inside'), 'rect', {x: left, y: top, width: Math.max(0, right - left), height: bottom - top});
+  axis(root, t, d3.axisBottom(sx).tickFormat(ticks(sx)), [0, bottom], width / 90);
+  axis(root, t, d3.axisLeft(sy).tickFormat(ticks(sy)), [left, 0], height / 55);
+  words(root, right, height - 8, inWords(x), t.ink, atEnd);
+  words(root, 8, 16, inWords(y), t.ink);
 
-  const inside = root.append('g').attr('clip-path', 'url(#inside)');
-  const line = d3.line().x((p) => sx(p.x)).y((p) => sy(p.y));
-  for (const other of others)
-    for (const l of pieces(points(other, x, y)).lines)
-      inside.append('path').attr('d', line(l.points)).attr('fill', 'none').attr('stroke', t.rule).attr('stroke-width', 1.2);
+  const inside = put(root, 'g', {'clip-path': 'url(#inside)'}), line = d3.line().x((p) => sx(p.x)).y((p) => sy(p.y));
+  const curve = (of, stroke, wide, dashes = null) =>
+    put(inside, 'path', {d: line(of), fill: 'none', stroke, 'stroke-width': wide, 'stroke-dasharray': dashes, 'stroke-linejoin': 'round'});
+  for (const other of ghosts) for (const l of pieces(other).lines) curve(l.points, t.rule, 1.2);
   const {lines, snaps} = pieces(all);
-  for (const f of snaps)
-    inside.append('path').attr('d', line(f)).attr('fill', 'none').attr('stroke', t.quiet).attr('stroke-width', 1.2)
-        .attr('stroke-dasharray', '1.5 3');
-  for (const l of lines)
-    inside.append('path').attr('d', line(l.points)).attr('fill', 'none').attr('stroke-linejoin', 'round')
-      .attr('stroke', l.stable ? seriesColour(t, l.branch) : indexColour(t, l.negative)).attr('stroke-width', l.stable ? 3 : 1.8)
-      .attr('stroke-dasharray', l.stable ? null : '6 4');
-  if (all.length === 1 || !lines.length) for (const p of all) inside.append('circle').attr('cx', sx(p.x)).attr('cy', sy(p.y)).attr('r', 3)
-      .attr('fill', t.series[0]);
+  for (const f of snaps) curve(f, t.quiet, 1.2, '1.5 3');
+  for (const l of lines) curve(l.points, ...(l.stable ? [seriesColour(t, l.branch), 3] : [indexColour(t, l.negative), 1.8, '6 4']));
+  if (!lines.length) for (const p of all) put(inside, 'circle', {cx: sx(p.x), cy: sy(p.y), r: 3, fill: t.series[0]});
 
   const marks = all.filter((p) => p.kind), taken = [];
   for (const p of marks) {
-    inside.append('path').attr('class', 'mark').attr('d', d3.symbol().type(symbols[p.kind]).size(p.kind === 'initial' || p.kind === 'final'
-        ? 40 : 80)())
-      .attr('transform', `translate(${sx(p.x)},${sy(p.y)})`).attr('fill', p.kind === 'contact' ? t.page : t.ink).attr('stroke', t.ink)
-          .attr('stroke-width', 1.5)
+    const size = p.kind === 'initial' || p.kind === 'final' ? 40 : 80;
+    put(inside, 'path', {class: 'mark', ...symbol(p.kind, size, t), transform: `translate(${sx(p.x)},${sy(p.y)})`, 'stroke-width': 1.5})
       .append('title').text(p.label);
-    const half = 3.4 * p.label.length, middle = Math.min(Math.max(sx(p.x), margin.left + half), width - margin.right - half);
-    const places = [-11, 20].map((dy) => ({lo: middle - half, hi: middle + half, y: sy(p.y) + dy}));
-    const free = places.find((b) => b.y > margin.top + 8 && b.y < height - margin.bottom && !taken.some((c) => b.lo < c.hi && b.hi > c.lo
-        && Math.abs(b.y - c.y) < 13));
+    const half = 3.4 * p.label.length, middle = Math.min(Math.max(sx(p.x), left + half), right - half);
+    const clear = (b) => b.y > top + 8 && b.y < bottom && !taken.some((c) => b.lo < c.hi && b.hi > c.lo && Math.abs(b.y - c.y) < 13);
+    const free = [-11, 20].map((dy) => ({lo: middle - half, hi: middle + half, y: sy(p.y) + dy})).find(clear);
     if (!free || marks.length > 40) continue;
     taken.push(free);
-    inside.append('text').attr('x', middle).attr('y', free.y).attr('text-anchor', 'middle').attr('fill', t.quiet).attr('font-size', 11)
-      .attr('paint-order', 'stroke').attr('stroke', t.page).attr('stroke-width', 3).text(p.label);
+    words(inside, middle, free.y, p.label, t.quiet, {'text-anchor': 'middle', ...small, ...haloed(t)});
   }
-  legend(root, t, lines, new Set(marks.map((p) => p.kind)), width - margin.right);
-  const here = all.find((p) => p.row === row);
-  if (here)
-    inside.append('circle').attr('class', 'here').attr('cx', sx(here.x)).attr('cy', sy(here.y)).attr('r', 7).attr('fill', t.index[0])
-        .attr('fill-opacity', 0.35)
-      .attr('stroke', t.index[0]).attr('stroke-width', 2);
+  legend(root, t, lines, new Set(marks.map((p) => p.kind)), right);
+  const here = all.find((p) => p.row === row), ring = {r: 7, fill: t.index[0], 'fill-opacity': 0.35, stroke: t.index[0], 'stroke-width': 2};
+  if (here) put(inside, 'circle', {class: 'here', cx: sx(here.x), cy: sy(here.y), ...ring});
   return {sx, sy, all};
 }
 
+const symbol = (kind, size, t) =>
+  ({d: d3.symbol().type(symbols[kind]).size(size)(), fill: kind === 'contact' ? t.page : t.ink, stroke: t.ink});
+
 function legend(root, t, lines, kinds, right) {
-  const entries = [];
-  if (lines.some((l) => l.stable)) entries.push({text: lines.some((l) => !l.stable) ? 'stable' : '', line: [t.ink, 3, null]});
-  for (const n of [...new Set(lines.filter((l) => !l.stable).map((l) => l.negative))].sort((a, b) => a - b))
-    entries.push({text: `unstable, index ${n}`, line: [indexColour(t, n), 1.8, '6 4']});
-  for (const kind of ['branch', 'limit', 'contact', 'jump', 'event']) if (kinds.has(kind)) entries.push({text: kindNames[kind], kind});
-  const shown = entries.filter((e) => e.text), sizes = shown.map((e) => 26 + 6.3 * e.text.length);
-  let at = right - d3.sum(sizes), y = 30;
-  if (at < 60) at = 60;
-  shown.forEach((e, k) => {
+  const unstable = [...new Set(lines.filter((l) => !l.stable).map((l) => l.negative))].sort((a, b) => a - b);
+  const entries = unstable.map((n) => ({text: `unstable, index ${n}`, line: [indexColour(t, n), 1.8, '6 4']}));
+  if (unstable.length && lines.some((l) => l.stable)) entries.unshift({text: 'stable', line: [t.ink, 3, null]});
+  for (const [kind, text] of Object.entries(kindNames)) if (kinds.has(kind)) entries.push({text, kind});
+  const sizes = entries.map((e) => 26 + 6.3 * e.text.length);
+  let at = Math.max(60, right - d3.sum(sizes)), y = 30;
+  entries.forEach((e, k) => {
     if (at + sizes[k] > right + 4) { at = 60; y += 14; }
-    if (e.line) root.append('line').attr('x1', at).attr('x2', at + 18).attr('y1', y - 4).attr('y2', y - 4).attr('stroke', e.line[0])
-        .attr('stroke-width', e.line[1]).attr('stroke-dasharray', e.line[2]);
-    else root.append('path').attr('d', d3.symbol().type(symbols[e.kind]).size(60)()).attr('transform', `translate(${at + 10},${y - 4})`)
-        .attr('fill', e.kind === 'contact' ? t.page : t.ink).attr('stroke', t.ink);
-    root.append('text').attr('x', at + 22).attr('y', y).attr('fill', t.quiet).attr('font-size', 11).text(e.text);
+    const [stroke, wide, dashes] = e.line || [];
+    if (e.line) put(root, 'line', {x1: at, x2: at + 18, y1: y - 4, y2: y - 4, stroke, 'stroke-width': wide, 'stroke-dasharray': dashes});
+    else put(root, 'path', {...symbol(e.kind, 60, t), transform: `translate(${at + 10},${y - 4})`});
+    words(root, at + 22, y, e.text, t.quiet, small);
     at += sizes[k];
   });
 }
@@ -134,9 +131,8 @@ class Diagram {
   constructor(svg, tip, choose) {
     Object.assign(this, {svg, tip, choose, view: d3.zoomIdentity, row: 0, others: []});
     const wheel = () => d3.event.ctrlKey || document.activeElement === svg;
-    this.zoom = d3.zoom().scaleExtent([1, 1e4]).filter(() => (d3.event.type === 'wheel' ? wheel() : d3.event.type !== 'dblclick'
-        && !this.near(d3.event, 40)))
-      .on('zoom', () => { this.view = d3.event.transform; this.draw(); });
+    const wanted = () => (d3.event.type === 'wheel' ? wheel() : d3.event.type !== 'dblclick' && !this.near(d3.event, 40));
+    this.zoom = d3.zoom().scaleExtent([1, 1e4]).filter(wanted).on('zoom', () => { this.view = d3.event.transform; this.draw(); });
     d3.select(svg).call(this.zoom);
     svg.addEventListener('pointerdown', (e) => { if (e.button === 0) { this.dragging = !!this.near(e, 40); this.follow(e); } });
     svg.addEventListener('pointermove', (e) => this.follow(e));
@@ -173,10 +169,10 @@ class Diagram {
     if (p && this.dragging) this.choose(p.row);
     this.tip.hidden = !p;
     if (!p) return;
-    this.tip.replaceChildren(element('b', p.label || `point ${p.row}`));
-    for (const c of this.run.path.columns)
-      if (c !== 'label' && this.run.path.at(c, p.row) !== null && this.run.path.at(c, p.row) !== '') this.tip
-          .append(element('i', c), element('span', short(this.run.path.at(c, p.row))));
+    const values = this.run.path.columns.filter((c) => c !== 'label').map((c) => [c, this.run.path.at(c, p.row)])
+      .filter(([, v]) => v !== null && v !== '');
+    this.tip.replaceChildren(element('b', p.label || `point ${p.row}`),
+      ...values.flatMap(([c, v]) => [element('i', c), element('span', short(v))]));
     const {width} = this.size(), left = this.scales.sx(p.x);
     this.tip.style.top = '8px';
     this.tip.style.left = left < width / 2 ? `${left + 24}px` : '';
@@ -187,9 +183,9 @@ class Diagram {
   svgText() {
     const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), {width, height} = this.size(), t = theme(false);
     drawDiagram(svg, {...this, row: -1, width, height, t});
-    d3.select(svg).attr('width', width).attr('height', height).insert('rect', ':first-child').attr('width', width).attr('height', height)
-        .attr('fill', t.page);
-    d3.select(svg).insert('title', ':first-child').text(`${this.run.title}: ${this.y} against ${this.x}`);
+    const root = d3.select(svg).attr('width', width).attr('height', height);
+    root.insert('rect', ':first-child').attr('width', width).attr('height', height).attr('fill', t.page);
+    root.insert('title', ':first-child').text(`${this.run.title}: ${this.y} against ${this.x}`);
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + new XMLSerializer().serializeToString(svg);
   }
 

@@ -17,8 +17,8 @@ try {
 /// What a diagram begins with: of a path the first observable that changes, against the load factor.
 function firstColumns(run) {
   const observables = run.path.numeric(), after = run.path.columns.indexOf(run.in_time ? 'balance' : 'stable');
-  const own = observables.filter((c) => run.path.columns.indexOf(c) > after && !['negative_rigid', 'parent'].includes(c)
-      && !c.startsWith('eigenvalue_') && new Set(run.path.column(c)).size > 1);
+  const own = observables.filter((c) => run.path.columns.indexOf(c) > after && c !== 'negative_rigid' && !c.startsWith('eigenvalue_')
+    && new Set(run.path.column(c)).size > 1);
   return [run.path.has(run.parameter) ? run.parameter : observables[0], own[0] || 'energy'];
 }
 
@@ -33,10 +33,9 @@ function open(number) {
   $('status').className = good ? 'badge' : 'badge bad';
   $('message').textContent = run.message;
   $('warnings').textContent = run.warnings.map((w) => `Warning: ${w}.`).join(' ');
-  const columns = run.path.numeric().map((c) => [c, c === 'lambda' ? 'load factor' : c]), [x, y] = firstColumns(run);
+  const columns = run.path.numeric().map((c) => [c, inWords(c)]), [x, y] = firstColumns(run);
   const keep = (id, usual) => (columns.some(([c]) => c === $(id).value) ? $(id).value : usual);
-  const [across, upwards] = [keep('x', x), keep('y', y)];
-  fill($('x'), columns, across), fill($('y'), columns, upwards);
+  fill($('x'), columns, keep('x', x)), fill($('y'), columns, keep('y', y));
   page.row = Math.max(0, run.path.rows - 1);
   $('row').max = page.row;
   $('transport').hidden = run.path.rows < 2;
@@ -45,8 +44,8 @@ function open(number) {
   $('size').parentElement.hidden = !run.shape || !run.shape.radius.length;
   $('colour').parentElement.hidden = !run.shape || !run.shape.fields.length;
   if (run.states.length) fill($('ghost'), [['', 'nothing'], ...run.states.map((s, k) => [k, nameOf(run, s)])], '');
-  fill($('colour'), [['', 'structure'], ...(run.shape ? run.shape.fields.map((f) => [f.key, f.name]) : [])], run.shape
-      && run.shape.structures.length === 1 && run.shape.bonds.length ? run.shape.fields[0].key : '');
+  const fields = run.shape ? run.shape.fields : [], plain = !run.shape || run.shape.structures.length > 1 || !run.shape.bonds.length;
+  fill($('colour'), [['', 'structure'], ...fields.map((f) => [f.key, f.name])], plain ? '' : fields[0].key);
   $('shape-part').hidden = !run.states.length && !run.no_shape;
   if (shape && run.states.length) shape.open(run);
   showDiagram(), showEvents(), showAbout(), select(page.row);
@@ -64,8 +63,9 @@ function select(row) {
   page.row = row;
   $('row').value = row;
   const label = p.at('label', row), unstable = p.at('negative', row);
-  const parts = [`point ${row}`, label, `${run.in_time ? 'time' : 'load factor'} ${short(p.at(run.parameter, row))}`, p.has('stable')
-      ? (p.at('stable', row) ? 'stable' : ['branch', 'limit'].includes(kindOf(label)) ? 'critical' : `unstable, index ${unstable}`) : ''];
+  const critical = ['branch', 'limit'].includes(kindOf(label)) ? 'critical' : `unstable, index ${unstable}`;
+  const parts = [`point ${row}`, label, `${run.in_time ? 'time' : 'load factor'} ${short(p.at(run.parameter, row))}`,
+    p.has('stable') ? (p.at('stable', row) ? 'stable' : critical) : ''];
   $('where').textContent = p.rows ? parts.filter((t) => t).join(' · ') : '';
   $('row').setAttribute('aria-valuetext', $('where').textContent);
   diagram.select(row);
@@ -96,62 +96,70 @@ function showShape() {
   }
   $('shape-note').textContent = told.join(' ');
   if (!shape || !state) return;
-  const modes = arrays(state).modes, mode = modes[$('mode').value] || null, field = $('colour').value;
-  shape.show(state, {ghost: $('ghost').value === '' ? null : run.states[$('ghost').value], mode, amplitude: mode
-      ? page.swung ?? $('amplitude').value / 100 : 0, field, size: $('size').value / 100});
-  $('shape').setAttribute('aria-label',
-      `${run.title || run.name}, ${nameOf(run, state)}: ${run.shape.radius.length} particles, ${run.shape.bodies.length} bodies, ${arrays(state).contacts.length} contacts`);
+  const {modes, contacts} = arrays(state), mode = modes[$('mode').value] || null, field = $('colour').value;
+  const amplitude = mode ? page.swung ?? $('amplitude').value / 100 : 0, ghost = run.states[$('ghost').value] || null;
+  shape.show(state, {ghost, mode, amplitude, field, size: $('size').value / 100});
+  const counted = [plural(run.shape.radius.length, 'particle'), `${run.shape.bodies.length} bodies`, plural(contacts.length, 'contact')];
+  $('shape').setAttribute('aria-label', `${run.title || run.name}, ${nameOf(run, state)}: ${counted.join(', ')}`);
   showLegend(field);
 }
 
 function showLegend(field) {
-  const run = page.run, t = theme(), rows = [];
-  const line = (mark, text) => { const d = element('div'); d.append(mark, element('span', text)); rows.push(d); };
-  const swatch = (colour) => { const m = element('span'); m.className = 'swatch'; m.style.background = colour; return m; };
-  const f = run.shape.fields.find((g) => g.key === field);
+  const run = page.run, t = theme(), rows = [], f = run.shape.fields.find((g) => g.key === field);
+  const line = (text, look, background) => {
+    const row = element('div'), mark = element('span', null, {class: look});
+    mark.style.background = background;
+    row.append(mark, element('span', text));
+    rows.push(row);
+  };
+  const swatch = (colour, text) => line(text, 'swatch', colour);
   if (f) {
-    const ramp = element('span'), most = short(+(shape.reach[field] || 0).toPrecision(2)), from = shape.signed[field] ? 0 : 0.5;
-    ramp.className = 'ramp';
-    ramp.style.background = `linear-gradient(90deg, ${d3.range(from, 1.01, 0.1).map((v) => d3.interpolateRdBu(1 - v)).join(',')})`;
-    line(ramp, `${f.name}, ${from ? '0' : `−${most}`} to ${most}`);
+    const most = short(+(shape.reach[field] || 0).toPrecision(2)), from = shape.signed[field] ? 0 : 0.5;
+    const colours = d3.range(from, 1.01, 0.1).map((v) => d3.interpolateRdBu(1 - v)).join(',');
+    line(`${f.name}, ${from ? '0' : `−${most}`} to ${most}`, 'ramp', `linear-gradient(90deg, ${colours})`);
   } else if (run.shape.structures.length > 1 && run.shape.structures.length < 9)
-    run.shape.structures.forEach((s, k) => line(swatch(seriesColour(t, k)), s.name));
-  if (arrays(page.state).contacts.length && shape.most > 0) line(swatch(t.index[0]),
-      `contact forces, at most ${short(+shape.most.toPrecision(3))}`);
-  if (page.state.loads.some((v) => v)) line(swatch(t.series[2]), 'loads');
-  if (shape.mounts.some((m) => m.visible)) line(swatch(t.quiet), 'held: bars, directions; rings, turns');
-  if (shape.enlarged) line(element('span'), 'particles are drawn larger than they are');
+    run.shape.structures.forEach((s, k) => swatch(seriesColour(t, k), s.name));
+  if (arrays(page.state).contacts.length && shape.most > 0)
+    swatch(t.index[0], `contact forces, at most ${short(+shape.most.toPrecision(3))}`);
+  if (page.state.loads.some((v) => v)) swatch(t.series[2], 'loads');
+  if (shape.mounts.some((m) => m.visible)) swatch(t.quiet, 'held: bars, directions; rings, turns');
+  if (shape.enlarged) line('particles are drawn larger than they are', '', '');
   $('legend').replaceChildren(...rows);
 }
 
-const sentences = {branch: 'a branch point', limit: 'a limit point: the load factor turns back', jump: 'it snaps to another equilibrium',
-    initial: 'the start', final: 'the end'};
+const sentences = {branch: 'a branch point', limit: 'a limit point: the load factor turns back', initial: 'the start', final: 'the end'};
+
+/// A row of a table: cells are elements or text, those in `numbers` (by their place) to the right.
+function tableRow(tag, cells, numbers = [], attributes = {}) {
+  const tr = element('tr', null, attributes);
+  tr.append(...cells.map((c, k) => {
+    const cell = element(tag, null, numbers.includes(k) ? {class: 'number'} : {});
+    cell.append(c);
+    return cell;
+  }));
+  return tr;
+}
 
 function showEvents() {
   const run = page.run, labels = run.path.column('label'), drops = new Map(snaps(run).map((f) => [f.label, f.freed]));
   const rows = d3.range(run.path.rows).filter((k) => labels[k]);
   $('events-part').hidden = !rows.length;
-  const head = element('tr'), body = [];
-  for (const h of ['event', run.in_time ? 'time' : 'load factor', 'energy', 'what']) head
-      .append(element('th', h, ['event', 'what'].includes(h) ? {} : {class: 'number'}));
-  for (const k of rows) {
-    const tr = element('tr', null, {'data-row': k}), button = element('button', labels[k]), cell = element('td');
-    const event = run.events.column('label').indexOf(labels[k]), kind = kindOf(labels[k]), freed = drops.get(labels[k]);
-    const what = (event >= 0 && run.events.at('what', event)) || '', before = run.events.at('negative_before', event),
-        after = run.events.at('negative_after', event);
-    button.onclick = () => select(k);
-    cell.append(button);
+  const head = tableRow('th', ['event', run.in_time ? 'time' : 'load factor', 'energy', 'what'], [1, 2]);
+  $('events').replaceChildren(head, ...rows.map((k) => {
+    const event = run.events.column('label').indexOf(labels[k]), of = (column) => (event >= 0 ? run.events.at(column, event) : undefined);
+    const kind = kindOf(labels[k]), freed = drops.get(labels[k]), button = element('button', labels[k]);
+    const before = of('negative_before'), after = of('negative_after');
     const named = kind === 'event' ? (event >= 0 ? 'the observable reaches its value' : 'the stage ends') : '';
-    const text = [kind === 'jump' ? sentences.jump : what || sentences[kind] || named, before === 0 && after > 0 ? 'stability is lost'
-        : before > 0 && after === 0 ? 'stability is won back' : '', freed !== undefined ? `${short(freed)} of energy is set free` : '',
-      event >= 0 && before !== after && before >= 0 ? `Morse index ${before} → ${after}` : ''].filter((s) => s).join('; ');
-    tr.append(cell, element('td', short(run.path.at(run.parameter, k)), {class: 'number'}), element('td', short(run.path.at('energy', k)),
-        {class: 'number'}), element('td', text));
-    body.push(tr);
-  }
-  $('events').replaceChildren(head, ...body);
-  $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} snaps set ${short(d3.sum([...drops.values()]))} of energy free.`
-      : '';
+    const told = [kind === 'jump' ? 'it snaps to another equilibrium' : of('what') || sentences[kind] || named,
+      before === 0 && after > 0 ? 'stability is lost' : before > 0 && after === 0 ? 'stability is won back' : '',
+      freed !== undefined ? `${short(freed)} of energy is set free` : '',
+      before !== after && before >= 0 ? `Morse index ${before} → ${after}` : ''];
+    button.onclick = () => select(k);
+    return tableRow('td', [button, short(run.path.at(run.parameter, k)), short(run.path.at('energy', k)), told.filter((s) => s).join('; ')],
+      [1, 2], {'data-row': k});
+  }));
+  const together = short(d3.sum([...drops.values()]));
+  $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} snaps set ${together} of energy free.` : '';
 }
 
 function drawCharts() {
@@ -162,33 +170,32 @@ function drawCharts() {
 }
 
 function showAbout() {
-  const run = page.run, facts = [], fact = (name, value, code) => { if (value) { const d = element('dd'); d
-      .append(code ? element('code', value) : value); facts.push(element('dt', name), d); } };
-  const met = run.expected.filter((e) => e.met).length;
-  $('met').hidden = !run.expected.length;
-  $('met').textContent = run.expected.length ? `${met} of ${run.expected.length} expectations of the problem file are met.` : '';
-  $('met').className = met === run.expected.length ? 'good' : 'bad';
-  const head = element('tr');
-  for (const h of ['expected', 'at', 'value', 'reached', '', 'source']) head.append(element('th', h));
-  $('expected-part').hidden = !run.expected.length;
-  $('expected-part').open = met < run.expected.length;
-  $('expected-count').textContent = `The ${plural(run.expected.length, 'expectation')} of the problem file, ${met} met`;
-  $('expected').replaceChildren(head, ...run.expected.map((e) => {
-    const tr = element('tr');
-    tr.append(element('td', e.column), element('td', e.at), element('td', short(e.expected)), element('td', short(e.value)),
-        element('td', e.met ? '✓ met' : '✗ not met', {class: e.met ? 'good' : 'bad'}), element('td', e.source));
-    return tr;
-  }));
-  fact('problem file', run.input.file), fact('its SHA-256', run.input.sha256, true);
+  const run = page.run, facts = [], count = run.expected.length, met = run.expected.filter((e) => e.met).length;
+  const fact = (name, value, tag = 'span') => {
+    if (!value) return;
+    const d = element('dd');
+    d.append(element(tag, value));
+    facts.push(element('dt', name), d);
+  };
+  $('met').hidden = $('expected-part').hidden = !count;
+  $('met').textContent = `${met} of ${count} expectations of the problem file are met.`;
+  $('met').className = met === count ? 'good' : 'bad';
+  $('expected-part').open = met < count;
+  $('expected-count').textContent = `The ${plural(count, 'expectation')} of the problem file, ${met} met`;
+  $('expected').replaceChildren(tableRow('th', ['expected', 'at', 'value', 'reached', '', 'source']), ...run.expected.map((e) =>
+    tableRow('td', [e.column, e.at, short(e.expected), short(e.value),
+      element('span', e.met ? '✓ met' : '✗ not met', {class: e.met ? 'good' : 'bad'}), e.source])));
+  fact('problem file', run.input.file), fact('its SHA-256', run.input.sha256, 'code');
   fact('elamin', run.version), fact('directory', run.directory);
   fact('tolerances', Object.entries(run.tolerances).map(([k, v]) => `${k} ${short(v)}`).join(', '));
   fact('seconds', Object.entries(run.times).map(([k, v]) => `${k} ${+v.toPrecision(3)}`).join(', '));
   fact('free at the end', run.zero_modes.join(', '));
-  fact('the run again', `elamin ${quoted(`${run.directory}/resolved.toml`)} -o again`, true), fact('this page again', report.command, true);
+  fact('the run again', `elamin ${quoted(`${run.directory}/resolved.toml`)} -o again`, 'code');
+  fact('this page again', report.command, 'code');
   $('facts').replaceChildren(...facts);
   $('described').textContent = run.described || run.no_shape;
   $('input-title').textContent = run.input.text !== null ? `The problem file, ${run.input.file}`
-      : `The problem file ${run.input.file} is not there any more, or is not what was run`;
+    : `The problem file ${run.input.file} is not there any more, or is not what was run`;
   $('input').textContent = run.input.text ?? '';
   $('resolved').textContent = run.resolved;
   drawCharts();
@@ -197,8 +204,8 @@ const quoted = (text) => (/^[\w./=+,-]+$/.test(text) ? text : `'${text.replace(/
 
 function showSweep() {
   if (!sweep) return;
-  drawSweep($('sweep-plot'), sweep, $('sweep-x').value, $('sweep-y').value, {logX: $('sweep-log-x').checked,
-      logY: $('sweep-log-y').checked, chosen: page.run.number, choose: (k) => runs[k] && open(k)});
+  const how = {logX: $('sweep-log-x').checked, logY: $('sweep-log-y').checked, chosen: page.run.number, choose: (k) => runs[k] && open(k)};
+  drawSweep($('sweep-plot'), sweep, $('sweep-x').value, $('sweep-y').value, how);
 }
 
 function stop() {
@@ -209,8 +216,8 @@ function stop() {
 }
 function play() {
   if (page.timer) return stop();
-  const rows = page.run.path.rows, seconds = Math.min(12, Math.max(3, rows / 10)), from = page.row >= rows - 1 ? 0 : page.row,
-      began = performance.now();
+  const rows = page.run.path.rows, seconds = Math.min(12, Math.max(3, rows / 10)), from = page.row >= rows - 1 ? 0 : page.row;
+  const began = performance.now();
   $('play').textContent = '❚❚ Pause';
   $('play').setAttribute('aria-pressed', 'true');
   const step = (now) => {
@@ -258,25 +265,27 @@ fill($('run'), runs.map((r, k) => [k, r.name]));
 $('run').onchange = () => open(+$('run').value);
 if (sweep) {
   $('sweep').hidden = false;
-  const columns = sweep.numeric().map((c) => [c, c]), swept = sweep.columns.slice(0, sweep.columns.indexOf('status'))
-      .filter((c) => columns.some(([n]) => n === c));
-  const thresholds = ['branch:1', 'limit:1', 'contact:1'].filter((c) => sweep.column(c).some((v) => v !== null));
-  fill($('sweep-x'), columns, swept.find((c) => !c.startsWith('expect.')) || swept[0]), fill($('sweep-y'), columns, thresholds[0]
-      || firstColumns(runs[0])[1]);
+  const numeric = sweep.numeric(), swept = sweep.columns.slice(0, sweep.columns.indexOf('status')).filter((c) => numeric.includes(c));
+  const threshold = ['branch:1', 'limit:1', 'contact:1'].find((c) => sweep.column(c).some((v) => v !== null));
+  const entries = numeric.map((c) => [c, c]);
+  fill($('sweep-x'), entries, swept.find((c) => !c.startsWith('expect.')) || swept[0]);
+  fill($('sweep-y'), entries, threshold || firstColumns(runs[0])[1]);
 }
 if (runs.length > 1) {
   $('overlay').checked = runs.length <= 12;
-  if (!sweep) $('sweep').hidden = false, $('sweep-title').textContent = 'The runs', $('sweep-plot').remove(),
-      $('sweep').querySelector('.tools').remove();
+  if (!sweep) {
+    $('sweep').hidden = false, $('sweep-title').textContent = 'The runs';
+    for (const part of $('sweep').querySelectorAll('.tools, #sweep-plot')) part.remove();
+  }
   $('multiples').append(...runs.map((run, k) => {
-    const b = element('button', null, {'data-run': k, title: run.name}), svg = document.createElementNS('http://www.w3.org/2000/svg',
-        'svg'), [x, y] = firstColumns(run), all = points(run, x, y), t = theme();
+    const b = element('button', null, {'data-run': k, title: run.name}), root = d3.create('svg:svg'), t = theme();
+    const [x, y] = firstColumns(run), all = points(run, x, y);
     const sx = d3.scaleLinear(d3.extent(all, (p) => p.x), [4, 116]), sy = d3.scaleLinear(d3.extent(all, (p) => p.y), [56, 4]);
-    d3.select(svg).attr('viewBox', '0 0 120 60').attr('aria-hidden', 'true');
-    for (const l of pieces(all).lines)
-      d3.select(svg).append('path').attr('d', d3.line().x((p) => sx(p.x)).y((p) => sy(p.y))(l.points)).attr('fill', 'none')
-          .attr('stroke', l.stable ? t.series[0] : indexColour(t, l.negative)).attr('stroke-width', 1.5);
-    b.append(svg, element('span', run.name));
+    const line = d3.line().x((p) => sx(p.x)).y((p) => sy(p.y));
+    root.attr('viewBox', '0 0 120 60').attr('aria-hidden', 'true');
+    for (const {points: of, stable, negative} of pieces(all).lines)
+      put(root, 'path', {d: line(of), fill: 'none', stroke: stable ? t.series[0] : indexColour(t, negative), 'stroke-width': 1.5});
+    b.append(root.node(), element('span', run.name));
     b.onclick = () => open(k);
     return b;
   }));

@@ -51,8 +51,8 @@ class ShapeView {
     this.ghostBalls = new Copies(ball.clone(), n, {transparent: true, opacity: 0.28, depthWrite: false});
     this.held = new Map();                                      // particles that cannot move in two directions, and by which supports
     s.supports.forEach((p, k) => { if (p.held.length > 1) for (const q of p.particles) this.held.set(q, [...this.held.get(q) || [], k]); });
-    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.size, {transparent: true, opacity: 0.3,
-        depthWrite: false});
+    this.blocks = new Copies(new THREE.BoxBufferGeometry(2.15, 2.15, 2.15), this.held.size,
+      {transparent: true, opacity: 0.3, depthWrite: false});
     this.mounts = s.supports.flatMap((p, k) => p.bodies.map((b) => this.mount(p, k, b)));
     this.bodies = this.solids(1), this.ghostBodies = this.solids(0.28);
     this.walls = s.walls.map((w) => this.wall(w));
@@ -95,9 +95,8 @@ class ShapeView {
       g.computeVertexNormals();
       return g;
     });
-    return this.run.shape.bodies.map((b, k) => new THREE.Mesh(forms[b.shape],
-        new THREE.MeshLambertMaterial({color: seriesColour(t, this.structureOfBody(k)),
-      transparent: opacity < 1, opacity, depthWrite: opacity === 1})));
+    const look = (k) => ({color: seriesColour(t, this.structureOfBody(k)), transparent: opacity < 1, opacity, depthWrite: opacity === 1});
+    return this.run.shape.bodies.map((b, k) => new THREE.Mesh(forms[b.shape], new THREE.MeshLambertMaterial(look(k))));
   }
   structureOf(k) { return this.run.shape.structures.findIndex((s) => k >= s.first && k < s.first + s.count); }
   structureOfBody(b) {
@@ -128,33 +127,29 @@ class ShapeView {
   }
 
   wall(w) {
-    const size = this.extent, centre = this.box.getCenter(new THREE.Vector3()), group = new THREE.Group();
-    let g, place = new THREE.Vector3();
+    const size = this.extent, centre = this.box.getCenter(new THREE.Vector3()), group = new THREE.Group(), color = theme().quiet;
+    const turned = (form, from, to) => form.applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(turnTo(from, to)));
+    let g, place = w.center ? vector(w.center) : null;
     if (w.shape === 'plane') {
       const n = vector(w.normal);
-      g = new THREE.PlaneBufferGeometry(1.3 * size, 1.3 * size)
-          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(turnTo(axes[2], n)));
-      place = centre.sub(n.clone().multiplyScalar(n.dot(centre.clone().sub(vector(w.center)))));
+      g = turned(new THREE.PlaneBufferGeometry(1.3 * size, 1.3 * size), axes[2], n);
+      place = centre.sub(n.clone().multiplyScalar(n.dot(centre.clone().sub(place))));
     } else if (w.shape === 'block') {
-      const [lo, hi] = [w.lo, w.hi].map((end, side) => vector(end
-          .map((v, c) => (Number.isFinite(v) && v !== null ? v : centre.getComponent(c) + (side - 0.5) * 1.6 * size))));
+      const end = (v, c, side) => (Number.isFinite(v) ? v : centre.getComponent(c) + side * 0.8 * size);
+      const lo = vector(w.lo.map((v, c) => end(v, c, -1))), hi = vector(w.hi.map((v, c) => end(v, c, 1)));
       g = new THREE.BoxBufferGeometry(...hi.clone().sub(lo).toArray());
       place = lo.add(hi).multiplyScalar(0.5);
     } else if (w.shape === 'sphere') {
       g = new THREE.SphereBufferGeometry(w.radius, 32, 20);
-      place = vector(w.center);
     } else {
-      const middle = centre.getComponent(w.axis), lo = w.lo === null ? middle - 0.7 * size : w.lo, hi = w.hi === null ? middle + 0.7 * size
-          : w.hi;
-      g = new THREE.CylinderBufferGeometry(w.radius_hi, w.radius_lo, hi - lo, 40, 1, true)
-          .applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(turnTo(up, axes[w.axis])));
-      place = vector(w.center).setComponent(w.axis, (lo + hi) / 2);
+      const middle = centre.getComponent(w.axis), lo = w.lo ?? middle - 0.7 * size, hi = w.hi ?? middle + 0.7 * size;
+      g = turned(new THREE.CylinderBufferGeometry(w.radius_hi, w.radius_lo, hi - lo, 40, 1, true), up, axes[w.axis]);
+      place.setComponent(w.axis, (lo + hi) / 2);
     }
-    const t = theme();
-    group.add(new THREE.Mesh(g, new THREE.MeshBasicMaterial({color: t.quiet, transparent: true, opacity: 0.16, side: THREE.DoubleSide,
-        depthWrite: false})));
-    group.add(new THREE.LineSegments(new THREE.EdgesGeometry(g, 20), new THREE.LineBasicMaterial({color: t.quiet, transparent: true,
-        opacity: 0.7})));
+    const faces = {color, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false};
+    group.add(new THREE.Mesh(g, new THREE.MeshBasicMaterial(faces)));
+    const edges = new THREE.LineBasicMaterial({color, transparent: true, opacity: 0.7});
+    group.add(new THREE.LineSegments(new THREE.EdgesGeometry(g, 20), edges));
     group.userData = {place, radius: w.radius || w.radius_lo || 0, axis: w.axis};
     return group;
   }
@@ -167,9 +162,8 @@ class ShapeView {
     const x = this.positions = Float32Array.from(a.x);
     let scale = 0;
     if (mode) {
-      let most = 0;
-      for (let k = 0; k < mode.u.length; k += 3) most = Math.max(most, Math.hypot(mode.u[k], mode.u[k + 1], mode.u[k + 2]));
-      for (let k = 0; k < mode.v.length; k += 6) most = Math.max(most, Math.hypot(mode.v[k], mode.v[k + 1], mode.v[k + 2]));
+      const longest = (of, step) => d3.max(d3.range(0, of.length, step), (k) => Math.hypot(of[k], of[k + 1], of[k + 2])) || 0;
+      const most = Math.max(longest(mode.u, 3), longest(mode.v, 6));
       scale = most > 0 ? 0.15 * amplitude * this.extent / most : 0;
       for (let k = 0; k < x.length; ++k) x[k] += scale * mode.u[k];
     }
@@ -221,12 +215,11 @@ class ShapeView {
   }
   pose(meshes, poses, mode, scale) {
     meshes.forEach((m, b) => {
-      const p = poses.subarray(7 * b, 7 * b + 7), v = mode ? mode.v.subarray(6 * b, 6 * b + 6).map((c) => scale * c) : [0, 0, 0, 0, 0, 0];
-      m.position.set(p[0] + v[0], p[1] + v[1], p[2] + v[2]);
+      const p = poses.subarray(7 * b, 7 * b + 7), v = mode ? mode.v.subarray(6 * b, 6 * b + 6) : [0, 0, 0, 0, 0, 0];
+      const turn = vector(v.slice(3)).multiplyScalar(scale), angle = turn.length();
+      m.position.copy(vector(p)).addScaledVector(vector(v), scale);
       m.quaternion.set(p[3], p[4], p[5], p[6]);
-      const angle = Math.hypot(v[3], v[4], v[5]);
-      if (angle > 0) m.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(v[3] / angle, v[4] / angle,
-          v[5] / angle), angle));
+      if (angle > 0) m.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(turn.normalize(), angle));
       m.updateMatrixWorld();
     });
   }
@@ -293,18 +286,15 @@ class ShapeView {
 
   /// Looks along an axis; "": across what is flat or slender, else from a corner.
   look(axis) {
-    const size = this.box.getSize(new THREE.Vector3()).toArray(), sorted = [1, 0, 2].sort((a, b) => size[a] - size[b]),
-        most = size[sorted[2]];
-    const slender = size[sorted[0]] < 0.02 * most || size[sorted[1]] < 0.15 * most;
+    const size = this.box.getSize(new THREE.Vector3()).toArray(), sorted = [1, 0, 2].sort((a, b) => size[a] - size[b]);
+    const slender = size[sorted[0]] < 0.02 * size[sorted[2]] || size[sorted[1]] < 0.15 * size[sorted[2]];
     const along = axis ? 'xyz'.indexOf(axis) : this.run.shape.flat ?? (slender ? sorted[0] : -1);
-    const from = [[1, 0, 0], [0, -1, 0], [0, 0, 1]][along] || [0.55, -0.75, 0.4];
-    const back = vector(from).normalize(), high = new THREE.Vector3(...(along === 2 ? [0, 1, 0] : [0, 0, 1])),
-        centre = this.box.getCenter(new THREE.Vector3());
+    const back = vector([[1, 0, 0], [0, -1, 0], [0, 0, 1]][along] || [0.55, -0.75, 0.4]).normalize(), high = axes[along === 2 ? 1 : 2];
+    const centre = this.box.getCenter(new THREE.Vector3()), right = high.clone().cross(back).normalize(), above = back.clone().cross(right);
     this.camera.up.copy(high);
-    const right = high.clone().cross(back).normalize(), above = back.clone().cross(right);
     const span = (v) => size.reduce((sum, s, c) => sum + s * Math.abs(v.getComponent(c)), 0);     // of the box, along v
-    const tall = Math.tan(THREE.Math.degToRad(this.camera.fov / 2)), aspect = (this.canvas.clientWidth || 1) / (this.canvas.clientHeight
-        || 1);
+    const {clientWidth, clientHeight} = this.canvas, tall = Math.tan(THREE.Math.degToRad(this.camera.fov / 2));
+    const aspect = (clientWidth || 1) / (clientHeight || 1);
     const away = 1.1 * Math.max(span(above) / 2 / tall, span(right) / 2 / (tall * aspect)) + span(back) / 2;
     this.camera.position.copy(centre).addScaledVector(back, Math.max(away, 1e-3 * this.extent));
     this.camera.near = this.extent / 500, this.camera.far = 40 * this.extent;
@@ -322,12 +312,11 @@ class ShapeView {
   }
   /// Turns (arrow keys) or comes nearer (+, −).
   key(name) {
-    const offset = this.camera.position.clone().sub(this.controls.target), spin = {ArrowLeft: 0.12, ArrowRight: -0.12}[name],
-        tilt = {ArrowUp: -0.12, ArrowDown: 0.12}[name];
-    const s = new THREE.Spherical(), turn = turnTo(this.camera.up, up);
-    s.setFromVector3(offset.applyQuaternion(turn));
-    s.theta += spin || 0, s.phi = Math.min(Math.PI - 0.01, Math.max(0.01, s.phi + (tilt || 0))), s.radius *= {'+': 0.9, '-': 1.1}[name]
-        || 1;
+    const turn = turnTo(this.camera.up, up), offset = this.camera.position.clone().sub(this.controls.target).applyQuaternion(turn);
+    const s = new THREE.Spherical().setFromVector3(offset);
+    s.theta += {ArrowLeft: 0.12, ArrowRight: -0.12}[name] || 0;
+    s.phi = Math.min(Math.PI - 0.01, Math.max(0.01, s.phi + ({ArrowUp: -0.12, ArrowDown: 0.12}[name] || 0)));
+    s.radius *= {'+': 0.9, '-': 1.1}[name] || 1;
     this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(s).applyQuaternion(turn.inverse()));
     this.controls.update();
     this.render();
