@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "lammps/data.hpp"
 #include "report/base64.hpp"
 #include "report/run_data.hpp"
@@ -12,6 +13,7 @@
 
 #include <openssl/sha.h>
 
+#include <algorithm>
 #include <cstring>
 #include <regex>
 #include <set>
@@ -36,9 +38,9 @@ at = "final"
 value = 12345
 )";
 
-std::string made(const ScratchDirectory& scratch) {
+std::string made(const ScratchDirectory& scratch, const std::string& text = problem) {
   RunOptions options;
-  options.file = scratch.file("p.toml", problem), options.directory = scratch / "run", options.threads = 1, options.quiet = true;
+  options.file = scratch.file("p.toml", text), options.directory = scratch / "run", options.threads = 1, options.quiet = true;
   REQUIRE(run(options).exit_status == exit_done);
   return options.directory;
 }
@@ -79,13 +81,15 @@ void check_closed(const std::string& page) {
   CHECK(open.empty());
 }
 
-std::vector<float> floats(const std::string& text) {
-  std::vector<unsigned char> bytes(text.size());
+template <class Number> std::vector<Number> numbers(const std::string& text) {
+  std::vector<unsigned char> bytes(text.size() + 1);
   EVP_DecodeBlock(bytes.data(), reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
-  std::vector<float> numbers(bytes.size() * 3 / 4 / sizeof(float));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
-  return numbers;
+  const std::size_t count = 3 * text.size() / 4 - static_cast<std::size_t>(std::count(text.begin(), text.end(), '='));
+  std::vector<Number> all(count / sizeof(Number));
+  if (!all.empty()) std::memcpy(all.data(), bytes.data(), count);
+  return all;
 }
+std::vector<float> floats(const std::string& text) { return numbers<float>(text); }
 
 }  // namespace
 
@@ -161,6 +165,87 @@ TEST_CASE("a page holds the numbers of a run's files", "[report]") {
   CHECK(thin["states"]["kept"] < run.states.size());
   CHECK(thin["states"]["list"].front()["label"] == "initial");
   CHECK(thin["states"]["list"].back()["label"] == "final");
+}
+
+TEST_CASE("a page has of every stage what was there", "[report]") {
+  ScratchDirectory scratch;
+  const std::string directory = made(scratch, read_text(std::string(ELAMIN_ROOT) + "/tests/input/good/staged.toml"));
+  const StoredRun run = read_run(directory);
+  const Json data = run_data(directory, 1'000'000), &structure = data["structure"];
+  const std::vector<std::int32_t> pairs = numbers<std::int32_t>(structure["bonds"]), id = numbers<std::int32_t>(structure["id"]);
+  REQUIRE(structure["stages"].size() == 3);
+  REQUIRE(data["states"]["list"].size() == 4);
+  const std::vector<std::size_t> absent{id.size() - 10, id.size() - 10, 0, 2};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Json &state = data["states"]["list"][k], &stage = structure["stages"][state["stage"].get<std::size_t>()];
+    CHECK(numbers<std::int32_t>(stage["absent"]).size() == absent[k]);
+    const std::vector<std::int32_t> unbound = numbers<std::int32_t>(stage["unbound"]);
+    const std::vector<float> tension = floats(state["fields"]["tension"]);
+    std::string file = run.states[k].file;
+    const Table bonds = read_table(file.replace(file.rfind(".data"), 5, ".bonds.csv"));
+    REQUIRE(bonds.rows.size() + unbound.size() == pairs.size() / 2);
+    std::size_t row = 0;
+    for (std::size_t b = 0; b < pairs.size() / 2; ++b) {
+      if (std::find(unbound.begin(), unbound.end(), static_cast<int>(b)) != unbound.end()) {
+        CHECK(tension[b] == 0);
+        continue;
+      }
+      const auto number = [&](const char* column) { return *as_number(bonds.rows[row][column_index(bonds.columns, column)]); };
+      CHECK(number("first") == id[pairs[2 * b]]);
+      CHECK(number("second") == id[pairs[2 * b + 1]]);
+      CHECK(tension[b] == Approx(number("tension")).margin(1e-9));     // 1e6 times the rounding of a length
+      ++row;
+    }
+  }
+}
+
+TEST_CASE("a page has of every stage what was in force", "[report]") {
+  ScratchDirectory scratch;
+  const std::string directory = made(scratch, R"(
+[[grains]]
+name = "ball"
+positions = [[0, 0, 0.499]]
+diameter = 1
+[[support]]
+group = "ball"
+directions = "xy"
+[[support]]
+group = "ball"
+from_stage = "held"
+[[load]]
+group = "ball"
+force = [0, 0, -1e-3]
+constant = true
+[[load]]
+name = "more"
+group = "ball"
+force = [0, 0, -1e-3]
+[[wall]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+effective_modulus = 1
+[path]
+steps = 2
+[[stage]]
+name = "pressed"
+[[stage]]
+name = "held"
+off = ["load.1", "wall.floor"]
+vary = ["load.more"]
+to = 0.5
+)");
+  const Json data = run_data(directory, 1'000'000), &stages = data["structure"]["stages"], &states = data["states"]["list"];
+  REQUIRE(stages.size() == 2);
+  CHECK(stages[0]["supports"] == Json({true, false}));
+  CHECK(stages[1]["supports"] == Json({true, true}));
+  CHECK(stages[0]["walls"] == Json::array({true}));
+  CHECK(stages[1]["walls"] == Json::array({false}));
+  REQUIRE(states.size() == 3);
+  CHECK(states[0]["loads"] == Json({1.0, 0.0}));
+  CHECK(states[1]["loads"] == Json({1.0, 1.0}));
+  CHECK(states[2]["loads"] == Json({0.0, 0.5}));
 }
 
 TEST_CASE("a page says what is missing", "[report]") {
