@@ -38,8 +38,7 @@ function open(number) {
   fill($('x'), columns, keep('x', x)), fill($('y'), columns, keep('y', y));
   page.row = Math.max(0, run.path.rows - 1);
   $('row').max = page.row;
-  $('transport').hidden = run.path.rows < 2;
-  $('diagram-part').hidden = run.path.rows < 2;
+  $('transport').hidden = $('diagram-part').hidden = run.path.rows < 2;
   $('views').classList.toggle('single', run.path.rows < 2);
   $('size').parentElement.hidden = !run.shape || !run.shape.radius.length;
   $('colour').parentElement.hidden = !run.shape || !run.shape.fields.length;
@@ -83,8 +82,7 @@ function select(row) {
 }
 
 function showShape() {
-  const run = page.run, state = page.state;
-  const told = [];
+  const {run, state} = page, told = [];
   if (run.no_shape) told.push(`There is no shape to show: ${run.no_shape}`);
   else if (page.noDrawing) told.push(page.noDrawing);
   else if (state) {

@@ -4,6 +4,7 @@
 const up = new THREE.Vector3(0, 1, 0);
 const vector = (a) => new THREE.Vector3(a[0], a[1], a[2]);
 const place = (x, k) => vector(x.subarray(3 * k, 3 * k + 3));
+const still = new THREE.Quaternion();
 const evenly = (size) => new THREE.Vector3().setScalar(size);
 const turnTo = (from, to) => new THREE.Quaternion().setFromUnitVectors(from, to);
 const axes = ['x', 'y', 'z'].map((_, c) => new THREE.Vector3().setComponent(c, 1));
@@ -17,9 +18,15 @@ class Copies {
     this.mesh.frustumCulled = false;
     this.matrix = new THREE.Matrix4();
   }
-  put(k, place, turn, size) { this.mesh.setMatrixAt(k, this.matrix.compose(place, turn, size)); }
-  tint(k, colour) { this.colours.setXYZ(k, colour.r, colour.g, colour.b); }
-  done() { this.mesh.instanceMatrix.needsUpdate = true; this.colours.needsUpdate = true; }
+  /// `of(k)`: place, turn, size and colour of copy k.
+  put(of) {
+    for (let k = 0; k < this.mesh.count; ++k) {
+      const [place, turn, size, colour] = of(k);
+      this.mesh.setMatrixAt(k, this.matrix.compose(place, turn, size));
+      this.colours.setXYZ(k, colour.r, colour.g, colour.b);
+    }
+    this.mesh.instanceMatrix.needsUpdate = this.colours.needsUpdate = true;
+  }
 }
 
 class ShapeView {
@@ -38,8 +45,8 @@ class ShapeView {
     this.close();
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.AmbientLight(0xffffff, 0.55), this.lamp, this.lamp.target);
-    const s = run.shape, n = s.radius.length, ball = n > 2000 ? new THREE.IcosahedronBufferGeometry(1, 1)
-        : new THREE.SphereBufferGeometry(1, n > 500 ? 14 : 24, n > 500 ? 10 : 16);
+    const s = run.shape, n = s.radius.length, fine = n > 500 ? [14, 10] : [24, 16];
+    const ball = n > 2000 ? new THREE.IcosahedronBufferGeometry(1, 1) : new THREE.SphereBufferGeometry(1, ...fine);
     this.measure();
     const least = 0.004 * this.extent;                          // what is smaller would not be seen
     this.radius = Array.from(s.radius, (r) => Math.max(r, least));
@@ -80,8 +87,7 @@ class ShapeView {
       for (const [name, values] of Object.entries(a.fields))
         for (const v of values) this.reach[name] = Math.max(this.reach[name] || 0, Math.abs(v)), this.signed[name] ||= v < 0;
     }
-    const largest = Array.from(this.run.shape.radius).reduce((m, r) => Math.max(m, r), 0);
-    this.box.expandByScalar(largest);
+    this.box.expandByScalar(d3.max(this.run.shape.radius) || 0);
     if (this.box.isEmpty()) this.box.expandByPoint(new THREE.Vector3());
     this.extent = Math.max(this.box.getSize(new THREE.Vector3()).length(), 1e-30);
   }
@@ -158,7 +164,7 @@ class ShapeView {
   show(state, {ghost = null, mode = null, amplitude = 0, field = '', size = 1} = {}) {
     this.shown = {state, ghost, mode, amplitude, field, size};
     if (!this.run.shape || !state) return;
-    const a = arrays(state), s = this.run.shape, one = new THREE.Quaternion(), t = theme(), stage = s.stages[state.stage];
+    const a = arrays(state), s = this.run.shape, stage = s.stages[state.stage];
     const x = this.positions = Float32Array.from(a.x);
     let scale = 0;
     if (mode) {
@@ -167,27 +173,17 @@ class ShapeView {
       scale = most > 0 ? 0.15 * amplitude * this.extent / most : 0;
       for (let k = 0; k < x.length; ++k) x[k] += scale * mode.u[k];
     }
-    const tints = this.tints(a, field, t);
-    for (let k = 0; k < this.radius.length; ++k) {
-      this.balls.put(k, place(x, k), one, evenly(stage.absent.has(k) ? 0 : size * this.radius[k]));
-      this.balls.tint(k, tints.particles[k]);
-    }
-    this.balls.done();
-    for (let b = 0; 2 * b < s.bonds.length; ++b) {
-      const [p, q] = [s.bonds[2 * b], s.bonds[2 * b + 1]].map((k) => place(x, k));
-      const along = q.clone().sub(p), length = along.length(), thick = stage.unbound.has(b) ? 0 : this.thick;
-      this.rods.put(b, p.add(q).multiplyScalar(0.5), turnTo(up, along.divideScalar(length || 1)),
-          new THREE.Vector3(thick, length, thick));
-      this.rods.tint(b, tints.bonds[b]);
-    }
-    this.rods.done();
-    const grey = new THREE.Color(t.quiet);
-    [...this.held].forEach(([p, supports], k) => {
-      const there = supports.some((i) => stage.supports[i]) && !stage.absent.has(p);
-      this.blocks.put(k, place(x, p), one, evenly(there ? this.radius[p] : 0));
-      this.blocks.tint(k, grey);
+    const tints = this.tints(a, field, stage), grey = new THREE.Color(theme().quiet), held = [...this.held];
+    this.balls.put((k) => [place(x, k), still, evenly(stage.absent.has(k) ? 0 : size * this.radius[k]), tints.particles[k]]);
+    this.rods.put((b) => {
+      const [p, q] = [place(x, s.bonds[2 * b]), place(x, s.bonds[2 * b + 1])], along = q.clone().sub(p), length = along.length();
+      const thick = stage.unbound.has(b) ? 0 : this.thick, size = new THREE.Vector3(thick, length, thick);
+      return [p.add(q).multiplyScalar(0.5), turnTo(up, along.divideScalar(length || 1)), size, tints.bonds[b]];
     });
-    this.blocks.done();
+    this.blocks.put((k) => {
+      const [p, supports] = held[k], there = supports.some((i) => stage.supports[i]) && !stage.absent.has(p);
+      return [place(x, p), still, evenly(there ? this.radius[p] : 0), grey];
+    });
     this.pose(this.bodies, a.poses, mode, scale);
     for (const m of this.mounts) m.position.copy(this.bodies[m.userData.body].position), m.visible = stage.supports[m.userData.support];
     this.behind(ghost, grey);
@@ -204,13 +200,8 @@ class ShapeView {
     this.ghostBalls.mesh.visible = !!ghost;
     for (const b of this.ghostBodies) b.visible = !!ghost;
     if (!ghost) return;
-    const a = arrays(ghost), one = new THREE.Quaternion(), {absent} = this.run.shape.stages[ghost.stage];
-    for (let k = 0; k < this.radius.length; ++k) {
-      const radius = absent.has(k) ? 0 : this.radius[k];
-      this.ghostBalls.put(k, place(a.x, k), one, evenly(radius));
-      this.ghostBalls.tint(k, colour);
-    }
-    this.ghostBalls.done();
+    const a = arrays(ghost), {absent} = this.run.shape.stages[ghost.stage];
+    this.ghostBalls.put((k) => [place(a.x, k), still, evenly(absent.has(k) ? 0 : this.radius[k]), colour]);
     this.pose(this.ghostBodies, a.poses, null, 0);
   }
   pose(meshes, poses, mode, scale) {
@@ -225,8 +216,9 @@ class ShapeView {
   }
 
   /// Colours of particles and bonds: by structure, or by a field of bonds, of which a particle has the mean of its own.
-  tints(a, field, t) {
-    const s = this.run.shape, n = this.radius.length, plain = s.structures.map((_, k) => new THREE.Color(seriesColour(t, k)));
+  tints(a, field, {unbound}) {
+    const s = this.run.shape, n = this.radius.length, t = theme(), none = new THREE.Color(t.rule);
+    const plain = s.structures.map((_, k) => new THREE.Color(seriesColour(t, k)));
     const own = Array.from({length: n}, (_, k) => plain[this.structureOf(k)] || new THREE.Color(t.quiet));
     const ofFirst = (particles) => ({particles, bonds: Array.from({length: s.bonds.length / 2}, (_, b) => particles[s.bonds[2 * b]])});
     if (!field || !a.fields[field]) return ofFirst(own);
@@ -234,12 +226,11 @@ class ShapeView {
     const colour = (v) => new THREE.Color(d3.interpolateRdBu(0.5 - 0.5 * v / most));
     if (of !== 'bond') {
       const known = (k) => of === 'particle' || s.structures[this.structureOf(k)]?.kind === 'sheet';
-      return ofFirst(Array.from(values, (v, k) => (known(k) ? colour(v) : new THREE.Color(t.rule))));
+      return ofFirst(Array.from(values, (v, k) => (known(k) ? colour(v) : none)));
     }
     const sum = new Float64Array(n), count = new Float64Array(n);
-    values.forEach((v, b) => { for (const p of [s.bonds[2 * b], s.bonds[2 * b + 1]]) { sum[p] += v; ++count[p]; } });
-    return {particles: own.map((c, k) => (count[k] ? colour(sum[k] / count[k]) : new THREE.Color(t.rule))),
-        bonds: Array.from(values, colour)};
+    s.bonds.forEach((p, k) => { if (!unbound.has(k >> 1)) sum[p] += values[k >> 1], ++count[p]; });
+    return {particles: own.map((_, k) => (count[k] ? colour(sum[k] / count[k]) : none)), bonds: Array.from(values, colour)};
   }
 
   /// Arrows: contact forces in their proportion to the largest of the run, and loads; torques as rings that turn.

@@ -83,7 +83,7 @@ Json fields_data(Energy& energy, const State& state, const std::vector<int>& bon
   if (model.particles() > 0) j["energy"] = base64(energies);
   for (std::size_t c = 0; c < resultants.size() && !fields.sheets.empty(); ++c) {
     std::vector<float> of;
-    for (const StressResultants& r : fields.sheets) of.push_back(finite_float(c < 3 ? r.N[static_cast<int>(c)] : r.M[static_cast<int>(c) - 3]));
+    for (const StressResultants& r : fields.sheets) of.push_back(finite_float((c < 3 ? r.N : r.M)[static_cast<int>(c % 3)]));
     j[resultants[c]] = base64(of);
   }
   return j;
@@ -137,8 +137,8 @@ Json modes_data(const StoredRun& run, const StoredState& stored, const Model& mo
   return all;
 }
 
-Json state_data(const StoredRun& run, const StoredState& stored, const std::vector<const Row*>& contacts, const RunStage& in, Energy& energy,
-                const Model& all) {
+Json state_data(const StoredRun& run, const StoredState& stored, const std::vector<const Row*>& contacts, const RunStage& in,
+                Energy& energy, const Model& all) {
   const Model& model = in.model;
   State state = read_state(stored, model);
   if (!stored.file.ends_with(".data")) state.load_factor = model.start.load_factor;
