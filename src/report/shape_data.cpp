@@ -235,7 +235,7 @@ Json structure_data(const Model& model, const std::vector<RunStage>& stages) {
   const bool touch = !model.contacts.empty() || !model.rounded.empty() || !model.walls.empty();
   if (model.particles() > 0 && touch) field("force", "contact force", "particle");
   if (std::any_of(model.structures.begin(), model.structures.end(), is_sheet))
-    for (const char* r : resultants) field(r, std::string(r) + " of the sheet", "sheet");
+    for (const char* r : resultants) field(r, std::string(r) + " of sheets", "sheet");
   j["stages"] = Json::array();
   for (const RunStage& s : stages) j["stages"].push_back(stage_data(s, model));
   j["flat"] = model.plane_normal ? Json(*model.plane_normal) : Json(nullptr);
