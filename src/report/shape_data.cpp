@@ -66,20 +66,21 @@ bool is_sheet(const Structure& s) { return s.kind == "sheet"; }
 
 constexpr std::array<const char*, 6> resultants{"N11", "N22", "N12", "M11", "M22", "M12"};
 
-// Bonds are those of all stages. Of a particle the largest moment of the angles whose middle it is.
+// Bonds are those of all stages. Of a particle the largest moment and curvature of the angles whose middle it is.
 Json fields_data(Energy& energy, const State& state, const std::vector<int>& bonds, const Model& all) {
   const Model& model = energy.model();
   const Fields fields = fields_at(energy, state, {});
-  std::vector<float> tension(all.bonds.size()), moment(model.particles()), energies;
+  std::vector<float> tension(all.bonds.size()), moment(model.particles()), curvature(moment), energies;
   for (std::size_t b = 0; b < bonds.size(); ++b) tension[static_cast<std::size_t>(bonds[b])] = finite_float(fields.bonds[b].tension);
   for (std::size_t k = 0; k < fields.angles.size(); ++k) {
-    float &most = moment[model.angles[k].particles[1]], here = finite_float(fields.angles[k].moment);
-    if (std::abs(here) > std::abs(most)) most = here;
+    const AngleField& angle = fields.angles[k];
+    for (const auto& [of, here] : {std::pair(&moment, angle.moment), {&curvature, angle.curvature}})
+      if (float& most = (*of)[model.angles[k].particles[1]]; std::abs(here) > std::abs(most)) most = finite_float(here);
   }
   for (int i = 0; i < model.particles(); ++i) energies.push_back(finite_float(fields.energy[i]));
   Json j = Json::object();
   if (!all.bonds.empty()) j["tension"] = base64(tension);
-  if (!all.angles.empty()) j["moment"] = base64(moment);
+  if (!all.angles.empty()) j["moment"] = base64(moment), j["curvature"] = base64(curvature);
   if (model.particles() > 0) j["energy"] = base64(energies);
   for (std::size_t c = 0; c < resultants.size() && !fields.sheets.empty(); ++c) {
     std::vector<float> of;
@@ -230,7 +231,7 @@ Json structure_data(const Model& model, const std::vector<RunStage>& stages) {
     j["fields"].push_back({{"key", key}, {"name", name}, {"of", of}});
   };
   if (!model.bonds.empty()) field("tension", "tension of bonds", "bond");
-  if (!model.angles.empty()) field("moment", "bending moment", "particle");
+  if (!model.angles.empty()) field("moment", "bending moment", "particle"), field("curvature", "curvature", "particle");
   if (model.particles() > 0) field("energy", "energy", "particle");
   const bool touch = !model.contacts.empty() || !model.rounded.empty() || !model.walls.empty();
   if (model.particles() > 0 && touch) field("force", "contact force", "particle");
@@ -249,7 +250,7 @@ Json states_data(const StoredRun& run, const std::vector<RunStage>& stages, cons
   for (const auto& [label, rows] : contacts) longest = std::max(longest, rows.size());
   const std::size_t sites = model.start.position.cols() + 2 * model.bodies.size(), states = std::max<std::size_t>(1, run.states.size());
   const bool sheets = std::any_of(model.structures.begin(), model.structures.end(), is_sheet);
-  const std::size_t of_bodies = 7 * model.bodies.size(), of_particles = (sheets ? 2 + resultants.size() : 2) * model.particles();
+  const std::size_t of_bodies = 7 * model.bodies.size(), of_particles = (3 + (sheets ? resultants.size() : 0)) * model.particles();
   const std::size_t numbers = 3 * sites + of_bodies + of_particles + model.bonds.size() + 9 * longest + 3 * sites * vectors / states;
   const std::size_t bytes = 300 + 40 * model.walls.size() + 16 * numbers / 3;
   const std::vector<StoredState> taken = thinned(run.states, std::max<std::size_t>(1, most / bytes));
