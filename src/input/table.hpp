@@ -28,7 +28,6 @@ struct Range {
   double lo = -std::numeric_limits<double>::max(), hi = std::numeric_limits<double>::max();
   bool above = false;
 };
-
 inline constexpr int most_particles = 100'000'000, most_steps = 1'000'000, most_branches = 1000, most_modes = 1000;
 namespace range {
 inline constexpr Range any{}, positive{0, any.hi, true}, not_negative{0}, count{1, most_particles};
