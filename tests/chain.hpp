@@ -16,12 +16,12 @@ inline std::vector<int> numbers(int n, int first = 0) {
 /// A straight chain along `axis` with the first particle at the origin, spacing = rest length q0.
 inline Model chain(int particles, double K, double B, double q0, const Vec3& axis = Vec3::UnitZ()) {
   Model m;
-  m.start.position = Field::Zero(3, particles), m.start.tail = Field::Zero(3, particles);
+  m.start.position = Field::Zero(3, particles), m.start.low = Field::Zero(3, particles);
   const Vec3 direction = axis.normalized();
   for (int i = 0; i < particles; ++i)
     for (int c = 0; c < 3; ++c) {
       const Exact x = two_product(i * 1.0, q0) * Exact{direction[c], 0};
-      m.start.position(c, i) = x.hi, m.start.tail(c, i) = x.lo;
+      m.start.position(c, i) = x.hi, m.start.low(c, i) = x.lo;
     }
   m.bond_types = {{K, q0}}, m.angle_types = {{B}};
   for (int i = 0; i + 1 < particles; ++i) m.bonds.push_back({0, {i, i + 1}});

@@ -63,8 +63,8 @@ std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double
         for (; ball != grid.balls.end() && ball->first == hash; ++ball) {
           const int j = ball->second;
           if (j == i || (level->first == own && j < i)) continue;
-          const double reach = radii[i] + radii[j];
-          if ((centers.col(j) - x).squaredNorm() <= reach * reach && wanted(i, j)) partners[i].push_back(j);
+          const double sum = radii[i] + radii[j];
+          if ((centers.col(j) - x).squaredNorm() <= sum * sum && wanted(i, j)) partners[i].push_back(j);
         }
       }
     }

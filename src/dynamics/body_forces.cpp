@@ -20,13 +20,13 @@ bool slides(const RoundedDamping& d) { return d.tangential > 0 || (d.friction > 
 bool resists(const RoundedDamping& d) { return d.normal > 0 || slides(d); }
 
 // Whether a body about x is so far from every face that no vertex can be near one.
-bool far(const RoundedWall& wall, const Vec3& x, double reach) {
-  reach += wall.kernel.cutoff;
+bool far(const RoundedWall& wall, const Vec3& x, double cutoff) {
+  cutoff += wall.kernel.cutoff;
   const Region& r = wall.region;
-  if (r.shape == Shape::plane) return (wall.inside ? 1 : -1) * r.normal.dot(x - r.center) > reach;
+  if (r.shape == Shape::plane) return (wall.inside ? 1 : -1) * r.normal.dot(x - r.center) > cutoff;
   if (r.shape != Shape::block || !wall.inside) return false;
   for (int c = 0; c < 3; ++c)
-    if (x[c] - r.lo[c] <= reach || r.hi[c] - x[c] <= reach) return false;
+    if (x[c] - r.lo[c] <= cutoff || r.hi[c] - x[c] <= cutoff) return false;
   return true;
 }
 
@@ -36,7 +36,7 @@ BodyForces::BodyForces(const Model& model, double load_factor) : model_(model), 
   const int bodies = static_cast<int>(model.bodies.size());
   loads_.resize(bodies), on_.resize(bodies), resistance_.resize(bodies), drag_.assign(bodies, 0.0);
   motion_.resize(neighbours_.rules().entities());
-  state_.tail.setZero(), state_.load_factor = load_factor;
+  state_.low.setZero(), state_.load_factor = load_factor;
   for (const Load& l : model.loads) {
     const double s = l.scaling.at(load_factor);
     for (const int b : l.bodies) {
@@ -80,7 +80,7 @@ void BodyForces::find(const BodyPlaces& places, const Movement& movement, Pushes
   for (const int p : met_) {
     state_.position.col(p) = vector(movement.position.at(p));
     if (damps_particles_) motion_[p].velocity = vector(movement.velocity.at(p));
-    if (rubs_particles_) motion_[p].spin = vector(movement.spin.at(p));
+    if (rubs_particles_) motion_[p].angular_velocity = vector(movement.angular_velocity.at(p));
   }
   on_ = loads_;
   std::fill(resistance_.begin(), resistance_.end(), Wrench{});
@@ -108,13 +108,13 @@ void BodyForces::meet(Pushes& pushes) {
   if (!neighbours_.covers(state_)) {
     neighbours_.refresh(state_);
     pairs_.clear();
-    for (const auto& [i, j] : neighbours_.pairs()) pairs_.push_back({i, j, rules.table(i, j), rules.reach(i) + rules.reach(j)});
+    for (const auto& [i, j] : neighbours_.pairs()) pairs_.push_back({i, j, rules.table(i, j), rules.cutoff_radius(i) + rules.cutoff_radius(j)});
   }
   const auto position = [&](int e) -> Vec3 {
     return e < model_.particles() ? Vec3(state_.position.col(e)) : state_.bodies[e - model_.particles()].position.hi;
   };
   for (const Pair& p : pairs_) {
-    if ((position(p.i) - position(p.j)).squaredNorm() > p.reach * p.reach) continue;
+    if ((position(p.i) - position(p.j)).squaredNorm() > p.cutoff * p.cutoff) continue;
     const Table& t = tables_[p.table];
     const RoundedPair& table = model_.rounded[p.table];
     const RoundedBody a = rules.body(p.i, state_), b = rules.body(p.j, state_);
@@ -140,7 +140,7 @@ void BodyForces::meet(Pushes& pushes) {
 void BodyForces::touch_walls() {
   for (const At& w : walls_)
     for (const int b : model_.walls[w.wall].bodies) {
-      if (far(w.law, state_.bodies[b].position.hi, model_.shapes[model_.bodies[b].shape].reach())) continue;
+      if (far(w.law, state_.bodies[b].position.hi, model_.shapes[model_.bodies[b].shape].bounding_radius())) continue;
       const RoundedBody body = model_.body(b, state_);
       const BodyMotion& v = motion_[model_.particles() + b];
       if (model_.walls[w.wall].lammps) {

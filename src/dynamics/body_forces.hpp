@@ -35,7 +35,7 @@ class BodyForces {
   const std::vector<Wrench>& resistance() const { return resistance_; }
 
  private:
-  struct Pair { int i, j, table; double reach; };   // beyond which they feel nothing
+  struct Pair { int i, j, table; double cutoff; };   // beyond which they feel nothing
   struct Table { bool lammps, closest, damps; RoundedFriction friction; };
   struct At { int wall; bool damps; RoundedWall law; RoundedFriction friction; std::vector<LammpsWall> lammps; };
   struct Pointed { int body; Vec3 force, arm; };

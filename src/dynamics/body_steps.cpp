@@ -26,7 +26,7 @@ double BodySteps::carry() {
     Movement& m = forces_.movement();
     m.position.row[p] = lanes(x);
     if (forces_.damped()) m.velocity.row[p] = lanes(v);
-    if (forces_.rubs()) m.spin.row[p] = lanes(motion.spin);
+    if (forces_.rubs()) m.angular_velocity.row[p] = lanes(motion.angular_velocity);
   }
   return fastest;
 }
@@ -57,7 +57,7 @@ double BodySteps::finish(bool last) {
     Vec3 resistance = -at_.drag[p] * at_.v.at(p);
     if (forces_.damped()) resistance += vector(forces_.damping_at(p));
     taken -= resistance.dot(now.at(places().pose[g.body].rotation * g.arm) - at_.v.at(p));
-    if (forces_.rubs()) taken -= torque_at(p).dot(now.spin - vector(forces_.movement().spin.at(p)));
+    if (forces_.rubs()) taken -= torque_at(p).dot(now.angular_velocity - vector(forces_.movement().angular_velocity.at(p)));
   }
   if (last) carry();
   else start();

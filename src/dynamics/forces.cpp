@@ -14,7 +14,7 @@ double skin_for(const Model& model, const ContactRules* rules) {
   double smallest = std::numeric_limits<double>::infinity();
   if (rules)
     for (int i = 0; i < model.particles(); ++i)
-      if (rules->reach(i) > 0) smallest = std::min(smallest, 2 * rules->reach(i));
+      if (rules->cutoff_radius(i) > 0) smallest = std::min(smallest, 2 * rules->cutoff_radius(i));
   for (const Wall& w : model.walls)
     for (const int p : w.particles) smallest = std::min(smallest, model.diameter[p]);
   return skin_of_diameter * smallest;
@@ -47,7 +47,7 @@ Forces::Forces(const Model& model, double load_factor, const EdgeOrder& order)
   const bool rub = (pairs_ && pairs_->rubs()) || (walls_ && walls_->rubs()) || (bodies_ && bodies_->rubs_particles());
   if (rub || (pairs_ && pairs_->damped()) || (walls_ && walls_->damped()) || (bodies_ && bodies_->damps_particles()))
     pushes_.damping = movement_.velocity = Rows(n);
-  if (rub) pushes_.torque = movement_.spin = Rows(n);
+  if (rub) pushes_.torque = movement_.angular_velocity = Rows(n);
   travelled_ = std::numeric_limits<double>::infinity();
 }
 

@@ -29,7 +29,7 @@ class Forces {
 
   /// Says that no particle has moved farther than this since the last call of prepare() [length].
   void moved(double distance) { travelled_ += distance; }
-  /// Elastic forces and loads at x; damping and friction with the velocities and spins of movement(), whose positions are x.
+  /// Elastic forces and loads at x; damping and friction with the velocities and angular velocities of movement(), whose positions are x.
   void prepare(const Columns& x);
   /// Elastic force and loads on particles 4·block …, after prepare(), block after block; x as there, but for particles of
   /// blocks before this one, which may have moved on.

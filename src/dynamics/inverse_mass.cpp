@@ -11,16 +11,16 @@ InverseMass::InverseMass(const Model& model, const Kinematics& kinematics, const
     if (const int s = kinematics.site_of(d); s < kinematics.particles()) particle_[d] = 1 / std::sqrt(model.mass(s));
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
     const BodyMass m(model, b);
-    const double lever = kinematics.lever(b);
+    const double length = kinematics.characteristic_length(b);
     const Mat3 R = state.bodies[b].rotation.toRotationMatrix();
     Mat6 M;
     M.topLeftCorner<3, 3>() = m.mass * Mat3::Identity();
-    M.topRightCorner<3, 3>() = -m.mass / lever * cross_matrix(R * m.center);
+    M.topRightCorner<3, 3>() = -m.mass / length * cross_matrix(R * m.center);
     M.bottomLeftCorner<3, 3>() = M.topRightCorner<3, 3>().transpose();
-    M.bottomRightCorner<3, 3>() = R * m.inertia * R.transpose() / (lever * lever);
+    M.bottomRightCorner<3, 3>() = R * m.inertia * R.transpose() / (length * length);
     const double least = 1e-7 * M.bottomRightCorner<3, 3>().trace();
     for (int k = 0; k < 6; ++k)
-      if (kinematics.dof(k < 3 ? kinematics.place_of(b) : kinematics.turn_of(b), k % 3) < 0) M.row(k).setZero(), M.col(k).setZero();
+      if (kinematics.dof(k < 3 ? kinematics.place_of(b) : kinematics.rotation_of(b), k % 3) < 0) M.row(k).setZero(), M.col(k).setZero();
     const EigenPairs own = symmetric_eigen(M);
     root_.push_back(Mat6::Zero());
     for (int k = 0; k < 6; ++k)
@@ -32,7 +32,7 @@ Vector InverseMass::root(const Vector& v) const {
   Vector out = particle_.cwiseProduct(v);
   for (int b = 0; b < static_cast<int>(root_.size()); ++b) {
     Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
-    const auto dof = [&](int k) { return kinematics_.dof(k < 3 ? kinematics_.place_of(b) : kinematics_.turn_of(b), k % 3); };
+    const auto dof = [&](int k) { return kinematics_.dof(k < 3 ? kinematics_.place_of(b) : kinematics_.rotation_of(b), k % 3); };
     for (int k = 0; k < 6; ++k)
       if (dof(k) >= 0) own[k] = v[dof(k)];
     own = root_[b] * own;
@@ -44,7 +44,7 @@ Vector InverseMass::root(const Vector& v) const {
 
 double InverseMass::at(int body, const Vec3& arm) const {
   Eigen::Matrix<double, 3, 6> J;
-  J << Mat3::Identity(), -cross_matrix(arm) / kinematics_.lever(body);
+  J << Mat3::Identity(), -cross_matrix(arm) / kinematics_.characteristic_length(body);
   const Eigen::Matrix<double, 3, 6> B = J * root_[body];
   return symmetric_eigen(B * B.transpose()).values[2];
 }

@@ -14,7 +14,7 @@ Motion begin_motion(const Model& model) {
   const int n = model.particles();
   m.state = model.restart.value_or(model.start);
   m.velocity = model.velocity.cols() == n ? model.velocity : Field(Field::Zero(3, n));
-  m.spin = model.spin.cols() == n ? model.spin : Field(Field::Zero(3, n));
+  m.angular_velocity = model.angular_velocity.cols() == n ? model.angular_velocity : Field(Field::Zero(3, n));
   m.force = Field::Zero(3, n);
   const auto bodies = static_cast<Eigen::Index>(model.bodies.size());
   m.body_velocity = model.body_velocity.cols() == bodies ? model.body_velocity : Field(Field::Zero(3, bodies));

@@ -7,7 +7,7 @@ namespace elamin {
 struct Motion {
   State state;
   Field velocity;                      // 3 × particles [length/time]
-  Field spin;                          // angular velocities, 3 × particles; empty where nothing turns particles
+  Field angular_velocity;              // 3 × particles; empty where nothing turns particles
   Field force;                         // on every particle, held or not, drag and damping included: 3 × particles [force]
   Field body_velocity, angular_momentum;   // of bodies, axes of space, 3 × bodies
   Field body_force, torque;            // on every body, held or not, damping included; torque about its position: 3 × bodies

@@ -16,7 +16,7 @@ struct Freedom {
 
   Freedom(const Kinematics& k, int body) {
     for (int c = 0; c < 3; ++c) {
-      place[c] = k.dof(k.place_of(body), c) >= 0, turns[c] = k.dof(k.turn_of(body), c) >= 0;
+      place[c] = k.dof(k.place_of(body), c) >= 0, turns[c] = k.dof(k.rotation_of(body), c) >= 0;
       held = held && !place[c];
       if (turns[c]) axis = turned ? -1 : c, turned = true;
     }
@@ -79,26 +79,26 @@ MovingBodies::MovingBodies(const Model& model, const Kinematics& kinematics, con
             Vec3::Zero(), Vec3::Zero(), true, body.inertia, body.mass, 0};
     one.plain = !m.loaded && f.axis < 0 && f.turned && f.turns == std::array{true, true, true};
     if (!one.plain) {
-      Vec3 spin = RigidState(one.state).motion({body.mass > 0 ? body.mass : 1, body.inertia}).spin;
+      Vec3 omega = RigidState(one.state).motion({body.mass > 0 ? body.mass : 1, body.inertia}).angular_velocity;
       if (f.turns != std::array{true, true, true}) one.mass.inverse_inertia.setZero();
       if (f.axis >= 0) {
         const Vec3 e = Vec3::Unit(f.axis), own = R.transpose() * e;
         const double moment = own.dot(inertia * own), alone = own.dot(body.inertia * own);
         if (moment > 0) one.mass.inverse_inertia = own * own.transpose() / moment;
-        spin = (alone > 0 ? one.state.angular_momentum[f.axis] / alone : 0.0) * e;
-        one.state.angular_momentum = moment * spin;
+        omega = (alone > 0 ? one.state.angular_momentum[f.axis] / alone : 0.0) * e;
+        one.state.angular_momentum = moment * omega;
       } else if (f.turned) {
-        one.state.angular_momentum = R * (inertia * (R.transpose() * spin));
+        one.state.angular_momentum = R * (inertia * (R.transpose() * omega));
       } else {
-        spin.setZero(), one.state.angular_momentum.setZero();
+        omega.setZero(), one.state.angular_momentum.setZero();
       }
       if (!offset.isZero(0)) {
         const Vec3 arm = R * offset;
         one.state.pose.position = pose.position + ExactVector{arm, Vec3::Zero()};
-        one.state.velocity += spin.cross(arm);
+        one.state.velocity += omega.cross(arm);
       }
       for (const Glued& g : model.glued)
-        if (g.body == b) one.carried_spin += 0.1 * model.mass(g.particle) * model.diameter[g.particle] * model.diameter[g.particle];
+        if (g.body == b) one.carried_inertia += 0.1 * model.mass(g.particle) * model.diameter[g.particle] * model.diameter[g.particle];
     }
     one.velocity = support_velocity(model, b);
     one.start = one.state.pose.position.hi + one.state.pose.position.lo;
@@ -142,7 +142,7 @@ void MovingBodies::show(BodyPlaces& places) const {
     if (one.offset.isZero(0)) continue;
     const Vec3 arm = one.state.pose.rotation * one.offset;
     places.pose[b].position = one.state.pose.position + ExactVector{-arm, Vec3::Zero()};
-    places.motion[b].velocity -= places.motion[b].spin.cross(arm);
+    places.motion[b].velocity -= places.motion[b].angular_velocity.cross(arm);
   }
 }
 
@@ -156,14 +156,14 @@ double MovingBodies::kinetic(const BodyPlaces& now) const {
   ExactSum sum;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const One& one = bodies_[b];
-    const Vec3& w = now.motion[b].spin;
+    const Vec3& w = now.motion[b].angular_velocity;
     sum.add(one.own_mass / 2 * now.motion[b].velocity.squaredNorm());
     if (one.plain) {
       sum.add(w.dot(one.state.angular_momentum) / 2);
       continue;
     }
     const Vec3 own = now.pose[b].rotation.conjugate() * w;
-    sum.add(own.dot(one.own_inertia * own) / 2 + one.carried_spin / 2 * w.squaredNorm());
+    sum.add(own.dot(one.own_inertia * own) / 2 + one.carried_inertia / 2 * w.squaredNorm());
   }
   return sum.value();
 }
@@ -178,7 +178,7 @@ void MovingBodies::write(const BodyPlaces& now, Motion& motion) const {
       continue;
     }
     const Mat3 R = now.pose[b].rotation.toRotationMatrix();
-    motion.angular_momentum.col(b) = R * (one.own_inertia * (R.transpose() * now.motion[b].spin));
+    motion.angular_momentum.col(b) = R * (one.own_inertia * (R.transpose() * now.motion[b].angular_velocity));
   }
 }
 

@@ -45,7 +45,7 @@ class MovingBodies {
     Vec3 start, velocity;                      // of the held coordinates
     bool plain;                                // the point is the position, all turns are free, nothing is carried
     Mat3 own_inertia;
-    double own_mass, carried_spin;             // ½ ω² times the latter: the spin of carried balls
+    double own_mass, carried_inertia;             // ½ ω² times the latter: the spin of carried balls
   };
 
   std::vector<One> bodies_;

@@ -10,7 +10,7 @@ OtherForces::OtherForces(const Model& model, const EdgeOrder& order, double load
   part_.bonds.clear(), part_.angles.clear(), part_.glued.clear();   // a force on a glued particle is one on the particle
   for (const int b : order.bonds) part_.bonds.push_back(model.bonds[b]);
   for (const int a : order.angles) part_.angles.push_back(model.angles[a]);
-  state_.tail.setZero();
+  state_.low.setZero();
   state_.load_factor = load_factor;
   const Kinematics kinematics(part_);
   groups_.push_back(bond_group(part_, kinematics).free);

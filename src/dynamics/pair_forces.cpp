@@ -25,7 +25,7 @@ bool rubs(const ContactDamping& d) { return damps(d) && d.tangential > 0 && d.fr
   for (int k = 0; k < count; ++k) force.row[second[k]] += row[k], force.row[first[k]] -= row[k];
 }
 
-[[gnu::always_inline]] inline void turn(Rows& torque, const Triple<Lanes>& t, const int* particle, int count) {
+[[gnu::always_inline]] inline void add_torque(Rows& torque, const Triple<Lanes>& t, const int* particle, int count) {
   Lanes row[4] = {t.x, t.y, t.z, Lanes(0.0)};
   transpose(row[0], row[1], row[2], row[3]);
   for (int k = 0; k < count; ++k) torque.row[particle[k]] += row[k];
@@ -48,7 +48,7 @@ void PairForces::put(const PairList::Pair& pair) {
   const double ri = radius_[i], rj = radius_[j];
   const double stiffness = hertz_stiffness(model_.contacts[t].effective_modulus, ri, rj);
   to.first.push_back(i), to.second.push_back(j);
-  to.reach.push_back(ri + rj), to.stiffness.push_back(stiffness);
+  to.cutoff.push_back(ri + rj), to.stiffness.push_back(stiffness);
   if (!damps(model_.contacts[t].damping)) return;
   const double mi = model_.mass(i), mj = model_.mass(j);
   to.coefficient.push_back(DampedContact(model_.contacts[t].damping, mi * mj / (mi + mj), stiffness, ri * (rj / (ri + rj))).coefficient);
@@ -61,7 +61,7 @@ void PairForces::Cohesive::clear() {
 
 void PairForces::find(const Columns& x) {
   list_.find(x);
-  for (Hertz& h : hertz_) h.first.clear(), h.second.clear(), h.reach.clear(), h.stiffness.clear(), h.coefficient.clear();
+  for (Hertz& h : hertz_) h.first.clear(), h.second.clear(), h.cutoff.clear(), h.stiffness.clear(), h.coefficient.clear();
   for (const PairList::Pair& p : list_.hertz()) put(p);
   cohesive_.clear(), smooth_.clear();
   for (const PairList::Pair& p : list_.lj()) {
@@ -89,19 +89,19 @@ void PairForces::add(const Movement& movement, Pushes& pushes) {
   if (!smooth_.first.empty()) add<true>(smooth_, movement, pushes);
 }
 
-int PairForces::find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& reach,
+int PairForces::find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& cutoff,
                             const Rows& x) {
   const int pairs = static_cast<int>(first.size());
   int count = 0, p = 0;
   for (; p + 4 <= pairs; p += 4) {
     const Triple<Lanes> d = differences(x, &first[p], &second[p]);
-    const Lanes limit = Lanes::load(&reach[p]);
+    const Lanes limit = Lanes::load(&cutoff[p]);
     const unsigned closed = below(dot(d, d), limit * limit);
     for (int k = 0; k < 4; ++k) closed_[count] = p + k, count += closed >> k & 1;
   }
   for (; p < pairs; ++p) {
     const Lanes d = x.row[second[p]] - x.row[first[p]];
-    closed_[count] = p, count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach[p] * reach[p];
+    closed_[count] = p, count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff[p] * cutoff[p];
   }
   for (int k = 0; k < 3; ++k) closed_[count + k] = count > 0 ? closed_[count - 1] : 0;
   return count;
@@ -110,14 +110,14 @@ int PairForces::find_closed(const std::vector<int>& first, const std::vector<int
 template <bool damped, bool rubs>
 void PairForces::add(const Hertz& pairs, const ContactDamping& damping, const Movement& movement, Pushes& pushes) {
   const int roots = DampedContact(damping, 1, 1, 1).roots;
-  const int count = find_closed(pairs.first, pairs.second, pairs.reach, movement.position);
+  const int count = find_closed(pairs.first, pairs.second, pairs.cutoff, movement.position);
   for (int at = 0; at < count; at += 4) {
     const int* c = &closed_[at];
     const int first[4] = {pairs.first[c[0]], pairs.first[c[1]], pairs.first[c[2]], pairs.first[c[3]]};
     const int second[4] = {pairs.second[c[0]], pairs.second[c[1]], pairs.second[c[2]], pairs.second[c[3]]};
     const int used = std::min(count - at, 4);
     const Triple<Lanes> d = differences(movement.position, first, second);
-    const Lanes r = sqrt(dot(d, d)), inv = inverse(r), overlap = max(Lanes::gather(pairs.reach.data(), c) - r, Lanes(0.0));
+    const Lanes r = sqrt(dot(d, d)), inv = inverse(r), overlap = max(Lanes::gather(pairs.cutoff.data(), c) - r, Lanes(0.0));
     const Lanes elastic = HertzContact::push(overlap, Lanes::gather(pairs.stiffness.data(), c));
     push(pushes.force, (elastic * inv) * d, first, second, used);
     if constexpr (damped) {
@@ -132,15 +132,15 @@ void PairForces::add(const Hertz& pairs, const ContactDamping& damping, const Mo
         for (const int side : {0, 1}) {
           const int* p = side ? second : first;
           radii[side] = Lanes::gather(radius_.data(), p);
-          turning = turning + radii[side] * columns_of(movement.spin.row[p[0]], movement.spin.row[p[1]],
-                                                       movement.spin.row[p[2]], movement.spin.row[p[3]]);
+          turning = turning + radii[side] * columns_of(movement.angular_velocity.row[p[0]], movement.angular_velocity.row[p[1]],
+                                                       movement.angular_velocity.row[p[2]], movement.angular_velocity.row[p[3]]);
         }
         const Triple<Lanes> rub = friction(n, v, along, turning, elastic + slow, Lanes(damping.tangential) * eta,
                                            Lanes(damping.friction));
         f = f + rub;
         const Triple<Lanes> t = cross(n, rub);
         for (const int side : {0, 1})
-          turn(pushes.torque, (Lanes(0.5) * overlap - radii[side]) * t, side ? second : first, used);
+          add_torque(pushes.torque, (Lanes(0.5) * overlap - radii[side]) * t, side ? second : first, used);
       }
       push(pushes.damping, f, first, second, used);
     }

@@ -16,7 +16,7 @@ struct Pushes {
 
 /// Where the particles are and how they move, as pushes want it.
 struct Movement {
-  Rows position, velocity, spin;                // the latter two empty where nothing damps, nothing rubs
+  Rows position, velocity, angular_velocity;                // the latter two empty where nothing damps, nothing rubs
 };
 
 class PairForces {
@@ -33,7 +33,7 @@ class PairForces {
   /// The pairs of one table, a column for each number.
   struct Hertz {
     std::vector<int> first, second;
-    std::vector<double> reach, stiffness;
+    std::vector<double> cutoff, stiffness;
     std::vector<double> coefficient;            // see DampedContact; only where there is damping
   };
   struct Cohesive {
@@ -47,8 +47,8 @@ class PairForces {
   void add(const Hertz& pairs, const ContactDamping& damping, const Movement& movement, Pushes& pushes);
   template <bool smooth>
   void add(const Cohesive& pairs, const Movement& movement, Pushes& pushes);
-  /// The indices of those pairs that are nearer than `reach`, in closed_, and how many; some more behind them may be read.
-  int find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& reach, const Rows& x);
+  /// The indices of those pairs that are nearer than `cutoff`, in closed_, and how many; some more behind them may be read.
+  int find_closed(const std::vector<int>& first, const std::vector<int>& second, const std::vector<double>& cutoff, const Rows& x);
 
   const Model& model_;
   PairList list_;

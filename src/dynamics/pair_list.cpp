@@ -14,9 +14,9 @@ constexpr std::int64_t most_cells = 8;           // for every particle; more: th
 PairList::PairList(const Model& model, const ContactRules& rules, double skin) : model_(model), rules_(rules), skin_(skin) {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (int i = 0; i < model.particles(); ++i) {
-    if (!(rules.reach(i) > 0)) continue;
+    if (!(rules.cutoff_radius(i) > 0)) continue;
     members_.push_back(i);
-    smallest = std::min(smallest, rules.reach(i)), largest = std::max(largest, rules.reach(i));
+    smallest = std::min(smallest, rules.cutoff_radius(i)), largest = std::max(largest, rules.cutoff_radius(i));
   }
   cell_ = 2 * largest + skin;
   alike_ = largest <= alike * smallest;
@@ -56,7 +56,7 @@ void PairList::find_on_grid(const Columns& x) {
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   for (const int i : members_) {
     const int at = start_[cell_of_[i]]++;
-    sorted_[at] = i, at_.x[at] = x.x[i], at_.y[at] = x.y[i], at_.z[at] = x.z[i], far_[at] = rules_.reach(i);
+    sorted_[at] = i, at_.x[at] = x.x[i], at_.y[at] = x.y[i], at_.z[at] = x.z[i], far_[at] = rules_.cutoff_radius(i);
   }
   for (std::size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
   start_[0] = 0;
@@ -84,10 +84,10 @@ void PairList::find_on_grid(const Columns& x) {
 // The particles from `begin` to `end`, as sorted, that are near the one at `at`.
 void PairList::search(int at, int begin, int end) {
   const Triple<Lanes> own{at_.x[at], at_.y[at], at_.z[at]};
-  const Lanes reach = far_[at] + skin_;
+  const Lanes cutoff = far_[at] + skin_;
   for (int j = begin; j < end; j += Lanes::count) {
     const Triple<Lanes> d = at_.load(j) - own;
-    const Lanes far = Lanes::load(&far_[j]) + reach, squared = dot(d, d);
+    const Lanes far = Lanes::load(&far_[j]) + cutoff, squared = dot(d, d);
     unsigned near = below(squared, far * far);
     if (end - j < Lanes::count) near &= (1u << (end - j)) - 1;
     for (int k = 0; near != 0; ++k, near >>= 1)
@@ -99,7 +99,7 @@ void PairList::find_at_all_sizes(const Columns& x) {
   Field centers(3, model_.particles());
   x.copy_to(centers);
   std::vector<double> radii(model_.particles(), 0.0);
-  for (const int i : members_) radii[i] = rules_.reach(i) + skin_ / 2;
+  for (const int i : members_) radii[i] = rules_.cutoff_radius(i) + skin_ / 2;
   for (const auto& [i, j] : near_pairs(centers, radii, [](int, int) { return true; })) offer(i, j, (x.at(j) - x.at(i)).squaredNorm());
 }
 

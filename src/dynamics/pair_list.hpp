@@ -29,10 +29,10 @@ class PairList {
   const Model& model_;
   const ContactRules& rules_;
   double skin_, cell_ = 0;
-  bool alike_ = true;                            // the largest reach is not much above the smallest
-  std::vector<int> members_;                     // particles with a reach
+  bool alike_ = true;                            // the largest cutoff is not much above the smallest
+  std::vector<int> members_;                     // particles with a cutoff
   std::vector<int> cell_of_, start_, sorted_;    // cell of each particle; where a cell begins in `sorted`; particles cell by cell
-  Columns at_;                                   // as sorted: where they are, and their reach
+  Columns at_;                                   // as sorted: where they are, and their cutoff
   std::vector<double> far_;
   std::array<std::vector<Pair>, 2> pairs_;
 };

@@ -19,18 +19,18 @@ constexpr int between_masses = 200, between_rows = 1000;
 
 // FIRE's decisions, from the sums of one evaluation: power F·v, |F|² = Σ F²/m and |v|² = Σ m v².
 struct Fire {
-  double time = first_time, turn = 0.25;
+  double time = first_time, mixing = 0.25;
   int downhill = 0;
   bool stopped = true;                           // the velocity starts from zero
 
   void judge(double power) {
     if (power > 0) {
       stopped = false;
-      if (++downhill > 20) time = std::min(time * 1.1, longest_time), turn *= 0.99;
+      if (++downhill > 20) time = std::min(time * 1.1, longest_time), mixing *= 0.99;
     } else {
       stopped = true;
       if (downhill > 0) time = std::max(time / 2, first_time / 10);
-      downhill = 0, turn = 0.25;
+      downhill = 0, mixing = 0.25;
     }
   }
   /// v ← keep v + pull F/m:  v += t F/m, then (1 − α) v + α F/m |v|/|F|.
@@ -38,7 +38,7 @@ struct Fire {
   Change change(double power, double ff, double vv) const {
     if (stopped) return {0, time};
     const double size = std::sqrt(std::max(0.0, vv + 2 * time * power + time * time * ff));
-    return {1 - turn, (1 - turn) * time + (ff > 0 ? turn * size / std::sqrt(ff) : 0)};
+    return {1 - mixing, (1 - mixing) * time + (ff > 0 ? mixing * size / std::sqrt(ff) : 0)};
   }
 };
 
@@ -46,7 +46,7 @@ struct Fire {
 Vector masses(Energy& energy) {
   const SparseMatrix& K = energy.hessian();
   Vector m = Vector::Zero(energy.dofs());
-  for (const int d : energy.idle()) m[d] = -std::abs(K.valuePtr()[K.outerIndexPtr()[d]]);     // not theirs
+  for (const int d : energy.null_dofs()) m[d] = -std::abs(K.valuePtr()[K.outerIndexPtr()[d]]);     // not theirs
   for (int j = 0; j < K.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(K, j); it; ++it) {
       m[j] += std::abs(it.value());
@@ -63,7 +63,7 @@ Vector masses(Energy& energy) {
   const auto rounded = [&](const RoundedKernel& kernel, const std::vector<int>& particles, const std::vector<int>& bodies) {
     const auto at = [&](int site) { light[site] = std::max(light[site], std::max(kernel.normal, kernel.attraction)); };
     for (const int p : particles) at(p);
-    for (const int b : bodies) at(kinematics.place_of(b)), at(kinematics.turn_of(b));
+    for (const int b : bodies) at(kinematics.place_of(b)), at(kinematics.rotation_of(b));
   };
   for (const RoundedPair& t : energy.model().rounded)
     for (int side = 0; side < 2; ++side) rounded(t.kernel, t.particles[side], t.bodies[side]);
@@ -82,7 +82,7 @@ class Relaxation {
     const Model& model = energy.model();
     double smallest = std::numeric_limits<double>::infinity();
     for (int p = 0; p < model.particles(); ++p)
-      if (!model.walls.empty() || energy.contact_rules().reach(p) > 0) smallest = std::min(smallest, model.diameter[p]);
+      if (!model.walls.empty() || energy.contact_rules().cutoff_radius(p) > 0) smallest = std::min(smallest, model.diameter[p]);
     for (const Bond& b : model.bonds)
       smallest = std::min(smallest, model.bond_types[b.type].rest_length);
     for (const Body& b : model.bodies) smallest = std::min(smallest, 2 * model.shapes[b.shape].radius);
@@ -184,7 +184,7 @@ void Relaxation::fast() {
     }
     for (int p = 0; p < n; ++p)
       for (int c = 0; c < 3; ++c)
-        if (kinematics.dof(p, c) >= 0) state_.position(c, p) = x.at(c, p), state_.tail(c, p) = 0, v_[kinematics.dof(p, c)] = v.at(c, p);
+        if (kinematics.dof(p, c) >= 0) state_.position(c, p) = x.at(c, p), state_.low(c, p) = 0, v_[kinematics.dof(p, c)] = v.at(c, p);
     look();
   }
 }

@@ -26,9 +26,9 @@ class Verlet::Engine {
     const Kinematics kinematics(model);
     refuse_what_cannot_move(model, kinematics);
     if (!model.bodies.empty()) bodies_.emplace(model, kinematics, motion_, dt_, forces_, MovingParticles{x_, v_, f_, drag_});
-    motion_.state.tail.setZero();
+    motion_.state.low.setZero();
     if (motion_.velocity.cols() == n_) v_ = Columns(motion_.velocity);
-    if (motion_.spin.cols() != n_) motion_.spin = Field::Zero(3, n_);
+    if (motion_.angular_velocity.cols() != n_) motion_.angular_velocity = Field::Zero(3, n_);
     motion_.velocity.resize(3, n_), motion_.force.resize(3, n_);
     for (int p = 0; p < n_; ++p) {
       const double m = model.mass(p), r = model.diameter[p] / 2;
@@ -46,8 +46,8 @@ class Verlet::Engine {
       for (const int p : w.particles) drag_[p] += w.coefficient;
     resists_ = forces_.damped() || (bodies_ && forces_.bodies()->damps()) || std::any_of(drag_.begin(), drag_.end(), [](double g) { return g != 0; });
     for (int p = 0; p < n_ && forces_.rubs(); ++p)
-      forces_.movement().spin.add(p, {motion_.spin(0, p), motion_.spin(1, p), motion_.spin(2, p)});
-    if (!forces_.rubs()) motion_.spin.resize(3, 0);
+      forces_.movement().angular_velocity.add(p, {motion_.angular_velocity(0, p), motion_.angular_velocity(1, p), motion_.angular_velocity(2, p)});
+    if (!forces_.rubs()) motion_.angular_velocity.resize(3, 0);
     for (int p = 0; p < n_ && forces_.by_row(); p += 4) show(p, x_.load(p), v_.load(p));
     if (bodies_) bodies_->carry();
     forces_.prepare(x_);
@@ -79,7 +79,7 @@ class Verlet::Engine {
       const double m = model_.mass(p), r = model_.diameter[p] / 2;
       if (!(m > 0)) continue;
       sum.add(m / 2 * motion_.velocity.col(p).squaredNorm());
-      if (motion_.spin.cols() == n_ && turn_[p] > 0) sum.add(0.2 * m * r * r * motion_.spin.col(p).squaredNorm());
+      if (motion_.angular_velocity.cols() == n_ && turn_[p] > 0) sum.add(0.2 * m * r * r * motion_.angular_velocity.col(p).squaredNorm());
     }
     return sum.value();
   }
@@ -140,7 +140,7 @@ class Verlet::Engine {
       f_.store(p, resists_ ? force<true>(p, v, resistance) : force<false>(p, v, resistance));
       power -= dot(resistance, v);
     }
-    for (int p = 0; p < n_ && forces_.rubs(); ++p) power -= forces_.torque_on(p) * forces_.movement().spin.row[p];
+    for (int p = 0; p < n_ && forces_.rubs(); ++p) power -= forces_.torque_on(p) * forces_.movement().angular_velocity.row[p];
     dissipating_ = power.sum();
     if (bodies_) dissipating_ += bodies_->look();
     working_ = work_rate();
@@ -155,7 +155,7 @@ class Verlet::Engine {
       drift(p, v, fastest);
     }
     fastest_ = fastest.largest();
-    for (int p = 0; p < n_ && forces_.rubs(); ++p) forces_.movement().spin.row[p] += Lanes(turn_[p]) * forces_.torque_on(p);
+    for (int p = 0; p < n_ && forces_.rubs(); ++p) forces_.movement().angular_velocity.row[p] += Lanes(turn_[p]) * forces_.torque_on(p);
     if (bodies_) bodies_->start();
   }
 
@@ -180,11 +180,11 @@ class Verlet::Engine {
     }
     fastest_ = fastest.largest();
     for (int p = 0; p < n_ && forces_.rubs(); ++p) {
-      Lanes& spin = forces_.movement().spin.row[p];
+      Lanes& omega = forces_.movement().angular_velocity.row[p];
       const Lanes torque = forces_.torque_on(p), change = Lanes(turn_[p]) * torque;
-      spin += change;
-      power -= torque * spin;
-      if (!last) spin += change;
+      omega += change;
+      power -= torque * omega;
+      if (!last) omega += change;
     }
     return power.sum();
   }
@@ -235,8 +235,8 @@ class Verlet::Engine {
   void write_motion() {
     x_.copy_to(motion_.state.position), v_.copy_to(motion_.velocity), f_.copy_to(motion_.force);
     for (int p = 0; p < n_ && forces_.rubs(); ++p) {
-      const Triple<double> w = forces_.movement().spin.at(p);
-      motion_.spin.col(p) << w.x, w.y, w.z;
+      const Triple<double> w = forces_.movement().angular_velocity.at(p);
+      motion_.angular_velocity.col(p) << w.x, w.y, w.z;
     }
     if (bodies_) bodies_->write(motion_);
     motion_.step = first_step_ + steps_;

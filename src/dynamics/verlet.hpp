@@ -12,7 +12,7 @@ Motion begin_motion(const Model& model);
 
 /// Velocity Verlet, as LAMMPS has it with fix nve/sphere and fix move linear. One step of dt:
 ///   v += dt/2 f/m,   x += dt v;   held coordinates: x = x(0) + V (steps · dt), v = V, without a velocity V = 0
-///   f = −∂U/∂x at the new x, drag −γ v, damping and friction of contacts, with these half-step velocities and spins
+///   f = −∂U/∂x at the new x, drag −γ v, damping and friction of contacts, with these half-step velocities and angular velocities
 ///   v += dt/2 f/m;   where friction acts  ω likewise with the torques, I = 2/5 m r², of particles that are not held whole
 /// All conditions act as they do at the load factor of the start; walls stand still. Of order two in dt but for what
 /// depends on velocities, which is taken half a step too early: of order one in γ dt/m.

@@ -68,7 +68,7 @@ void WallForces::damp(const Near& near, const WallPress& press, double stiffness
   Triple<double> f = (-eta * along) * n;
   if (d.rubs()) {
     const double normal = HertzContact::push(press.overlap, stiffness) - eta * along;
-    const Triple<double> rub = friction(n, v, along, r * movement.spin.at(near.particle), normal, d.tangential * eta, d.friction);
+    const Triple<double> rub = friction(n, v, along, r * movement.angular_velocity.at(near.particle), normal, d.tangential * eta, d.friction);
     f = f + rub;
     pushes.torque.add(near.particle, -r * cross(n, rub));
   }

@@ -166,10 +166,10 @@ const std::vector<double>& Assembler::evaluate(const State& state, bool with_hes
   return sums_;
 }
 
-double Assembler::unpredicted(const State& state, const State& from) {
+double Assembler::residual_energy(const State& state, const State& from) {
   double sum = 0;
   for (std::size_t k = 0; k < groups_.size(); ++k)
-    if (groups_[k]->unpredicted(state, from, values_.data() + value_offset_[k]))
+    if (groups_[k]->residual_energy(state, from, values_.data() + value_offset_[k]))
       sum += sum_of(values_.data() + value_offset_[k], groups_[k]->elements());
   return sum;
 }
@@ -196,13 +196,13 @@ void Assembler::sum_hessian() {
 
 void Assembler::add_drive(const State& state, Vector& out) const {
   for (const Drive& d : drives_) out[d.dof] += hessians_[d.place] * d.rate;
-  for (const auto& group : groups_) add_load_rates(*group, state, out);
+  for (const auto& group : groups_) add_load_derivative(*group, state, out);
 }
 
-void Assembler::add_load_rates(const ElementGroup& group, const State& state, Vector& out) const {
-  if (!group.moves()) return;
+void Assembler::add_load_derivative(const ElementGroup& group, const State& state, Vector& out) const {
+  if (!group.load_dependent()) return;
   std::vector<double> rate(std::size_t(group.elements()) * group.gradient_size());
-  group.load_rates(state, rate.data());
+  group.explicit_load_derivative(state, rate.data());
   for (int e = 0; e < group.elements(); ++e)
     for (int i = 0; i < group.gradient_size(); ++i)
       if (const int dof = dof_of(kinematics_, group, e, i); dof >= 0)

@@ -26,7 +26,7 @@ class Assembler {
   /// The same; fills the element buffers, which the calls below read.
   const std::vector<double>& evaluate(const State& state, bool with_hessian, const Tangent& tangent);
   /// Sum over the laws that predict their force from `from` of the energy they did not predict.
-  double unpredicted(const State& state, const State& from);
+  double residual_energy(const State& state, const State& from);
   /// ∂U/∂x of all sites, 3 × sites, from the last evaluation.
   void gradient(Field& g) const { gather(gradients_, g); }
   /// ∂²U/∂q∂q, lower triangle, pattern fixed; from the last evaluation with Hessian.
@@ -38,7 +38,7 @@ class Assembler {
   /// evaluation with Hessian, which was at `state`.
   void add_drive(const State& state, Vector& out) const;
   /// ∂²U/∂q∂λ of one group that moves by itself, added to `out` (dofs); nothing if it does not.
-  void add_load_rates(const ElementGroup& group, const State& state, Vector& out) const;
+  void add_load_derivative(const ElementGroup& group, const State& state, Vector& out) const;
   /// H v for a field v that is zero at prescribed coordinates (3 × sites), element by element on differences of v, so
   /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
   void multiply(const Field& v, Field& out);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::int64_t bodies_per_thread = 20;
 
-// Turn rows and columns of a Local of n sites, per unit of length: those of site k divided by lever[k], 1 for places.
+// Turn rows and columns of a Local of n sites, per unit of length: those of site k divided by length[k], 1 for places.
 template <int n>
-void to_lengths(Local<n>& u, const std::array<double, n>& lever) {
+void to_lengths(Local<n>& u, const std::array<double, n>& length) {
   Eigen::Matrix<double, 3 * n, 1> scale;
-  for (int k = 0; k < n; ++k) scale.template segment<3>(3 * k).setConstant(1 / lever[k]);
+  for (int k = 0; k < n; ++k) scale.template segment<3>(3 * k).setConstant(1 / length[k]);
   u.gradient.array() *= scale.array();
   u.hessian = (scale.asDiagonal() * u.hessian * scale.asDiagonal()).eval();
 }
@@ -32,7 +32,7 @@ class BodyGroup : public ElementGroup {
   int sites() const override { return n; }
   std::span<const int> stencil(int element) const override { return stencils_[element]; }
   bool anchored() const override { return true; }
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
+  bool residual_energy(const State&, const State&, double*) const override { return false; }
 
  protected:
   std::vector<std::array<int, n>> stencils_;
@@ -50,11 +50,11 @@ class RoundedGroup final : public BodyGroup<n> {
       const int a = (n == 4 ? i : j) - rules_.particles(), b = j - rules_.particles();
       table_.push_back(rules_.table(i, j));
       if constexpr (n == 4) {
-        stencils_.push_back({kinematics.place_of(a), kinematics.turn_of(a), kinematics.place_of(b), kinematics.turn_of(b)});
-        levers_.push_back({1, kinematics.lever(a), 1, kinematics.lever(b)});
+        stencils_.push_back({kinematics.place_of(a), kinematics.rotation_of(a), kinematics.place_of(b), kinematics.rotation_of(b)});
+        lengths_.push_back({1, kinematics.characteristic_length(a), 1, kinematics.characteristic_length(b)});
       } else {
-        stencils_.push_back({kinematics.place_of(a), kinematics.turn_of(a), i});
-        levers_.push_back({1, kinematics.lever(a), 1});
+        stencils_.push_back({kinematics.place_of(a), kinematics.rotation_of(a), i});
+        lengths_.push_back({1, kinematics.characteristic_length(a), 1});
       }
     }
   }
@@ -72,7 +72,7 @@ class RoundedGroup final : public BodyGroup<n> {
       u.value = whole.value;
       u.gradient = whole.gradient.template head<3 * n>();
       u.hessian = whole.hessian.template topLeftCorner<3 * n, 3 * n>();
-      to_lengths<n>(u, levers_[e]);
+      to_lengths<n>(u, lengths_[e]);
       store(u, e, value, gradient, hessian);
     });
   }
@@ -89,7 +89,7 @@ class RoundedGroup final : public BodyGroup<n> {
   const BodyRules& rules_;
   std::vector<IndexPair> pairs_;
   std::vector<int> table_;
-  std::vector<std::array<double, n>> levers_;
+  std::vector<std::array<double, n>> lengths_;
 };
 
 class BodyWallGroup final : public BodyGroup<2> {
@@ -99,12 +99,12 @@ class BodyWallGroup final : public BodyGroup<2> {
       const Wall& wall = model.walls[w];
       if (wall.lammps) continue;
       for (const int b : wall.bodies)
-        stencils_.push_back({kinematics.place_of(b), kinematics.turn_of(b)}), wall_.push_back(static_cast<int>(w));
-      moves_ = moves_ || (!wall.bodies.empty() && wall.scaling.rate != 0 && !wall.displacement.isZero(0));
+        stencils_.push_back({kinematics.place_of(b), kinematics.rotation_of(b)}), wall_.push_back(static_cast<int>(w));
+      load_dependent_ = load_dependent_ || (!wall.bodies.empty() && wall.scaling.rate != 0 && !wall.displacement.isZero(0));
     }
   }
 
-  bool moves() const override { return moves_; }
+  bool load_dependent() const override { return load_dependent_; }
 
   void values(const State& state, double* value) const override {
     parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) { value[e] = law(e, state).value(body(e, state)); });
@@ -113,7 +113,7 @@ class BodyWallGroup final : public BodyGroup<2> {
     parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) { store(local(e, state), e, value, gradient, hessian); });
   }
   // ∂(∇U)/∂λ = −s′ ∂(∇U)/∂x d.
-  void load_rates(const State& state, double* rate) const override {
+  void explicit_load_derivative(const State& state, double* rate) const override {
     parallel_for(elements(), bodies_per_thread, [&](std::int64_t e) {
       const Wall& wall = model_.walls[wall_[e]];
       Eigen::Map<Eigen::Matrix<double, 6, 1>>(rate + 6 * e) =
@@ -126,14 +126,14 @@ class BodyWallGroup final : public BodyGroup<2> {
   RoundedBody body(std::int64_t e, const State& state) const { return model_.body(kinematics_.body_of(stencils_[e][0]), state); }
   Local<2> local(std::int64_t e, const State& state) const {
     Local<2> u = law(e, state).derivatives(body(e, state));
-    to_lengths<2>(u, {1, kinematics_.lever(kinematics_.body_of(stencils_[e][0]))});
+    to_lengths<2>(u, {1, kinematics_.characteristic_length(kinematics_.body_of(stencils_[e][0]))});
     return u;
   }
 
   const Model& model_;
   const Kinematics& kinematics_;
   std::vector<int> wall_;
-  bool moves_ = false;
+  bool load_dependent_ = false;
 };
 
 // U = −s(λ) F·(x + R arm), or −s(λ) τ·φ.
@@ -156,7 +156,7 @@ class BodyLoadGroup final : public BodyGroup<2> {
       for (const int p : g.particles) at_particle(p, model.mass(p) * g.acceleration, g.scaling);
   }
 
-  bool moves() const override { return moves_; }
+  bool load_dependent() const override { return load_dependent_; }
 
   void values(const State& state, double* value) const override {
     for (int e = 0; e < elements(); ++e) value[e] = loads_[e].scaling.at(state.load_factor) * unit(e, state).value;
@@ -169,7 +169,7 @@ class BodyLoadGroup final : public BodyGroup<2> {
       store(u, e, value, gradient, hessian);
     }
   }
-  void load_rates(const State& state, double* rate) const override {
+  void explicit_load_derivative(const State& state, double* rate) const override {
     for (int e = 0; e < elements(); ++e)
       Eigen::Map<Eigen::Matrix<double, 6, 1>>(rate + 6 * e) = loads_[e].scaling.rate * unit(e, state).gradient;
   }
@@ -178,8 +178,8 @@ class BodyLoadGroup final : public BodyGroup<2> {
   struct One { Vec3 force, arm; RotationTorque torque; Scaling scaling; };
 
   void add(int body, One load) {
-    stencils_.push_back({kinematics_.place_of(body), kinematics_.turn_of(body)});
-    moves_ = moves_ || load.scaling.rate != 0;
+    stencils_.push_back({kinematics_.place_of(body), kinematics_.rotation_of(body)});
+    load_dependent_ = load_dependent_ || load.scaling.rate != 0;
     loads_.push_back(std::move(load));
   }
   Local<2> unit(int e, const State& state) const {                // for s = 1
@@ -195,13 +195,13 @@ class BodyLoadGroup final : public BodyGroup<2> {
       const Local<1> t = load.torque.derivatives(pose.rotation);
       u.value = t.value, u.force_part(1) = t.gradient, u.block(1, 1) = t.hessian;
     }
-    to_lengths<2>(u, {1, kinematics_.lever(b)});
+    to_lengths<2>(u, {1, kinematics_.characteristic_length(b)});
     return u;
   }
 
   const Kinematics& kinematics_;
   std::vector<One> loads_;
-  bool moves_ = false;
+  bool load_dependent_ = false;
 };
 
 template <class Keep>

@@ -1,5 +1,5 @@
 #pragma once
-// Rigid bodies in the energy: pairs, walls, loads. Turns are in units of length (see Kinematics).
+// Rigid bodies in the energy: pairs, walls, loads. Rotations are in units of length (see Kinematics).
 #include "energy/body_neighbours.hpp"
 #include "energy/kinematics.hpp"
 #include "energy/law_group.hpp"
@@ -9,7 +9,7 @@
 
 namespace elamin {
 
-/// Two bodies, four sites; or a body and a particle, three: place and turn of the body, the particle. Pairs whose table follows
+/// Two bodies, four sites; or a body and a particle, three: place and rotation of the body, the particle. Pairs whose table follows
 /// LAMMPS's rules are not in it: those have no potential.
 std::unique_ptr<ElementGroup> body_pair_group(const Model& model, const Kinematics& kinematics, const BodyNeighbours& neighbours);
 /// `carried`: of particles that a body carries, or of those that none does.

@@ -5,8 +5,8 @@
 
 namespace elamin {
 
-/// Candidate pairs of entities (see BodyRules), by their bounding spheres, which no turn changes: all that may feel each other
-/// while nothing moves by more than half the skin, 0.2 of the smallest reach in any table. A new list that is part of the
+/// Candidate pairs of entities (see BodyRules), by their bounding spheres, which no rotation changes: all that may feel each other
+/// while nothing moves by more than half the skin, 0.2 of the smallest cutoff in any table. A new list that is part of the
 /// old one changes nothing.
 class BodyNeighbours {
  public:

@@ -8,7 +8,7 @@ namespace elamin {
 BodyRules::BodyRules(const Model& model)
     : model_(model), any_(!model.rounded.empty() && !model.bodies.empty()), particles_(model.particles()) {
   const int n = particles_ + static_cast<int>(model.bodies.size());
-  class_.assign(n, 0), reach_.assign(n, 0.0), ball_.assign(particles_, -1);
+  class_.assign(n, 0), cutoff_radius_.assign(n, 0.0), ball_.assign(particles_, -1);
   if (!any_) return;
   std::vector<std::vector<int>> member(n);                       // 2 table + side, ascending
   for (std::size_t t = 0; t < model.rounded.size(); ++t)
@@ -22,8 +22,8 @@ BodyRules::BodyRules(const Model& model)
     if (member[e].empty()) continue;
     double cutoff = 0;
     for (const int m : member[e]) cutoff = std::max(cutoff, model.rounded[m / 2].kernel.cutoff);
-    const double own = is_body(e) ? model.shapes[model.bodies[e - particles_].shape].reach() : model.diameter[e] / 2;
-    reach_[e] = own + cutoff / 2;
+    const double own = is_body(e) ? model.shapes[model.bodies[e - particles_].shape].bounding_radius() : model.diameter[e] / 2;
+    cutoff_radius_[e] = own + cutoff / 2;
     if (is_body(e)) continue;
     const auto [found, fresh] = of_radius.emplace(own, static_cast<int>(balls_.size()));
     if (fresh) balls_.push_back(rounded_shape(point_core(), own));

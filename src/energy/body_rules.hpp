@@ -20,7 +20,7 @@ class BodyRules {
   int table(int i, int j) const;
   /// Of the sphere around an entity that meets that of everything it feels: its own and half the largest cutoff; 0: it is in
   /// no table. [length]
-  double reach(int entity) const { return reach_[entity]; }
+  double cutoff_radius(int entity) const { return cutoff_radius_[entity]; }
   /// The place of an entity; as a body: a particle is a ball. [length]
   Vec3 position(int entity, const State& state) const;
   RoundedBody body(int entity, const State& state) const;
@@ -31,7 +31,7 @@ class BodyRules {
   int particles_ = 0;
   std::vector<int> class_, tables_;            // tables_: classes × classes
   std::size_t classes_ = 0;
-  std::vector<double> reach_;
+  std::vector<double> cutoff_radius_;
   std::vector<std::pair<int, int>> glued_;     // particle, body: ascending
   std::vector<RoundedShape> balls_;            // a radius each
   std::vector<int> ball_;                      // of each particle

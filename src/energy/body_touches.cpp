@@ -27,7 +27,7 @@ std::vector<IndexPair> candidates(const Model& model, const BodyRules& rules, co
     std::vector<double> radii(rules.entities(), 0.0);
     for (int e = 0; e < rules.entities(); ++e) {
       x.col(e) = rules.position(e, state);
-      if (rules.reach(e) > 0) radii[e] = (rules.reach(e) + within / 2) * (1 + 1e-12);
+      if (rules.cutoff_radius(e) > 0) radii[e] = (rules.cutoff_radius(e) + within / 2) * (1 + 1e-12);
     }
     return near_pairs(x, radii, feel);
   }

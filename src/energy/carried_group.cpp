@@ -37,7 +37,7 @@ Eigen::MatrixXd CarriedGroup::jacobian(const State& state, int e) const {
     for (int k = 0; k < sites(); ++k)
       if (outer[k] == kinematics_.place_of(body)) {
         J.block<3, 3>(3 * i, 3 * k).setIdentity();
-        J.block<3, 3>(3 * i, 3 * k + 3) = -cross_matrix(arm(state, inner[i])) / kinematics_.lever(body);
+        J.block<3, 3>(3 * i, 3 * k + 3) = -cross_matrix(arm(state, inner[i])) / kinematics_.characteristic_length(body);
         break;
       }
   }
@@ -74,8 +74,8 @@ void CarriedGroup::derivatives(const State& state, const Tangent& tangent, doubl
       const Vec3 a = arm(state, inner[i]), force = Eigen::Map<const Vec3>(g + 3 * i);
       const Mat3 m = force * a.transpose();
       for (int k = 0; k < sites(); ++k)
-        if (outer[k] == kinematics_.turn_of(body))
-          H.block<3, 3>(3 * k, 3 * k) += ((m + m.transpose()) / 2 - force.dot(a) * Mat3::Identity()) / std::pow(kinematics_.lever(body), 2);
+        if (outer[k] == kinematics_.rotation_of(body))
+          H.block<3, 3>(3 * k, 3 * k) += ((m + m.transpose()) / 2 - force.dot(a) * Mat3::Identity()) / std::pow(kinematics_.characteristic_length(body), 2);
     }
     double* out = hessian + at * hessian_size();
     for (int r = 0; r < gradient_size(); ++r)
@@ -83,9 +83,9 @@ void CarriedGroup::derivatives(const State& state, const Tangent& tangent, doubl
   });
 }
 
-void CarriedGroup::load_rates(const State& state, double* rate) const {
+void CarriedGroup::explicit_load_derivative(const State& state, double* rate) const {
   std::vector<double> inner(gradient_.size());
-  inner_->load_rates(state, inner.data());
+  inner_->explicit_load_derivative(state, inner.data());
   for (int e = 0; e < elements(); ++e)
     Eigen::Map<Eigen::VectorXd>(rate + std::size_t(e) * gradient_size(), gradient_size()) =
         spread(state, e, inner.data() + std::size_t(e) * inner_->gradient_size());

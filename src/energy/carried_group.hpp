@@ -7,9 +7,9 @@
 
 namespace elamin {
 
-/// The elements of another group with three sites for each of its n: the site itself, and of a glued particle the place and the turn of
+/// The elements of another group with three sites for each of its n: the site itself, and of a glued particle the place and the rotation of
 /// its body (−1, no site, for others). With a the arm from the body to the particle, g and H the derivatives by the particle's place,
-///   J = [I, −[a]×],   gradient Jᵀ g,   Hessian Jᵀ H J and, turn by turn, (g aᵀ + a gᵀ)/2 − (g·a) I.
+///   J = [I, −[a]×],   gradient Jᵀ g,   Hessian Jᵀ H J and, rotation by rotation, (g aᵀ + a gᵀ)/2 − (g·a) I.
 /// The site itself has the gradient g, so that the force on the particle is known; its Hessian is with the body.
 class CarriedGroup final : public ElementGroup {
  public:
@@ -21,10 +21,10 @@ class CarriedGroup final : public ElementGroup {
   std::span<const int> between(int e) const override { return inner_->between(e); }
   void values(const State& state, double* value) const override { inner_->values(state, value); }
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
-  bool unpredicted(const State& state, const State& from, double* value) const override { return inner_->unpredicted(state, from, value); }
+  bool residual_energy(const State& state, const State& from, double* value) const override { return inner_->residual_energy(state, from, value); }
   bool anchored() const override { return true; }
-  bool moves() const override { return inner_->moves(); }
-  void load_rates(const State& state, double* rate) const override;
+  bool load_dependent() const override { return inner_->load_dependent(); }
+  void explicit_load_derivative(const State& state, double* rate) const override;
 
  private:
   /// The chain rule of one element: from n sites to 3n.

@@ -63,13 +63,13 @@ std::vector<int> built_by(const Model& model) {
 
 }  // namespace
 
-ContactRules::ContactRules(const Model& model) : any_(!model.contacts.empty()), reach_(model.particles(), 0.0) {
+ContactRules::ContactRules(const Model& model) : any_(!model.contacts.empty()), cutoff_radius_(model.particles(), 0.0) {
   if (!any_) return;
   classify(model);
   for (const PairContact& t : model.contacts)
     for (const auto& side : t.particles)
       for (const int p : side)
-        reach_[p] = std::max(reach_[p], t.law == PairContact::Law::hertz ? model.diameter[p] / 2 : t.cutoff / 2);
+        cutoff_radius_[p] = std::max(cutoff_radius_[p], t.law == PairContact::Law::hertz ? model.diameter[p] / 2 : t.cutoff / 2);
   exclude(model);
 }
 
@@ -106,7 +106,7 @@ void ContactRules::exclude(const Model& model) {
   for (int depth = 2; open && depth <= most_bonds; ++depth) {    // one more bond as long as something overlaps there
     open = false;
     for (int i = 0; i < model.particles(); ++i) {
-      if (reach_[i] == 0) continue;
+      if (cutoff_radius_[i] == 0) continue;
       walk.from(i, depth, [&](int j, int bonds, double length) {
         if (bonds < depth || j < i) return;
         const int t = hertz_[class_[i] * classes_ + class_[j]];
@@ -120,7 +120,7 @@ void ContactRules::exclude(const Model& model) {
   const int deepest = *std::max_element(excluded_.begin(), excluded_.end());
   start_.assign(1, 0);
   for (int i = 0; i < model.particles(); ++i) {
-    if (reach_[i] > 0) walk.from(i, deepest, [&](int j, int bonds, double) { near_.push_back({j, bonds}); });
+    if (cutoff_radius_[i] > 0) walk.from(i, deepest, [&](int j, int bonds, double) { near_.push_back({j, bonds}); });
     std::sort(near_.begin() + start_.back(), near_.end(), [](const Near& a, const Near& b) { return a.particle < b.particle; });
     start_.push_back(static_cast<std::int64_t>(near_.size()));
   }

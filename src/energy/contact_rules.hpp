@@ -18,9 +18,9 @@ class ContactRules {
   /// Index into Model::contacts of the table in force between i and j, −1: none.
   int hertz(int i, int j) const { return in_force(hertz_, i, j); }
   int lj(int i, int j) const { return in_force(lj_, i, j); }
-  /// Half of the largest distance at which particle i may feel another of its own reach: a pair feels each other only
-  /// within reach(i) + reach(j); 0: it is in no table. [length]
-  double reach(int i) const { return reach_[i]; }
+  /// Half of the largest distance at which particle i may feel another of its own cutoff: a pair feels each other only
+  /// within cutoff_radius(i) + cutoff_radius(j); 0: it is in no table. [length]
+  double cutoff_radius(int i) const { return cutoff_radius_[i]; }
   /// How many bonds a table leaves out: what it says; by default, for Hertz as many as overlap at their rest lengths (or,
   /// in a structure that was built at rest, as built), and at least 1; for Lennard-Jones 1.
   int excluded_bonds(int table) const { return excluded_[table]; }
@@ -39,7 +39,7 @@ class ContactRules {
   std::vector<int> class_;             // of each particle
   std::size_t classes_ = 0;
   std::vector<int> hertz_, lj_;        // classes × classes: the table, −1: none
-  std::vector<double> reach_;
+  std::vector<double> cutoff_radius_;
   std::vector<int> excluded_;          // of each table
   std::vector<std::int64_t> start_;    // of each particle in near_
   struct Near { int particle, bonds; };

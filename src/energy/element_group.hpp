@@ -30,7 +30,7 @@ class ElementGroup {
   /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element.
   virtual void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const = 0;
   /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
-  virtual bool unpredicted(const State& state, const State& from, double* value) const = 0;
+  virtual bool residual_energy(const State& state, const State& from, double* value) const = 0;
 
   /// Adds uᵀHv at the state, and its size, for fields of all sites (see BilinearForm); false if the entries of the Hessian are as good.
   virtual bool forms(const State&, const Field&, const Field&, ExactSum&, double&) const { return false; }
@@ -38,9 +38,9 @@ class ElementGroup {
   /// Whether the energy of an element is another one where the element is moved as a whole.
   virtual bool anchored() const { return sites() == 1; }
   /// Whether the energy depends on the load factor by itself, not through the sites: a moving wall, growth. Then
-  /// load_rates gives ∂(∇U)/∂λ of every element (3·sites each).
-  virtual bool moves() const { return false; }
-  virtual void load_rates(const State&, double*) const {}
+  /// explicit_load_derivative gives ∂(∇U)/∂λ of every element (3·sites each).
+  virtual bool load_dependent() const { return false; }
+  virtual void explicit_load_derivative(const State&, double*) const {}
 
   int gradient_size() const { return 3 * sites(); }
   int hessian_size() const { return 3 * sites() * (3 * sites() + 1) / 2; }

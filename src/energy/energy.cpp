@@ -1,7 +1,7 @@
 #include "energy/energy.hpp"
 
 #include "energy/body_groups.hpp"
-#include "energy/body_passage.hpp"
+#include "energy/body_collision_free_step.hpp"
 #include "energy/groups.hpp"
 #include "energy/touches.hpp"
 #include "model/entities.hpp"
@@ -24,7 +24,7 @@ constexpr double EnergyTerms::*term_at[places]{
     &EnergyTerms::cohesion, &EnergyTerms::cohesion, &EnergyTerms::wall,  &EnergyTerms::wall,  &EnergyTerms::body,    &EnergyTerms::body,
     &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external};
 
-// The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, turn or overlap of order one.
+// The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, rotation or overlap of order one.
 double stiffest(const Model& model) {
   double most = 0;
   const auto length = [&](int i, int j) { return (model.start.at(j) - model.start.at(i)).hi.norm(); };
@@ -40,7 +40,7 @@ double stiffest(const Model& model) {
     for (const auto& side : c.particles) contact(c.hard ? 0.0 : c.effective_modulus, side);
   for (const Wall& w : model.walls) contact(w.hard ? 0.0 : w.effective_modulus, w.particles);
   const auto rounded = [&](const RoundedKernel& k, const std::vector<int>& bodies) {
-    for (const int b : bodies) most = std::max(most, std::max(k.normal, k.attraction) * model.shapes[model.bodies[b].shape].reach());
+    for (const int b : bodies) most = std::max(most, std::max(k.normal, k.attraction) * model.shapes[model.bodies[b].shape].bounding_radius());
   };
   for (const RoundedPair& r : model.rounded)
     for (const auto& side : r.bodies) rounded(r.kernel, side);
@@ -75,7 +75,7 @@ double floor_of_bodies(const Model& model) {
   constexpr double rounding = 1e-5;
   double most = 0;
   const auto take = [&](const RoundedKernel& k, const std::vector<int>& bodies) {
-    for (const int b : bodies) most = std::max({most, rounding * k.normal * model.shapes[model.bodies[b].shape].reach(), k.attraction * k.cutoff});
+    for (const int b : bodies) most = std::max({most, rounding * k.normal * model.shapes[model.bodies[b].shape].bounding_radius(), k.attraction * k.cutoff});
   };
   for (const RoundedPair& r : model.rounded)
     for (const auto& side : r.bodies) take(r.kernel, side);
@@ -84,7 +84,7 @@ double floor_of_bodies(const Model& model) {
 }
 
 // The free dofs of bodies, and of particles that no bond and no angle holds.
-std::vector<int> loose_dofs(const Model& model, const Kinematics& kinematics) {
+std::vector<int> unbonded_dofs_of(const Model& model, const Kinematics& kinematics) {
   std::vector<bool> glued(kinematics.sites());
   for (const Bond& b : model.bonds)
     for (const int p : b.particles) glued[p] = true;
@@ -121,8 +121,8 @@ Energy::Energy(const Model& model)
   }
   for (const Glued& g : model.glued) constant_load_.col(g.particle).setZero(), scaled_load_.col(g.particle).setZero();
   force_floor_ = std::max(epsilon * stiffest(model), floor_of_bodies(model));
-  loose_ = loose_dofs(model, kinematics_);
-  idle_.reserve(loose_.size());
+  unbonded_dofs_ = unbonded_dofs_of(model, kinematics_);
+  null_dofs_.reserve(unbonded_dofs_.size());
   groups_.resize(places);
   put(bonds, bond_group(model, kinematics_)), put(angles, angle_group(model, kinematics_)), put(walls, wall_group(model, kinematics_));
   groups_[body_walls] = body_wall_group(model, kinematics_), groups_[body_loads] = body_load_group(model, kinematics_);
@@ -143,7 +143,7 @@ void Energy::add(const std::string& term, std::unique_ptr<ElementGroup> group) {
       if (site >= kinematics_.sites()) throw std::invalid_argument("Energy::add: an element has a site that is not in the model");
       if (site >= 0) held[site] = true;
     }
-  std::erase_if(loose_, [&](int d) { return held[kinematics_.site_of(d)]; });
+  std::erase_if(unbonded_dofs_, [&](int d) { return held[kinematics_.site_of(d)]; });
   force_floor_ = std::max(force_floor_, epsilon * stiffest(*group, kinematics_, model_.start));
   own_.push_back(term), groups_.push_back(std::move(group));
   assemble_groups();
@@ -184,7 +184,7 @@ double Energy::external(const State& state) const {
   const auto add = [&](Eigen::Index site, const Vec3& x) {
     for (int c = 0; c < 3; ++c) sum.add(-(constant_load_(c, site) + state.load_factor * scaled_load_(c, site)) * x[c]);
   };
-  for (Eigen::Index p = 0; p < state.particles(); ++p) add(p, state.position.col(p) + state.tail.col(p));
+  for (Eigen::Index p = 0; p < state.particles(); ++p) add(p, state.position.col(p) + state.low.col(p));
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     add(kinematics_.place_of(static_cast<int>(b)), state.bodies[b].position.hi + state.bodies[b].position.lo);
   return sum.value();
@@ -224,12 +224,12 @@ void Energy::evaluate(const State& state, bool with_hessian, const Tangent& tang
   if (!with_hessian) return;
   assembler_->sum_hessian();
   evaluated_ = state, predicted_ = tangent.from || tangent.convex > 0;
-  anchor_idle();
+  anchor_null_dofs();
 }
 
-void Energy::anchor_idle() {
-  idle_.clear();
-  if (loose_.empty()) return;
+void Energy::anchor_null_dofs() {
+  null_dofs_.clear();
+  if (unbonded_dofs_.empty()) return;
   SparseMatrix& h = assembler_->hessian();
   Vector& stiffness = row_sums_;
   stiffness.setZero(dofs());
@@ -239,12 +239,12 @@ void Energy::anchor_idle() {
       if (it.row() != j) stiffness[it.row()] += std::abs(it.value());
     }
   const double largest = stiffness.size() ? stiffness.maxCoeff() : 0.0;
-  for (const int d : loose_)
+  for (const int d : unbonded_dofs_)
     if (stiffness[d] == 0) {
       const double fall = std::abs(gradient_[d]) / (2 * kinematics_.size(kinematics_.site_of(d)));
       h.valuePtr()[h.outerIndexPtr()[d]] = fall > 0 ? std::max(fall, 1e-12 * largest)
                                             : largest > 0 ? largest : force_scale_ > 0 ? force_scale_ / kinematics_.size(kinematics_.site_of(d)) : 1.0;
-      idle_.push_back(d);
+      null_dofs_.push_back(d);
     }
 }
 
@@ -267,13 +267,13 @@ Vector Energy::load_derivative() const {
 
 Vector Energy::load_force() const {
   Vector pressed = Vector::Zero(dofs());
-  for (const Place given : {pressures, body_loads}) assembler_->add_load_rates(*groups_[given], evaluated_, pressed);
+  for (const Place given : {pressures, body_loads}) assembler_->add_load_derivative(*groups_[given], evaluated_, pressed);
   return kinematics_.restrict(scaled_load_) - pressed;
 }
 
 bool Energy::loads_scaled() const {
   const auto pushes = [](const Pressure& p) { return p.scaling.rate * p.pressure != 0; };
-  return !scaled_load_.isZero(0) || groups_[body_loads]->moves() || std::any_of(model_.pressures.begin(), model_.pressures.end(), pushes);
+  return !scaled_load_.isZero(0) || groups_[body_loads]->load_dependent() || std::any_of(model_.pressures.begin(), model_.pressures.end(), pushes);
 }
 
 Vector Energy::multiply(const Vector& v, bool anchored) const {
@@ -282,7 +282,7 @@ Vector Energy::multiply(const Vector& v, bool anchored) const {
   Vector hv = kinematics_.restrict(product);
   if (!anchored) return hv;
   const SparseMatrix& h = hessian();
-  for (const int d : idle_) hv[d] += h.valuePtr()[h.outerIndexPtr()[d]] * v[d];
+  for (const int d : null_dofs_) hv[d] += h.valuePtr()[h.outerIndexPtr()[d]] * v[d];
   return hv;
 }
 
@@ -290,7 +290,7 @@ BilinearForm Energy::form(const Vector& u, const Vector& v) const {
   assert(evaluated_.position.cols() == model_.particles());                 // with Hessian
   BilinearForm form = assembler_->form(kinematics_.extend(u), kinematics_.extend(v), predicted_ ? nullptr : &evaluated_);
   const SparseMatrix& h = hessian();
-  for (const int d : idle_) {
+  for (const int d : null_dofs_) {
     const double part = h.valuePtr()[h.outerIndexPtr()[d]] * u[d] * v[d];
     form.value += part, form.size += std::abs(part);
   }
@@ -311,13 +311,13 @@ void Energy::look_around(const State& state) {
   if (particles || bodies) assemble_groups();
 }
 
-double Energy::passage(const State& from, const State& to) const {
-  return std::min(free_passage(model_, neighbours_.rules(), from, to), free_body_passage(model_, body_neighbours_.rules(), from, to));
+double Energy::collision_free_step(const State& from, const State& to) const {
+  return std::min(collision_free_particle_step(model_, neighbours_.rules(), from, to), collision_free_body_step(model_, body_neighbours_.rules(), from, to));
 }
 
-std::vector<HardForce> Energy::hard_contacts(const State& state, double reach) {
+std::vector<HardForce> Energy::hard_contacts(const State& state, double step_bound) {
   cover(state);
-  std::vector<HardForce> found = hard_candidates(model_, neighbours_, state, reach);
+  std::vector<HardForce> found = hard_candidates(model_, neighbours_, state, step_bound);
   const auto held = [&](int p) { return p < 0 || (kinematics_.dof(p, 0) < 0 && kinematics_.dof(p, 1) < 0 && kinematics_.dof(p, 2) < 0); };
   std::erase_if(found, [&](const HardForce& h) { return held(h.particle) && held(h.other); });
   return found;

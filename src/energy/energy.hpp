@@ -4,7 +4,7 @@
 #include "energy/body_neighbours.hpp"
 #include "energy/hard_gaps.hpp"
 #include "energy/neighbours.hpp"
-#include "energy/passage.hpp"
+#include "energy/collision_free_step.hpp"
 #include "energy/terms.hpp"
 #include "energy/touch.hpp"
 
@@ -49,7 +49,7 @@ class Energy {
   /// same at an equilibrium, far better than the exact one after a long step of a slender structure.
   void evaluate(const State& state, bool with_hessian = true, const Tangent& tangent = {});
   /// Energy at the state that the linearisation at `from` did not predict: what the next step will take out again.
-  double unpredicted(const State& state, const State& from) { return assembler_->unpredicted(state, from); }
+  double residual_energy(const State& state, const State& from) { return assembler_->residual_energy(state, from); }
   const EnergyTerms& last_terms() const { return terms_; }
   const Vector& gradient() const { return gradient_; }        // g = ∂E/∂q (dofs) [force]
   /// H = ∂²E/∂q∂q, lower triangle [force/length]; its pattern is there before any evaluation.
@@ -59,9 +59,9 @@ class Energy {
   /// Free dofs of single particles that nothing gives a stiffness, at the last evaluation with Hessian: grains that fly, or
   /// slide on a plane. On the diagonal of hessian() they have |gᵢ|/2d, so that a step of Newton's method lets a grain
   /// fall by two diameters, or where no force acts on them the largest stiffness there is, so that they stay.
-  const std::vector<int>& idle() const { return idle_; }
+  const std::vector<int>& null_dofs() const { return null_dofs_; }
   /// Free dofs of bodies, and of particles that no bond and no angle holds.
-  const std::vector<int>& loose() const { return loose_; }
+  const std::vector<int>& unbonded_dofs() const { return unbonded_dofs_; }
   /// Grows by one whenever the pattern of the Hessian changes, with the candidates of contact.
   int pattern_version() const { return pattern_version_; }
   /// ∂g/∂λ (dofs): −F₁, what the driven points pull, and of walls, pressures and changes; exact.
@@ -78,8 +78,8 @@ class Energy {
   BilinearForm form(const Vector& u, const Vector& v) const;
   /// Where the last evaluation with Hessian was.
   const State& evaluated() const { return evaluated_; }
-  /// Largest part of the way from → to, in (0, 1], on which nothing passes through anything (see free_passage).
-  double passage(const State& from, const State& to) const;
+  /// Largest part of the way from → to, in (0, 1], on which nothing passes through anything (see collision_free_particle_step, collision_free_body_step).
+  double collision_free_step(const State& from, const State& to) const;
   const BodyRules& body_rules() const { return body_neighbours_.rules(); }
   const BodyNeighbours& body_neighbours() const { return body_neighbours_; }
   const ContactRules& contact_rules() const { return neighbours_.rules(); }
@@ -98,9 +98,9 @@ class Energy {
 
   /// Looks for the candidates of contact now: from here on every particle may move by freedom() before that happens again.
   void look_around(const State& state);
-  /// The hard contacts that may close while every particle moves by less than `reach`, and by less than freedom() from where the
-  /// candidates were looked for last; with their forces. Not those between what is held altogether.
-  std::vector<HardForce> hard_contacts(const State& state, double reach);
+  /// The hard contacts that may close while every particle moves by less than `step_bound`, and by less than freedom() from where the
+  /// candidates were looked for last; with their forces. Not those between what is prescribed altogether.
+  std::vector<HardForce> hard_contacts(const State& state, double step_bound);
   /// How far particles may move until the candidates of contact are looked for anew; infinity: there are none. [length]
   double freedom() const { return neighbours_.freedom(); }
 
@@ -108,8 +108,8 @@ class Energy {
   /// negative: overlap; infinity where the wall does not see the particle. [length]
   double gap(int particle, int other, int wall, const State& state) const;
 
-  /// −∂U/∂x of all sites, loads included, held or not: 3 × sites [force]; of a turn the torque about the body's position over
-  /// its lever. At a held coordinate of an equilibrium it is minus the reaction. Of a glued particle it is what acts on it; its
+  /// −∂U/∂x of all sites, loads included, prescribed or not: 3 × sites [force]; of a rotation the torque about the body's position over
+  /// its characteristic length. At a prescribed coordinate of an equilibrium it is minus the reaction. Of a glued particle it is what acts on it; its
   /// body's has it too.
   Field forces(const State& state);
 
@@ -117,7 +117,7 @@ class Energy {
   double external(const State& state) const;
   void finish_gradient(const State& state);
   void cover(const State& state);
-  void anchor_idle();
+  void anchor_null_dofs();
   void put(int place, Parts parts);
   void assemble_groups();
   EnergyTerms terms_of(const std::vector<double>& sums, const State& state) const;
@@ -137,7 +137,7 @@ class Energy {
   EnergyTerms terms_;
   static constexpr double nothing = 1e-7;                     // of the floor: well above what residuals leave, 1e-10 of it
   double force_scale_ = 0, force_floor_ = 0;
-  std::vector<int> loose_, idle_;                             // free dofs of single particles and bodies; those without stiffness
+  std::vector<int> unbonded_dofs_, null_dofs_;                             // free dofs of single particles and bodies; those without stiffness
   std::vector<std::string> own_;                              // terms of the groups behind those of the model
 };
 

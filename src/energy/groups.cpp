@@ -24,7 +24,7 @@ std::vector<bool> glued_particles(const Model& model) {
   return glued;
 }
 
-// The elements in two groups; `laws`: as a list, or as their course.
+// The elements in two groups; `laws`: as a list, or as their schedule.
 template <class L, class Laws>
 Parts law_groups(const Model& model, const Kinematics& kinematics, const Laws& laws, const std::vector<int>& kind,
                  const std::vector<std::array<int, L::sites>>& stencils) {
@@ -51,8 +51,8 @@ Parts pair_groups(const Model& model, const Kinematics& kinematics, const std::v
 }
 
 // One law a kind; where nothing changes it, it stays as it is for every load factor.
-Course<HarmonicBond> bond_course(const Model& model, const Kinds& kinds, double load_factor) {
-  Course<HarmonicBond> now;
+Schedule<HarmonicBond> bond_schedule(const Model& model, const Kinds& kinds, double load_factor) {
+  Schedule<HarmonicBond> now;
   for (std::size_t k = 0; k < kinds.type.size(); ++k) {
     const BondType& t = model.bond_types[kinds.type[k]];
     const auto factor = [&](double Change::*part) { return change_factor(model, kinds.changes[k], part, load_factor); };
@@ -64,8 +64,8 @@ Course<HarmonicBond> bond_course(const Model& model, const Kinds& kinds, double 
   return now;
 }
 
-Course<CosineAngle> angle_course(const Model& model, const Kinds& kinds, double load_factor) {
-  Course<CosineAngle> now;
+Schedule<CosineAngle> angle_schedule(const Model& model, const Kinds& kinds, double load_factor) {
+  Schedule<CosineAngle> now;
   for (std::size_t k = 0; k < kinds.type.size(); ++k) {
     const AngleType& t = model.angle_types[kinds.type[k]];
     CosineAngle law(t.stiffness, t.rest, model.plane_normal.value_or(-1)), rate = law;
@@ -76,26 +76,26 @@ Course<CosineAngle> angle_course(const Model& model, const Kinds& kinds, double 
   return now;
 }
 
-// The group of a course that is asked only where something changes.
-template <class L, class CourseOf>
+// The group of a schedule that is asked only where something changes.
+template <class L, class ScheduleOf>
 Parts glue_groups(const Model& model, const Kinematics& kinematics, const Kinds& kinds, const std::vector<std::array<int, L::sites>>& stencils,
-                  const CourseOf& course_of) {
-  if (!kinds.changed()) return law_groups<L>(model, kinematics, course_of(model, kinds, 0.0).laws, kinds.of, stencils);
-  const auto course = [&model, kinds, course_of](const State& state) { return course_of(model, kinds, state.load_factor); };
-  return law_groups<L>(model, kinematics, typename LawGroup<L>::CourseAt(course), kinds.of, stencils);
+                  const ScheduleOf& schedule_of) {
+  if (!kinds.changed()) return law_groups<L>(model, kinematics, schedule_of(model, kinds, 0.0).laws, kinds.of, stencils);
+  const auto schedule = [&model, kinds, schedule_of](const State& state) { return schedule_of(model, kinds, state.load_factor); };
+  return law_groups<L>(model, kinematics, typename LawGroup<L>::ScheduleAt(schedule), kinds.of, stencils);
 }
 
 template <class L>
-std::vector<L> laws_of(const Course<L>& course, const Kinds& kinds) {
+std::vector<L> laws_of(const Schedule<L>& schedule, const Kinds& kinds) {
   std::vector<L> laws;
   laws.reserve(kinds.of.size());
-  for (const int kind : kinds.of) laws.push_back(course.laws[kind]);
+  for (const int kind : kinds.of) laws.push_back(schedule.laws[kind]);
   return laws;
 }
 
 }  // namespace
 
-// In a plane a turn has a sign (see CosineAngle): the sites in the order in which they turn about the axis across the
+// In a plane an angle has a sign (see CosineAngle): the sites in the order in which they turn about the axis across the
 // plane as built, or as they are where they are in line.
 std::array<int, 3> angle_sites(const Model& model, const Angle& angle) {
   const std::array<int, 3>& sites = angle.particles;
@@ -108,23 +108,23 @@ std::array<int, 3> angle_sites(const Model& model, const Angle& angle) {
 Parts bond_group(const Model& model, const Kinematics& kinematics) {
   std::vector<std::array<int, 2>> stencils;
   for (const Bond& b : model.bonds) stencils.push_back(b.particles);
-  return glue_groups<HarmonicBond>(model, kinematics, bond_kinds(model), stencils, bond_course);
+  return glue_groups<HarmonicBond>(model, kinematics, bond_kinds(model), stencils, bond_schedule);
 }
 
 Parts angle_group(const Model& model, const Kinematics& kinematics) {
   std::vector<std::array<int, 3>> stencils;
   for (const Angle& a : model.angles) stencils.push_back(angle_sites(model, a));
-  return glue_groups<CosineAngle>(model, kinematics, angle_kinds(model), stencils, angle_course);
+  return glue_groups<CosineAngle>(model, kinematics, angle_kinds(model), stencils, angle_schedule);
 }
 
 std::vector<HarmonicBond> bond_laws(const Model& model, double load_factor) {
   const Kinds kinds = bond_kinds(model);
-  return laws_of(bond_course(model, kinds, load_factor), kinds);
+  return laws_of(bond_schedule(model, kinds, load_factor), kinds);
 }
 
 std::vector<CosineAngle> angle_laws(const Model& model, double load_factor) {
   const Kinds kinds = angle_kinds(model);
-  return laws_of(angle_course(model, kinds, load_factor), kinds);
+  return laws_of(angle_schedule(model, kinds, load_factor), kinds);
 }
 
 std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
@@ -136,8 +136,8 @@ std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
       kind.push_back(static_cast<int>(k)), stencils.push_back({row[i], row[i + 1 < row.size() ? i + 1 : 0]});
   }
   if (kind.empty()) return std::make_unique<LawGroup<EdgePressure>>(std::vector<EdgePressure>{}, kind, stencils);
-  const auto course = [&model](const State& state) {
-    Course<EdgePressure> now;
+  const auto schedule = [&model](const State& state) {
+    Schedule<EdgePressure> now;
     for (const Pressure& p : model.pressures) {
       // The middle of two particles that lie opposite: inside of a loop that is not far from round.
       const ExactVector a = state.at(p.particles.front()), b = state.at(p.particles[p.particles.size() / 2]);
@@ -147,7 +147,7 @@ std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
     }
     return now;
   };
-  return std::make_unique<LawGroup<EdgePressure>>(course, std::move(kind), std::move(stencils));
+  return std::make_unique<LawGroup<EdgePressure>>(schedule, std::move(kind), std::move(stencils));
 }
 
 HertzContact hertz_contact(const Model& model, int table, int i, int j) {

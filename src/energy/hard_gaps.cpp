@@ -54,7 +54,7 @@ bool hard_gap(const Model& model, const HardForce& contact, const State& state, 
   return true;
 }
 
-std::vector<HardForce> hard_candidates(const Model& model, const Neighbours& neighbours, const State& state, double reach) {
+std::vector<HardForce> hard_candidates(const Model& model, const Neighbours& neighbours, const State& state, double step_bound) {
   std::vector<HardForce> found;
   for (const auto& [i, j] : neighbours.hard()) found.push_back({i, j, -1, -1, 0});
   for (std::size_t w = 0; w < model.walls.size(); ++w) {
@@ -62,7 +62,7 @@ std::vector<HardForce> hard_candidates(const Model& model, const Neighbours& nei
     if (!wall.hard) continue;
     const Region now = wall_at(wall, state.load_factor).region;
     for (const int p : wall.particles)
-      for (const WallGap& g : wall_gaps(now, wall.inside, false, state.at(p), model.diameter[p] / 2, reach))
+      for (const WallGap& g : wall_gaps(now, wall.inside, false, state.at(p), model.diameter[p] / 2, step_bound))
         found.push_back({p, -1, static_cast<int>(w), g.face, 0});
   }
   const auto before = [](const HardForce& a, const HardForce& b) { return key(a) < key(b); };

@@ -26,9 +26,9 @@ struct HardGap {
 /// The gap of this contact at the state; false where its wall does not see the particle.
 [[nodiscard]] bool hard_gap(const Model& model, const HardForce& contact, const State& state, HardGap& gap);
 
-/// Every hard contact that may close before something has moved by `reach` [length] or, if there are hard pairs, by half the
+/// Every hard contact that may close before something has moved by `step_bound` [length] or, if there are hard pairs, by half the
 /// skin of their list: of pairs all candidates, of walls the faces that are as near; each with its force in the state, or 0.
 /// In ascending order.
-std::vector<HardForce> hard_candidates(const Model& model, const Neighbours& neighbours, const State& state, double reach);
+std::vector<HardForce> hard_candidates(const Model& model, const Neighbours& neighbours, const State& state, double step_bound);
 
 }  // namespace elamin

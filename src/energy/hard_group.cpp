@@ -50,7 +50,7 @@ HardWallGroup::HardWallGroup(const Model& model) : model_(model) {
     first_.push_back(elements());
     if (!wall.hard) continue;
     particle_.insert(particle_.end(), wall.particles.begin(), wall.particles.end());
-    moves_ = moves_ || (wall.scaling.rate != 0 && (!wall.displacement.isZero(0) || wall.radius_change != 0));
+    load_dependent_ = load_dependent_ || (wall.scaling.rate != 0 && (!wall.displacement.isZero(0) || wall.radius_change != 0));
   }
 }
 
@@ -71,7 +71,7 @@ void HardWallGroup::derivatives(const State& state, const Tangent&, double* valu
       add(*this, gap, h.force, e, gradient, hessian);
 }
 
-void HardWallGroup::load_rates(const State& state, double* rate) const {
+void HardWallGroup::explicit_load_derivative(const State& state, double* rate) const {
   std::fill_n(rate, 3 * std::int64_t(elements()), 0.0);
   HardGap gap;
   for (const HardForce& h : state.hard)

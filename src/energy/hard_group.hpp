@@ -15,7 +15,7 @@ class HardPairGroup final : public ElementGroup {
   std::span<const int> stencil(int element) const override { return stencils_[element]; }
   void values(const State& state, double* value) const override;
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
+  bool residual_energy(const State&, const State&, double*) const override { return false; }
 
  private:
   const Model& model_;
@@ -33,15 +33,15 @@ class HardWallGroup final : public ElementGroup {
   std::span<const int> stencil(int element) const override { return {&particle_[element], 1}; }
   void values(const State& state, double* value) const override;
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
-  bool moves() const override { return moves_; }
-  void load_rates(const State& state, double* rate) const override;
+  bool residual_energy(const State&, const State&, double*) const override { return false; }
+  bool load_dependent() const override { return load_dependent_; }
+  void explicit_load_derivative(const State& state, double* rate) const override;
 
  private:
   int element_of(int wall, int particle) const;
   const Model& model_;
   std::vector<int> first_, particle_;          // of every wall its first element; of every element
-  bool moves_ = false;
+  bool load_dependent_ = false;
 };
 
 }  // namespace elamin

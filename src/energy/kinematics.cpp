@@ -12,13 +12,13 @@ Kinematics::Kinematics(const Model& model)
     : dof_(Eigen::Matrix3Xi::Zero(3, model.particles() + 2 * static_cast<int>(model.bodies.size()))), reference_(model.start),
       glued_(model.glued), size_(model.diameter), drive_(Field::Zero(3, dof_.cols())) {
   for (const Body& b : model.bodies) {
-    lever_.push_back(model.shapes[b.shape].reach());
-    size_.insert(size_.end(), 2, 2 * lever_.back());
+    characteristic_length_.push_back(model.shapes[b.shape].bounding_radius());
+    size_.insert(size_.end(), 2, 2 * characteristic_length_.back());
   }
   if (model.plane_normal)
     for (int s = 0; s < sites(); ++s)
       for (int c = 0; c < 3; ++c)
-        if ((c == *model.plane_normal) != is_turn(s)) dof_(c, s) = -1;
+        if ((c == *model.plane_normal) != is_rotation(s)) dof_(c, s) = -1;
   hold(model);
   for (const Glued& g : glued_) dof_.col(g.particle).setConstant(-1), drive_.col(g.particle).setZero();
   driven_ = !drive_.isZero(0);
@@ -65,14 +65,14 @@ void Kinematics::hold(const Model& model) {
       const int b = s.bodies[k];
       const Pose& from = s.body_reference.empty() ? model.start.bodies[b] : s.body_reference[k];
       keep(reference_.bodies[b].position, place(place_of(b), from.position));
-      if (!s.turns_held[0] && !s.turns_held[1] && !s.turns_held[2]) continue;
+      if (!s.constrained_rotations[0] && !s.constrained_rotations[1] && !s.constrained_rotations[2]) continue;
       for (int c = 0; c < 3; ++c)
-        if (s.turns_held[c]) dof_(c, turn_of(b)) = -1;
-      if (s.turns_held != std::array{true, true, true}) continue;
+        if (s.constrained_rotations[c]) dof_(c, rotation_of(b)) = -1;
+      if (s.constrained_rotations != std::array{true, true, true}) continue;
       reference_.bodies[b].rotation = from.rotation;
-      std::erase_if(turning_, [&](const Turning& t) { return t.body == b; });
-      turning_.push_back({b, s.scaling.fixed, s.scaling.rate, s.rotation});
-      drive_.col(turn_of(b)) = lever_[b] * s.scaling.rate * s.rotation;
+      std::erase_if(driven_rotations_, [&](const DrivenRotation& t) { return t.body == b; });
+      driven_rotations_.push_back({b, s.scaling.fixed, s.scaling.rate, s.rotation});
+      drive_.col(rotation_of(b)) = characteristic_length_[b] * s.scaling.rate * s.rotation;
     }
   }
 }
@@ -92,10 +92,10 @@ void Kinematics::prescribe(State& state, double load_factor) const {
     return x;
   };
   for (int p = 0; p < particles(); ++p) state.set(p, put(p, state.at(p), reference_.at(p)));
-  for (std::size_t b = 0; b < lever_.size(); ++b)
+  for (std::size_t b = 0; b < characteristic_length_.size(); ++b)
     state.bodies[b].position = put(place_of(static_cast<int>(b)), state.bodies[b].position, reference_.bodies[b].position);
-  for (const Turning& t : turning_)
-    state.bodies[t.body].rotation = (turn((t.fixed + load_factor * t.rate) * t.rotation) * reference_.bodies[t.body].rotation).normalized();
+  for (const DrivenRotation& t : driven_rotations_)
+    state.bodies[t.body].rotation = (quaternion((t.fixed + load_factor * t.rate) * t.rotation) * reference_.bodies[t.body].rotation).normalized();
   carry(state);
 }
 
@@ -107,45 +107,45 @@ void Kinematics::retract(State& state, const Vector& step, double scale) const {
     return x;
   };
   for (int p = 0; p < particles(); ++p) state.set(p, go(p, state.at(p)));
-  for (std::size_t k = 0; k < lever_.size(); ++k) {
+  for (std::size_t k = 0; k < characteristic_length_.size(); ++k) {
     const int b = static_cast<int>(k);
     Pose& pose = state.bodies[b];
     pose.position = go(place_of(b), pose.position);
-    const Vec3 theta = scale * turned_by(step, b);
-    if (theta != Vec3::Zero()) pose.rotation = (turn(theta) * pose.rotation).normalized();
+    const Vec3 theta = scale * rotation_by(step, b);
+    if (theta != Vec3::Zero()) pose.rotation = (quaternion(theta) * pose.rotation).normalized();
   }
   carry(state);
 }
 
-Vec3 Kinematics::turned_by(const Vector& y, int body) const {
+Vec3 Kinematics::rotation_by(const Vector& y, int body) const {
   Vec3 theta = Vec3::Zero();
   for (int c = 0; c < 3; ++c)
-    if (const int d = dof_(c, turn_of(body)); d >= 0) theta[c] = y[d] / lever_[body];
+    if (const int d = dof_(c, rotation_of(body)); d >= 0) theta[c] = y[d] / characteristic_length_[body];
   return theta;
 }
 
 Field Kinematics::displacement(const State& a, const State& b) const {
-  assert(a.position.cols() == particles() && b.position.cols() == particles() && a.bodies.size() == lever_.size() && b.bodies.size() == lever_.size());
+  assert(a.position.cols() == particles() && b.position.cols() == particles() && a.bodies.size() == characteristic_length_.size() && b.bodies.size() == characteristic_length_.size());
   Field u(3, sites());
   u.leftCols(particles()) = elamin::displacement(a, b);
-  for (std::size_t k = 0; k < lever_.size(); ++k) {
+  for (std::size_t k = 0; k < characteristic_length_.size(); ++k) {
     const Pose &from = a.bodies[k], &to = b.bodies[k];
     const ExactVector x = to.position - from.position;
     u.col(place_of(static_cast<int>(k))) = x.hi + x.lo;
-    u.col(turn_of(static_cast<int>(k))) = lever_[k] * turn_between(from.rotation, to.rotation);
+    u.col(rotation_of(static_cast<int>(k))) = characteristic_length_[k] * rotation_between(from.rotation, to.rotation);
   }
   return u;
 }
 
 void Kinematics::pull_back(Vector& gradient, const Vector& y) const {
-  for (std::size_t k = 0; k < lever_.size(); ++k) {
-    const int b = static_cast<int>(k), s = turn_of(b);
-    const Vec3 theta = turned_by(y, b);
+  for (std::size_t k = 0; k < characteristic_length_.size(); ++k) {
+    const int b = static_cast<int>(k), s = rotation_of(b);
+    const Vec3 theta = rotation_by(y, b);
     if (theta == Vec3::Zero()) continue;
     Vec3 g = Vec3::Zero();
     for (int c = 0; c < 3; ++c)
       if (dof_(c, s) >= 0) g[c] = gradient[dof_(c, s)];
-    g = TurnChart(theta).jacobian().transpose() * g;
+    g = RotationChart(theta).jacobian().transpose() * g;
     for (int c = 0; c < 3; ++c)
       if (dof_(c, s) >= 0) gradient[dof_(c, s)] = g[c];
   }
@@ -154,11 +154,11 @@ void Kinematics::pull_back(Vector& gradient, const Vector& y) const {
 // Of a body with three free turns, dofs d, d + 1, d + 2: rows and columns through J, and the chart's curvature; with fewer the
 // axis is fixed, J the identity and the curvature zero along it.
 void Kinematics::pull_back(SparseMatrix& hessian, const Vector& gradient, const Vector& y) const {
-  for (std::size_t k = 0; k < lever_.size(); ++k) {
-    const int b = static_cast<int>(k), d = dof_(0, turn_of(b));
-    const Vec3 theta = turned_by(y, b);
-    if (theta == Vec3::Zero() || (dof_.col(turn_of(b)).array() < 0).any()) continue;
-    const TurnChart chart(theta);
+  for (std::size_t k = 0; k < characteristic_length_.size(); ++k) {
+    const int b = static_cast<int>(k), d = dof_(0, rotation_of(b));
+    const Vec3 theta = rotation_by(y, b);
+    if (theta == Vec3::Zero() || (dof_.col(rotation_of(b)).array() < 0).any()) continue;
+    const RotationChart chart(theta);
     const Mat3 J = chart.jacobian(), JT = J.transpose();
     int* const start = hessian.outerIndexPtr();
     double* const value = hessian.valuePtr();
@@ -174,7 +174,7 @@ void Kinematics::pull_back(SparseMatrix& hessian, const Vector& gradient, const 
     Mat3 own;
     own << value[start[d]], 0, 0, value[start[d] + 1], value[start[d + 1]], 0, value[start[d] + 2], value[start[d + 1] + 1], value[start[d + 2]];
     own = Mat3(own.selfadjointView<Eigen::Lower>());
-    own = (JT * own * J + chart.curvature(gradient.segment<3>(d)) / lever_[b]).eval();
+    own = (JT * own * J + chart.curvature(gradient.segment<3>(d)) / characteristic_length_[b]).eval();
     value[start[d]] = own(0, 0), value[start[d] + 1] = own(1, 0), value[start[d] + 2] = own(2, 0);
     value[start[d + 1]] = own(1, 1), value[start[d + 1] + 1] = own(2, 1), value[start[d + 2]] = own(2, 2);
     for (int i = 1; start[d + 2] + i < start[d + 3]; ++i) {
@@ -211,7 +211,7 @@ Field Kinematics::extend(const Vector& v) const {
 Field Kinematics::extend(const Vector& v, const State& state) const {
   Field field = extend(v);
   for (const Glued& g : glued_) {
-    const Vec3 arm = state.bodies[g.body].rotation * g.arm, theta = field.col(turn_of(g.body)) / lever_[g.body];
+    const Vec3 arm = state.bodies[g.body].rotation * g.arm, theta = field.col(rotation_of(g.body)) / characteristic_length_[g.body];
     field.col(g.particle) = field.col(place_of(g.body)) + theta.cross(arm);
   }
   return field;

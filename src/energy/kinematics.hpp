@@ -5,8 +5,8 @@
 namespace elamin {
 
 /// Splits the coordinates of everything into free dofs q and prescribed ones. Sites: particle after particle, then of each body
-/// its place and its turn. A particle's or body's place is x = X + s(λ) d where it is prescribed; a turn is ℓ θ, R → exp([θ]×) R from
-/// wherever the body is, ℓ the body's reach, so that all dofs are lengths and all gradients forces; where it is prescribed
+/// its place and its rotation. A particle's or body's place is x = X + s(λ) d where it is prescribed; a rotation is ℓ θ, R → exp([θ]×) R from
+/// wherever the body is, ℓ the body's bounding radius, so that all dofs are lengths and all gradients forces; where it is prescribed
 /// R = exp([s(λ) φ]×) R₀. A glued particle has no dofs and follows its body: x = x_b + R arm.
 /// A coordinate of a site is one or the other; its derivative is a unit vector.
 class Kinematics {
@@ -18,13 +18,13 @@ class Kinematics {
   int particles() const { return static_cast<int>(reference_.particles()); }
   /// The sites of a body.
   int place_of(int body) const { return particles() + 2 * body; }
-  int turn_of(int body) const { return particles() + 2 * body + 1; }
-  /// The body of a site, −1: a particle; whether the site is its turn.
+  int rotation_of(int body) const { return particles() + 2 * body + 1; }
+  /// The body of a site, −1: a particle; whether the site is its rotation.
   int body_of(int site) const { return site < particles() ? -1 : (site - particles()) / 2; }
-  bool is_turn(int site) const { return site >= particles() && (site - particles()) % 2 == 1; }
-  /// ℓ of a body: its reach [length].
-  double lever(int body) const { return lever_[body]; }
-  /// A particle's diameter, twice a body's reach [length].
+  bool is_rotation(int site) const { return site >= particles() && (site - particles()) % 2 == 1; }
+  /// ℓ of a body: its bounding radius [length].
+  double characteristic_length(int body) const { return characteristic_length_[body]; }
+  /// A particle's diameter, twice a body's bounding radius [length].
   double size(int site) const { return size_[site]; }
   double mean_size() const;
   double smallest_size() const;
@@ -39,12 +39,12 @@ class Kinematics {
 
   /// The same configuration with the prescribed coordinates where λ puts them.
   void prescribe(State& state, double load_factor) const;
-  /// x ← x + scale · step on the free dofs (dofs), kept exactly; turns by θ = scale · step/ℓ.
+  /// x ← x + scale · step on the free dofs (dofs), kept exactly; rotations by θ = scale · step/ℓ.
   void retract(State& state, const Vector& step, double scale = 1) const;
-  /// b − a, of turns ℓ times the rotation vector from a to b: 3 × sites, and on the free dofs: retract's inverse.  [length]
+  /// b − a, of rotations ℓ times the rotation vector from a to b: 3 × sites, and on the free dofs: retract's inverse.  [length]
   Field displacement(const State& a, const State& b) const;
   Vector difference(const State& a, const State& b) const { return restrict(displacement(a, b)); }
-  /// From derivatives by a further step at retract(origin, y) to those by y itself: of bodies that have turned they differ.
+  /// From derivatives by a further step at retract(origin, y) to those by y itself: of bodies that have rotated they differ.
   void pull_back(Vector& gradient, const Vector& y) const;
   /// The same of a Hessian in its lower triangle, given the gradient there before it was pulled back.
   void pull_back(SparseMatrix& hessian, const Vector& gradient, const Vector& y) const;
@@ -56,17 +56,17 @@ class Kinematics {
   Field extend(const Vector& v, const State& state) const;
 
  private:
-  struct Turning { int body; double fixed, rate; Vec3 rotation; };   // R = exp([(fixed + λ rate) φ]×) R₀
+  struct DrivenRotation { int body; double fixed, rate; Vec3 rotation; };   // R = exp([(fixed + λ rate) φ]×) R₀
   void hold(const Model& model);
   void carry(State& state) const;
-  Vec3 turned_by(const Vector& y, int body) const;
+  Vec3 rotation_by(const Vector& y, int body) const;
 
   Eigen::Matrix3Xi dof_;
   std::vector<int> site_of_;
   State reference_;                     // X, what does not vary with λ included
   std::vector<Glued> glued_;
-  std::vector<Turning> turning_;
-  std::vector<double> lever_, size_;
+  std::vector<DrivenRotation> driven_rotations_;
+  std::vector<double> characteristic_length_, size_;
   Field drive_;
   bool driven_ = false;
 };

@@ -13,7 +13,7 @@ namespace elamin {
 template <int n>
 Points<n> points(const State& state, const std::array<int, n>& sites) {
   Points<n> x;
-  for (int i = 0; i < n; ++i) x.position.col(i) = state.position.col(sites[i]), x.tail.col(i) = state.tail.col(sites[i]);
+  for (int i = 0; i < n; ++i) x.position.col(i) = state.position.col(sites[i]), x.low.col(i) = state.low.col(sites[i]);
   return x;
 }
 
@@ -32,7 +32,7 @@ void store(const Local<n>& u, std::int64_t e, double* value, double* gradient, d
 template <class L>
 concept PredictingLaw = Law<L> && requires(const L& law, const Points<L::sites>& x) {
   { law.derivatives(x, x) } -> std::same_as<Local<L::sites>>;
-  { law.unpredicted(x, x) } -> std::same_as<double>;
+  { law.residual_energy(x, x) } -> std::same_as<double>;
 };
 
 /// A law that can leave out a part in [0, 1] of what compression takes from its Hessian: all of it, and that is positive semidefinite.
@@ -46,7 +46,7 @@ concept ConvexLaw = Law<L> && (requires(const L& law, const Points<L::sites>& x)
 /// Laws that change with the load factor, or with the state as a whole: of every kind the law, and as another law the
 /// rates ∂/∂λ of its parameters.
 template <class L>
-struct Course {
+struct Schedule {
   std::vector<L> laws, rates;
 };
 
@@ -57,10 +57,10 @@ class LawGroup final : public ElementGroup {
   /// laws: one a kind; kind: which law each element has; stencils: its sites.
   LawGroup(std::vector<L> laws, std::vector<int> kind, std::vector<std::array<int, n>> stencils)
       : laws_(std::move(laws)), kind_(std::move(kind)), stencils_(std::move(stencils)) {}
-  /// The same with laws that change: `course` is asked once an evaluation.
-  using CourseAt = std::function<Course<L>(const State&)>;
-  LawGroup(CourseAt course, std::vector<int> kind, std::vector<std::array<int, n>> stencils) requires ChangingLaw<L>
-      : course_(std::move(course)), kind_(std::move(kind)), stencils_(std::move(stencils)) {}
+  /// The same with laws that change: `schedule` is asked once an evaluation.
+  using ScheduleAt = std::function<Schedule<L>(const State&)>;
+  LawGroup(ScheduleAt schedule, std::vector<int> kind, std::vector<std::array<int, n>> stencils) requires ChangingLaw<L>
+      : schedule_(std::move(schedule)), kind_(std::move(kind)), stencils_(std::move(stencils)) {}
 
   int elements() const override { return static_cast<int>(stencils_.size()); }
   int sites() const override { return n; }
@@ -78,10 +78,10 @@ class LawGroup final : public ElementGroup {
     });
   }
 
-  bool unpredicted(const State& state, const State& from, double* value) const override {
+  bool residual_energy(const State& state, const State& from, double* value) const override {
     if constexpr (PredictingLaw<L>) {
       at(state);
-      parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].unpredicted(gather(state, e), gather(from, e)); });
+      parallel_for(elements(), grain, [&](std::int64_t e) { value[e] = laws_[kind_[e]].residual_energy(gather(state, e), gather(from, e)); });
     } else
       (void)state, (void)from, (void)value;
     return PredictingLaw<L>;
@@ -102,13 +102,13 @@ class LawGroup final : public ElementGroup {
   }
 
   bool anchored() const override { return AnchoredLaw<L>; }
-  bool moves() const override { return bool(course_); }
-  void load_rates(const State& state, double* rate) const override {
+  bool load_dependent() const override { return bool(schedule_); }
+  void explicit_load_derivative(const State& state, double* rate) const override {
     if constexpr (ChangingLaw<L>) {
-      const Course<L> course = course_(state);
+      const Schedule<L> schedule = schedule_(state);
       parallel_for(elements(), grain, [&](std::int64_t e) {
         Eigen::Map<Eigen::Matrix<double, 3 * n, 1>>(rate + e * 3 * n) =
-            course.laws[kind_[e]].gradient_rate(gather(state, e), course.rates[kind_[e]]);
+            schedule.laws[kind_[e]].gradient_rate(gather(state, e), schedule.rates[kind_[e]]);
       });
     } else
       (void)state, (void)rate;
@@ -133,10 +133,10 @@ class LawGroup final : public ElementGroup {
   }
 
   void at(const State& state) const {
-    if (course_) laws_ = course_(state).laws;
+    if (schedule_) laws_ = schedule_(state).laws;
   }
 
-  CourseAt course_;                              // none: the laws stay
+  ScheduleAt schedule_;                              // none: the laws stay
   mutable std::vector<L> laws_;                  // as they are at the state asked for last
   std::vector<int> kind_;
   std::vector<std::array<int, n>> stencils_;

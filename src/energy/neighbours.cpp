@@ -12,7 +12,7 @@ constexpr double skin_of_diameter = 0.3, hard_skin_of_diameter = 1;
 Neighbours::Neighbours(const Model& model) : model_(model), rules_(model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < model.particles(); ++i)
-    if (rules_.reach(i) > 0) smallest = std::min(smallest, 2 * rules_.reach(i));
+    if (rules_.cutoff_radius(i) > 0) smallest = std::min(smallest, 2 * rules_.cutoff_radius(i));
   const bool hard = std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.hard; });
   skin_ = rules_.any() ? (hard ? hard_skin_of_diameter : skin_of_diameter) * smallest : 0;
 }
@@ -21,7 +21,7 @@ bool Neighbours::covers(const State& state) const {
   if (!rules_.any()) return true;
   if (listed_.particles() != state.particles()) return false;
   for (Eigen::Index i = 0; i < state.particles(); ++i)
-    if (rules_.reach(static_cast<int>(i)) > 0 &&
+    if (rules_.cutoff_radius(static_cast<int>(i)) > 0 &&
         !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= skin_ * skin_ / 4))
       return false;
   for (const HardForce& h : state.hard)
@@ -34,7 +34,7 @@ bool Neighbours::refresh(const State& state) {
   listed_ = state;
   std::vector<double> radii(model_.particles());
   for (int i = 0; i < model_.particles(); ++i)
-    if (rules_.reach(i) > 0) radii[i] = rules_.reach(i) + skin_ / 2;
+    if (rules_.cutoff_radius(i) > 0) radii[i] = rules_.cutoff_radius(i) + skin_ / 2;
   const auto feel = [&](int i, int j) { return rules_.hertz(i, j) >= 0 || rules_.lj(i, j) >= 0; };
   std::array<std::vector<IndexPair>, 3> now;
   for (const IndexPair& p : near_pairs(state.position, radii, feel)) {

@@ -39,7 +39,7 @@ double distortion(const Energy& energy, const State& state, const Vector& step, 
   }
   const Kinematics& kinematics = energy.kinematics();
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
-    largest = std::max(largest, s.col(kinematics.turn_of(static_cast<int>(b))).norm() / kinematics.lever(static_cast<int>(b)));
+    largest = std::max(largest, s.col(kinematics.rotation_of(static_cast<int>(b))).norm() / kinematics.characteristic_length(static_cast<int>(b)));
   return largest;
 }
 
@@ -107,7 +107,7 @@ std::string obstacle(const Energy& energy, const State& state) {
   const ContactRules& rules = energy.contact_rules();
   if (!rules.any()) return "";
   std::vector<double> radii(model.particles());
-  for (int p = 0; p < model.particles(); ++p) radii[p] = rules.reach(p) * (1 + 2 * at_cutoff);
+  for (int p = 0; p < model.particles(); ++p) radii[p] = rules.cutoff_radius(p) * (1 + 2 * at_cutoff);
   std::string found;
   for (const auto& [i, j] : near_pairs(state.position, radii, [&](int a, int b) { return is_free(kinematics, a) || is_free(kinematics, b); })) {
     const double d = apart(i, j);
@@ -128,7 +128,7 @@ std::string obstacle(const Energy& energy, const State& state) {
 }
 
 std::string falling(const Energy& energy) {
-  for (const int d : energy.idle())
+  for (const int d : energy.null_dofs())
     if (energy.gradient()[d] != 0) {
       const int site = energy.kinematics().site_of(d), body = energy.kinematics().body_of(site);
       return called(energy.model(), body < 0 ? site : energy.model().particles() + body);

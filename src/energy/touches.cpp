@@ -21,7 +21,7 @@ std::vector<IndexPair> candidates(const Model& model, const ContactRules& rules,
   if (std::isfinite(within)) {
     std::vector<double> radii(model.particles(), 0.0);
     for (int i = 0; i < model.particles(); ++i)
-      if (rules.reach(i) > 0) radii[i] = (model.diameter[i] + within) / 2 * (1 + 1e-12);
+      if (rules.cutoff_radius(i) > 0) radii[i] = (model.diameter[i] + within) / 2 * (1 + 1e-12);
     return near_pairs(state.position, radii, feel);
   }
   for (int i = 0; i < model.particles(); ++i)

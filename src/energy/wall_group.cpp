@@ -18,7 +18,7 @@ WallGroup::WallGroup(const Model& model, const std::function<bool(int)>& wanted)
     for (const int p : model.walls[w].particles)
       if (wanted(p)) particle_.push_back(p), wall_.push_back(static_cast<int>(w));
     const Wall& wall = model.walls[w];
-    moves_ = moves_ || (wall.scaling.rate != 0 && (!wall.displacement.isZero(0) || wall.radius_change != 0));
+    load_dependent_ = load_dependent_ || (wall.scaling.rate != 0 && (!wall.displacement.isZero(0) || wall.radius_change != 0));
   }
 }
 
@@ -42,7 +42,7 @@ void WallGroup::derivatives(const State& state, const Tangent&, double* value, d
   });
 }
 
-void WallGroup::load_rates(const State& state, double* rate) const {
+void WallGroup::explicit_load_derivative(const State& state, double* rate) const {
   const std::vector<WallContact>& walls = at(state.load_factor);
   parallel_for(elements(), touches_per_thread, [&](std::int64_t e) {
     const Wall& wall = model_.walls[wall_[e]];

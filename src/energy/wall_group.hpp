@@ -22,16 +22,16 @@ class WallGroup final : public ElementGroup {
   std::span<const int> stencil(int element) const override { return {&particle_[element], 1}; }
   void values(const State& state, double* value) const override;
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
-  bool moves() const override { return moves_; }
-  void load_rates(const State& state, double* rate) const override;
+  bool residual_energy(const State&, const State&, double*) const override { return false; }
+  bool load_dependent() const override { return load_dependent_; }
+  void explicit_load_derivative(const State& state, double* rate) const override;
 
  private:
   const std::vector<WallContact>& at(double load_factor) const;
   const Model& model_;
   mutable std::vector<WallContact> walls_;     // as they stand at the load factor asked for last
   std::vector<int> particle_, wall_;           // of every element
-  bool moves_ = false;
+  bool load_dependent_ = false;
 };
 
 }  // namespace elamin

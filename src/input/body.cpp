@@ -216,7 +216,7 @@ std::optional<RigidBody> built(const BodyTable& table, Mistakes& mistakes) {
   RigidBody b;
   b.name = table.name;
   b.pose.position = {table.position, Vec3::Zero()};
-  if (table.rotation) b.pose.rotation = turn(table.rotation->vector());
+  if (table.rotation) b.pose.rotation = quaternion(table.rotation->vector());
   if (table.shape == BodyShape::molecule) return molecule(table, std::move(b), mistakes);
   b.core = core_of(table), b.radius = *table.rounding_diameter / 2;
   const char* key = table.shape != BodyShape::mesh ? "shape" : table.faces.empty() ? "vertices" : "faces";

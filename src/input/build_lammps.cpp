@@ -6,7 +6,7 @@
 #include "lammps/state.hpp"
 #include "model/entities.hpp"
 #include "input/stages.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ std::optional<LammpsData> read(const LammpsTable& table, Mistakes& mistakes) {
 /// At rest where the file tells no velocities.
 void take_velocities(LammpsData& data, Model& model) {
   model.velocity = std::move(data.velocity);
-  model.spin = data.spin.isZero(0) ? Field() : std::move(data.spin);
+  model.angular_velocity = data.angular_velocity.isZero(0) ? Field() : std::move(data.angular_velocity);
   model.body_velocity = std::move(data.body_velocity), model.angular_momentum = std::move(data.angular_momentum);
 }
 
@@ -80,7 +80,7 @@ double off(const RoundedShape& shape, const Eigen::Quaterniond& q, const Rounded
   double most = std::abs(shape.radius - other.radius);
   for (std::size_t k = 0; k < shape.vertices.size(); ++k)
     most = std::max(most, (q * shape.vertices[k] - other.vertices[k]).norm());
-  return most / shape.reach();
+  return most / shape.bounding_radius();
 }
 
 class Restart {
@@ -106,8 +106,8 @@ class Restart {
     if (p_.in_time()) take_velocities(*data, model_);
     model_.restart->load_factor = p_.path.start_lambda.value_or(p_.path.from);
     try {
-      if (const auto stored = read_tail(p_.path.start)) {
-        take_tail(*stored, *data);
+      if (const auto stored = read_supplement(p_.path.start)) {
+        take_low_words(*stored, *data);
         if (stored->stage && !p_.stages.empty() && !Stages(p_).resume(*stored->stage))
           mistakes_.add(p_.path.place, "start", fmt::format("is a state of the stage {}, and the problem has no such stage or "
                                                             "other tables", in_quotes(stored->stage->name)));
@@ -156,9 +156,9 @@ class Restart {
   }
 
   /// The tails of the restart's positions, each of them less than half a unit in the last place, and the rotations.
-  void take_tail(const StateTail& stored, const LammpsData& data) {
+  void take_low_words(const StateSupplement& stored, const LammpsData& data) {
     State& state = *model_.restart;
-    bool one = stored.tail.cols() == state.position.cols() && state.position + stored.tail == state.position &&
+    bool one = stored.low.cols() == state.position.cols() && state.position + stored.low == state.position &&
                stored.bodies.size() == state.bodies.size();
     for (std::size_t b = 0; one && b < stored.bodies.size(); ++b) {
       const Vec3& x = state.bodies[b].position.hi;
@@ -168,8 +168,8 @@ class Restart {
     if (!one)
       return mistakes_.add(p_.path.place, "start",
                            fmt::format("and {} beside it are not of one state; take the latter away, or both from one run",
-                                       in_quotes(tail_file(p_.path.start))));
-    state.tail = stored.tail;
+                                       in_quotes(supplement_file(p_.path.start))));
+    state.low = stored.low;
     for (std::size_t b = 0; b < stored.bodies.size(); ++b) {
       state.bodies[b].position.lo = stored.bodies[b].position.lo;
       state.bodies[b].rotation = stored.bodies[b].rotation;

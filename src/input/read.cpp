@@ -4,7 +4,7 @@
 #include "input/build.hpp"
 #include "input/check.hpp"
 #include "input/reader.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 #include "input/tables.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void complete(Problem& p) {
   if (!p.path.start.empty() && !p.path.start_lambda) {
     p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
     try {
-      if (const auto stored = read_tail(p.path.start)) p.path.start_lambda = stored->load_factor;
+      if (const auto stored = read_supplement(p.path.start)) p.path.start_lambda = stored->load_factor;
     } catch (const InputError&) {
       // told where the state is read
     }

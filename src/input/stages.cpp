@@ -160,7 +160,7 @@ Model model_in(const Problem& problem, const Stage& stage, Model& all, const Sta
     };
     for (const int p : support.particles) support.reference.push_back(before(now.at(p)));
     for (const int b : support.bodies)
-      support.body_reference.push_back({before(now.bodies[b].position), turn(-factor * support.rotation) * now.bodies[b].rotation});
+      support.body_reference.push_back({before(now.bodies[b].position), quaternion(-factor * support.rotation) * now.bodies[b].rotation});
   }
   Model model = all;
   const auto keep = [&](auto& list, std::size_t begin) {

@@ -2,7 +2,7 @@
 // A path in stages: which tables are in force in each of them, and how much of each acts.
 #include "input/conditions.hpp"
 #include "input/mistakes.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 
 #include <string>
 #include <vector>

@@ -80,7 +80,7 @@ class Holders {
     for (const int b : s.bodies) {
       const std::string name = called(model_, model_.particles() + b);
       claim(particles + b, s.held, [&](int earlier, int c) { compare(table, earlier, name, c); });
-      claim(particles + bodies + b, s.turns_held, [&](int earlier, int) { compare_turns(table, earlier, name); });
+      claim(particles + bodies + b, s.constrained_rotations, [&](int earlier, int) { compare_turns(table, earlier, name); });
     }
   }
 
@@ -134,8 +134,8 @@ void hold_bodies(const Problem& problem, const Model& model, const SupportTable&
       if (there) mistakes.add(table.place, key, fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
     return;
   }
-  for (const char letter : table.turns.value_or(table.directions ? "" : "xyz")) s.turns_held[letter - 'x'] = true;
-  std::array<bool, 3> held = s.turns_held;
+  for (const char letter : table.turns.value_or(table.directions ? "" : "xyz")) s.constrained_rotations[letter - 'x'] = true;
+  std::array<bool, 3> held = s.constrained_rotations;
   if (model.plane_normal)
     for (int c = 0; c < 3; ++c) held[c] = held[c] || c != *model.plane_normal;
   if (std::count(held.begin(), held.end(), true) == 1)

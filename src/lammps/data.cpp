@@ -90,7 +90,7 @@ bool take_atoms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
 
 void take_velocities(LammpsLines& lines, const LammpsRows& rows, LammpsData& data) {
   std::map<int, int> from;                          // line that gave it
-  data.velocity = data.spin = Field::Zero(3, data.position.cols());
+  data.velocity = data.angular_velocity = Field::Zero(3, data.position.cols());
   data.body_velocity = data.angular_momentum = Field::Zero(3, data.body_position.cols());
   for (const VelocityRow& v : rows.velocities) {
     const int i = index_of(data.id, v.id), b = body_of(data, v.id);
@@ -100,10 +100,10 @@ void take_velocities(LammpsLines& lines, const LammpsRows& rows, LammpsData& dat
     } else if (const auto [first, fresh] = from.emplace(v.id, v.line); !fresh) {
       tell(fmt::format("{} stands twice; the first is on line {}", v.id, first->second));
     } else if (i >= 0) {
-      data.velocity.col(i) = v.velocity, data.spin.col(i) = v.spin;
+      data.velocity.col(i) = v.velocity, data.angular_velocity.col(i) = v.angular_velocity;
     } else {
       if (!v.long_row) tell(fmt::format("{} is a body; expected are 7 columns: id, velocity and angular momentum", v.id));
-      data.body_velocity.col(b) = v.velocity, data.angular_momentum.col(b) = v.spin;
+      data.body_velocity.col(b) = v.velocity, data.angular_momentum.col(b) = v.angular_velocity;
     }
   }
 }

@@ -17,7 +17,7 @@ struct LammpsData {
   std::vector<double> mass;                // of every particle, from the section Masses [mass]; 0: not given there
   Field position;                          // 3 × particles [length], unwrapped with the image flags
   Field velocity;                          // 3 × particles [length/time], or 3 × 0: none
-  Field spin;                              // angular velocities, likewise [1/time]
+  Field angular_velocity;              // likewise [1/time]
   std::vector<BondType> bond_types;
   std::vector<AngleType> angle_types;
   std::vector<Bond> bonds;

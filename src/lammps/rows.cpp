@@ -216,7 +216,7 @@ class RowReader {
     for (std::size_t c = 1; c < line.size(); ++c) {
       const auto value = lines_.number(line, c, c < 4 ? "Velocities: velocity" : "Velocities: angular velocity");
       good = good && value;
-      if (good) (c < 4 ? v.velocity : v.spin)[static_cast<int>(c - 1) % 3] = *value;
+      if (good) (c < 4 ? v.velocity : v.angular_velocity)[static_cast<int>(c - 1) % 3] = *value;
     }
     if (good) v.id = *id, rows_.velocities.push_back(v);
     return good;

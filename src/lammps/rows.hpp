@@ -19,7 +19,7 @@ struct AtomRow {
   bool is_body = false;
   double mass = 0;                                                 // of a body
 };
-struct VelocityRow { int line, id; Vec3 velocity, spin; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
+struct VelocityRow { int line, id; Vec3 velocity, angular_velocity; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
 struct CoefficientRow { int line, type; double stiffness, rest; };   // rest length, or rest angle [rad]
 struct MassRow { int line, type; double mass; };
 struct TopologyRow { int line, type; std::array<int, 3> id, column; };   // of a bond the third is not used

@@ -114,7 +114,7 @@ void write_bodies(const std::string& file, const Model& model, const State& stat
   bool some_mass = true;
   for (std::size_t b = 0; b < n; ++b) {
     x.col(static_cast<Eigen::Index>(b)) = state.bodies[b].position.hi;
-    size.push_back(2 * model.shapes[model.bodies[b].shape].reach()), types.push_back(model.bodies[b].type);
+    size.push_back(2 * model.shapes[model.bodies[b].shape].bounding_radius()), types.push_back(model.bodies[b].type);
     some_mass = some_mass && model.bodies[b].mass > 0;
   }
   Text put;
@@ -188,10 +188,10 @@ void write_particles(const std::string& file, const Model& model, const State& s
   }
   if (model.velocity.cols() > 0 && style == Written::sphere) {
     put("\nVelocities # hybrid sphere angle\n\n");
-    const Field spin = model.spin.cols() > 0 ? model.spin : Field(Field::Zero(3, n));
+    const Field omega = model.angular_velocity.cols() > 0 ? model.angular_velocity : Field(Field::Zero(3, n));
     for (int i = 0; i < n; ++i)
       put("{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", model.id[i], model.velocity(0, i), model.velocity(1, i),
-          model.velocity(2, i), spin(0, i), spin(1, i), spin(2, i));
+          model.velocity(2, i), omega(0, i), omega(1, i), omega(2, i));
   }
   if (!model.bonds.empty()) put("\nBonds\n\n");
   for (std::size_t k = 0; k < model.bonds.size(); ++k) {

@@ -10,8 +10,8 @@
 namespace elamin {
 
 /// Cosine angle  U = B (1 − cos(θ − θ₀)),  θ the angle at site 1 between sites 0 and 2, θ₀ the angle at rest.
-/// With u = x₁ − x₀, w = x₂ − x₁, a = u/|u|, b = w/|w|, the turn φ = π − θ (cos φ = a·b, sin φ = |a × b|, 0 ≤ φ ≤ π) and
-/// the turn at rest φ₀ = π − θ₀:  U = B (1 − cos(φ − φ₀)) = B (1 − cos φ cos φ₀ − sin φ sin φ₀).
+/// With u = x₁ − x₀, w = x₂ − x₁, a = u/|u|, b = w/|w|, the angle φ = π − θ (cos φ = a·b, sin φ = |a × b|, 0 ≤ φ ≤ π) and
+/// that at rest φ₀ = π − θ₀:  U = B (1 − cos(φ − φ₀)) = B (1 − cos φ cos φ₀ − sin φ sin φ₀).
 /// B [energy], θ₀ [rad].  U = +inf where two sites meet, without derivatives.
 ///
 /// Straight at rest, θ₀ = π:  U = B (1 + cos θ) = B (1 − a·b), smooth.
@@ -20,17 +20,17 @@ namespace elamin {
 ///   ∂²U/∂u∂u = B/|u|² [ (a·b)(I − a aᵀ) + a b⊥ᵀ + b⊥ aᵀ ],   ∂²U/∂w∂w the same with a ↔ b, u ↔ w
 ///   ∂²U/∂u∂w = −B/(|u||w|) (I − a aᵀ)(I − b bᵀ)
 /// Near the straight angle n = u × (w − u)/(|u||w|), near the folded one n = u × (w + u)/(|u||w|): the second difference
-/// and the closing side are formed exactly, so forces and energies keep their digits for any small turn or opening.
+/// and the closing side are formed exactly, so forces and energies keep their digits for any small angle or opening.
 ///
 /// Any other angle at rest, with S = sin(φ − φ₀), C = cos(φ − φ₀), m = n/|n|, p = m × a, q = b × m:
 ///   ∂U/∂u = −B S p/|u|,   ∂U/∂w = −B S q/|w|
 ///   ∂²U/∂u∂u = B/|u|² [ C p pᵀ + S (a pᵀ + p aᵀ) + S cot φ m mᵀ ],   ∂²U/∂w∂w the same with b, q
 ///   ∂²U/∂u∂w = B/(|u||w|) [ C p qᵀ − S/sin φ m mᵀ ]
 /// S is formed as (|u × w| cos φ₀ − u·w sin φ₀)/(|u||w|) with about 30 digits and 1 − C as S²/(1 + C): both keep theirs
-/// however near the angle is to rest. The turn has no sign, so U has a conical point where the sites are in line, φ = 0
-/// or π: no direction to turn in, no force; the part with sin φ drops out of the derivatives there, they stay finite.
+/// however near the angle is to rest. The angle has no sign, so U has a conical point where the sites are in line, φ = 0
+/// or π: no direction to bend in, no force; the part with sin φ drops out of the derivatives there, they stay finite.
 ///
-/// In a plane, where all sites keep one coordinate, a turn has a sign: sin φ = (a × b)·e with e the unit vector of that
+/// In a plane, where all sites keep one coordinate, the angle has a sign: sin φ = (a × b)·e with e the unit vector of that
 /// coordinate, −π < φ ≤ π, and φ₀ = π − θ₀ is positive. The formulas are the same with m = e, smooth everywhere, so that
 /// a curved beam may be bent straight and beyond; the parts with m mᵀ, which lead out of the plane, are left out.
 /// ∇₀ = −∂/∂u, ∇₁ = ∂/∂u − ∂/∂w, ∇₂ = ∂/∂w in all cases.
@@ -49,13 +49,13 @@ struct CosineAngle {
   static Triple<T> across(const Triple<T>& a, const Triple<T>& b) { return multiply_add(-dot(a, b), a, b); }
 
   double value(const Points<3>& x) const {
-    const Turn t(x, *this);
+    const Hinge t(x, *this);
     return t.defined ? B * t.versine : std::numeric_limits<double>::infinity();
   }
 
   Local<3> derivatives(const Points<3>& x) const {
     Local<3> U;
-    const Turn t(x, *this);
+    const Hinge t(x, *this);
     if (!t.defined) {
       U.value = std::numeric_limits<double>::infinity();
       return U;
@@ -105,7 +105,7 @@ struct CosineAngle {
   /// a − b; any other U = B (1 − cos ψ), ψ = φ − φ₀, gives B max(cos ψ, 0) ∇ψ ∇ψᵀ.
   Local<3> convex(const Points<3>& x, double part) const {
     Local<3> U = derivatives(x);
-    const Turn t(x, *this);
+    const Hinge t(x, *this);
     if (!t.defined) return U;
     Eigen::Matrix<double, 3, 9> J = Eigen::Matrix<double, 3, 9>::Zero();     // of a − b or, in its first row, of ψ; times √B
     if (t.inclined) {
@@ -124,19 +124,19 @@ struct CosineAngle {
     return U;
   }
 
-  /// How the sites bend: the turn φ [rad], in a plane with its sign; the curvature φ/ℓ, ℓ = (|u| + |w|)/2 [1/length]; the moment
+  /// How the sites bend: the angle φ [rad], in a plane with its sign; the curvature φ/ℓ, ℓ = (|u| + |w|)/2 [1/length]; the moment
   /// M = ∂U/∂φ = B sin(φ − φ₀) [force·length]; m, the unit vector about which φ grows. 0 where two sites meet, and, not straight at rest,
-  /// where all are in line: no direction to turn in.
+  /// where all are in line: no direction to bend in.
   struct Bending {
-    double turn = 0, curvature = 0, moment = 0;
+    double angle = 0, curvature = 0, moment = 0;
     Vec3 axis = Vec3::Zero();
   };
   Bending bending(const Points<3>& x) const {
-    const Turn t(x, *this);
+    const Hinge t(x, *this);
     Bending b;
     if (!t.defined) return b;
     const double sine = straight_ ? t.n.norm() : t.sine;
-    b.turn = std::atan2(sine, t.cosine), b.curvature = 2 * b.turn / (t.length_u + t.length_w);
+    b.angle = std::atan2(sine, t.cosine), b.curvature = 2 * b.angle / (t.length_u + t.length_w);
     if (kept_ >= 0) b.axis = Vec3::Unit(kept_);
     else if (sine > 0) b.axis = t.n / sine;
     if (straight_ || t.inclined) b.moment = B * (straight_ ? sine : t.S);
@@ -153,7 +153,7 @@ struct CosineAngle {
   int kept_;
   double cos_rest_, sin_rest_;                           // of φ₀
 
-  struct Turn {
+  struct Hinge {
     bool defined = false;
     bool inclined = false;                               // not straight at rest; the sites not in line, or in a plane
     double length_u = 0, length_w = 0, cosine = 0;       // cosine = a·b = cos φ = −cos θ
@@ -161,7 +161,7 @@ struct CosineAngle {
     double versine = 0;                                  // 1 − cos(φ − φ₀)
     Vec3 a, b, n;                                        // n = a × b, |n| = sin φ
 
-    Turn(const Points<3>& x, const CosineAngle& law) {
+    Hinge(const Points<3>& x, const CosineAngle& law) {
       const ExactVector u = x.edge(0, 1), w = x.edge(1, 2);
       length_u = u.hi.norm(), length_w = w.hi.norm();
       if (!(length_u > 0 && length_w > 0)) return;

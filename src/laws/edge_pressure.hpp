@@ -33,7 +33,7 @@ struct EdgePressure {
   Eigen::Matrix<double, 6, 1> gradient_rate(const Points<2>& x, const EdgePressure& rate) const { return gradient(x, rate.p); }
 
  private:
-  Vec3 arm(const Points<2>& x, int i) const { return (ExactVector{x.position.col(i), x.tail.col(i)} - c).hi; }
+  Vec3 arm(const Points<2>& x, int i) const { return (ExactVector{x.position.col(i), x.low.col(i)} - c).hi; }
   Eigen::Matrix<double, 6, 1> gradient(const Points<2>& x, double pressure) const {
     const Vec3 a = arm(x, 0), b = arm(x, 1);
     Eigen::Matrix<double, 6, 1> g;

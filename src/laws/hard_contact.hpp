@@ -13,7 +13,7 @@ namespace elamin {
 struct HardContact {
   static constexpr int sites = 2;
   double force;                                // f [force]
-  double reach;                                // ρ [length]
+  double contact_distance;                                // ρ [length]
 
   double value(const Points<2>& x) const { return -force * gap(x); }
 
@@ -22,8 +22,8 @@ struct HardContact {
   /// c = r − ρ [length]
   double gap(const Points<2>& x) const {
     const ExactVector d = x.edge(0, 1);
-    const double sum = d.hi.norm() + reach;
-    return sum > 0 ? (dot(d, d) - two_product(reach, reach)).value() / sum : 0.0;
+    const double sum = d.hi.norm() + contact_distance;
+    return sum > 0 ? (dot(d, d) - two_product(contact_distance, contact_distance)).value() / sum : 0.0;
   }
 };
 
@@ -59,7 +59,7 @@ struct HardWall {
   /// The gap to the face at x, with the wall's radius as a fourth coordinate; false where the wall does not see the sphere.
   bool find(const Points<1>& x, WallGap& gap) const {
     constexpr double anywhere = std::numeric_limits<double>::infinity();
-    for (const WallGap& g : wall_gaps(region, inside, false, {x.position.col(0), x.tail.col(0)}, radius, anywhere))
+    for (const WallGap& g : wall_gaps(region, inside, false, {x.position.col(0), x.low.col(0)}, radius, anywhere))
       if (g.face == face) {
         gap = g;
         return true;

@@ -48,7 +48,7 @@ struct HarmonicBond {
   }
 
   /// K (e − ê)²: energy of the part of the stretch e = r − r₀ that the linearisation at `from` did not predict.
-  double unpredicted(const Points<2>& x, const Points<2>& from) const {
+  double residual_energy(const Points<2>& x, const Points<2>& from) const {
     const double e = stretch(x.edge(0, 1)) - linearised(x, from);
     return K * e * e;
   }

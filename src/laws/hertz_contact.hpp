@@ -14,7 +14,7 @@ namespace elamin {
 struct HertzContact {
   static constexpr int sites = 2;
   double stiffness;                            // k = 4/3 E √R [force/length^{3/2}]
-  double reach;                                // ρ [length]
+  double contact_distance;                                // ρ [length]
 
   double value(const Points<2>& x) const {
     const ExactVector d = x.edge(0, 1);
@@ -50,11 +50,11 @@ struct HertzContact {
   }
 
   /// Farther apart than rounding could hide: most candidates are.
-  bool clear(const ExactVector& d) const { return d.hi.squaredNorm() > (1 + 64 * epsilon) * reach * reach; }
+  bool clear(const ExactVector& d) const { return d.hi.squaredNorm() > (1 + 64 * epsilon) * contact_distance * contact_distance; }
 
   double gap(const ExactVector& d) const {
-    const Exact excess = dot(d, d) - two_product(reach, reach);      // r² − ρ²
-    const double sum = d.hi.norm() + reach;
+    const Exact excess = dot(d, d) - two_product(contact_distance, contact_distance);      // r² − ρ²
+    const double sum = d.hi.norm() + contact_distance;
     return sum > 0 ? excess.value() / sum : 0.0;
   }
 

@@ -6,11 +6,11 @@
 
 namespace elamin {
 
-/// The positions of n sites, each as position + tail (see State); differences are formed without losing a digit.
+/// The positions of n sites, each as position + low (see State); differences are formed without losing a digit.
 template <int n>
 struct Points {
   Eigen::Matrix<double, 3, n> position = Eigen::Matrix<double, 3, n>::Zero();
-  Eigen::Matrix<double, 3, n> tail = Eigen::Matrix<double, 3, n>::Zero();
+  Eigen::Matrix<double, 3, n> low = Eigen::Matrix<double, 3, n>::Zero();
 
   Points() = default;
   /// From plain positions, 3 × n.
@@ -18,7 +18,7 @@ struct Points {
 
   /// x_j − x_i, to about 32 digits.
   ExactVector edge(int i, int j) const {
-    return ExactVector{position.col(j), tail.col(j)} - ExactVector{position.col(i), tail.col(i)};
+    return ExactVector{position.col(j), low.col(j)} - ExactVector{position.col(i), low.col(i)};
   }
 };
 

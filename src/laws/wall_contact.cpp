@@ -61,10 +61,10 @@ Vec3 WallContact::radius_rate(const ExactVector& x, double r) const {
   return energy(*this, x, r).hessian.topRightCorner<3, 1>();
 }
 
-int WallContact::touches(const ExactVector& x, double r, double reach, std::array<WallTouch, most_faces>& out) const {
+int WallContact::touches(const ExactVector& x, double r, double cutoff, std::array<WallTouch, most_faces>& out) const {
   static_assert(most_faces == WallGaps::most);
   int count = 0;
-  for (const WallGap& g : wall_gaps(region, inside, curved, x, r, reach)) {
+  for (const WallGap& g : wall_gaps(region, inside, curved, x, r, cutoff)) {
     WallTouch& touch = out[count++];
     touch.gap = -g.overlap;
     touch.normal = g.distance.gradient.head<3>();

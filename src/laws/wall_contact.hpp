@@ -51,9 +51,9 @@ struct WallContact {
   /// ∂(∇U)/∂R [force/length]: how the gradient changes when the radius of the wall grows (of a cone: both, see
   /// Region::moved); zero for planes and blocks.
   Vec3 radius_rate(const ExactVector& x, double r) const;
-  /// Every face nearer than `reach` (distance of the surfaces ≤ reach; force zero where they do not overlap), at most
+  /// Every face nearer than `cutoff` (distance of the surfaces ≤ cutoff; force zero where they do not overlap), at most
   /// most_faces; returns their number.
-  int touches(const ExactVector& x, double r, double reach, std::array<WallTouch, most_faces>& out) const;
+  int touches(const ExactVector& x, double r, double cutoff, std::array<WallTouch, most_faces>& out) const;
   /// The faces that the sphere overlaps, most_faces at most, in plain doubles: planes, blocks from inside, spheres and the
   /// sides of endless cylinders at once, all others by way of touches(). Each pushes with k δ^{3/2} along its normal.
   int presses(const Vec3& x, double r, std::array<WallPress, most_faces>& out) const;

@@ -27,8 +27,8 @@ Varying curved_radius(double r, double s, const Varying& m) {
 
 class Search {
  public:
-  Search(const Region& region, bool curved, const ExactVector& x, double r, double reach, WallGaps& found)
-      : region_(region), curved_(curved), x_(x), r_(r), reach_(reach), found_(found) {}
+  Search(const Region& region, bool curved, const ExactVector& x, double r, double cutoff, WallGaps& found)
+      : region_(region), curved_(curved), x_(x), r_(r), cutoff_(cutoff), found_(found) {}
 
   void plane(bool contained) {
     const ExactVector n{region_.normal, Vec3::Zero()};
@@ -124,11 +124,11 @@ class Search {
     double fraction;                                      // of the way along the side from lo to hi
   };
 
-  bool near(Exact distance) const { return std::isfinite(distance.hi) && r_ - distance.hi >= -reach_ - 4 * epsilon * r_; }
+  bool near(Exact distance) const { return std::isfinite(distance.hi) && r_ - distance.hi >= -cutoff_ - 4 * epsilon * r_; }
 
   void add(Exact distance, const Varying& d, const Varying& radius) {
     const double overlap = (Exact{r_, 0} - distance).value();
-    if (overlap >= -reach_) found_.gap[found_.count++] = {overlap, d, radius, face_};
+    if (overlap >= -cutoff_) found_.gap[found_.count++] = {overlap, d, radius, face_};
   }
 
   void flat(Exact distance, const Vec3& n) {
@@ -200,18 +200,18 @@ class Search {
   const Region& region_;
   bool curved_;
   const ExactVector& x_;
-  double r_, reach_;
+  double r_, cutoff_;
   WallGaps& found_;
   int face_ = 0;                                          // that is being looked at
 };
 
 }  // namespace
 
-WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVector& x, double r, double reach) {
+WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVector& x, double r, double cutoff) {
   WallGaps found;
   const bool on_side = elamin::on_side(region, inside, x), contained = on_side ? inside : !inside;
   if (!on_side && !region.any_open()) return found;
-  Search search(region, curved, x, r, reach, found);
+  Search search(region, curved, x, r, cutoff, found);
   switch (region.shape) {
     case Shape::plane: search.plane(contained); break;
     case Shape::sphere: search.sphere(contained); break;

@@ -28,7 +28,7 @@ struct WallGaps {
   const WallGap* end() const { return gap.data() + count; }
 };
 
-/// The faces of the region whose surface is not farther than `reach` from that of the sphere at x with radius r.
+/// The faces of the region whose surface is not farther than `cutoff` from that of the sphere at x with radius r.
 /// The centre inside: every closed face by itself; outside: the one nearest point of the closed faces. Without open faces
 /// nothing where the centre is not on the wall's side; with any open face both sides act.
 /// A centre on the surface itself is on the wall's side.
@@ -46,6 +46,6 @@ struct WallGaps {
 ///   cylinder, side and rim  m = 2R:  r m/(m − r) inside, r m/(m + r) outside; outside with any open face r
 ///   cone, side and rim      m = 2R_c, R_c the cone's radius at the nearest point: r m/(m − r) inside and outside
 /// as LAMMPS has it; at a cone R_eff depends on x.
-WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVector& x, double r, double reach);
+WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVector& x, double r, double cutoff);
 
 }  // namespace elamin

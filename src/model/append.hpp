@@ -37,9 +37,9 @@ class Appender {
       : model_(model), first_(model.particles()), type_(next_type(model, more)), molecule_(next_number(model.molecule, 0, more)) {
     const int id = next_id(model, more), total = first_ + more;
     model.start.position.conservativeResize(3, total);
-    model.start.tail.conservativeResize(3, total);
+    model.start.low.conservativeResize(3, total);
     model.start.position.rightCols(more).setZero();
-    model.start.tail.rightCols(more).setZero();
+    model.start.low.rightCols(more).setZero();
     if (model.velocity.cols() > 0) {
       model.velocity.conservativeResize(3, total);
       model.velocity.rightCols(more).setZero();

@@ -21,15 +21,15 @@ using Pair = std::array<int, 2>;
 /// Points sorted by the cell they are in, so that the three cells of a row of neighbours follow one another.
 class Cells {
  public:
-  Cells(const Field& position, const std::vector<int>& of, double reach) {
+  Cells(const Field& position, const std::vector<int>& of, double cutoff) {
     low_ = high_ = position.col(of.front());
     for (const int p : of) low_ = low_.cwiseMin(position.col(p)), high_ = high_.cwiseMax(position.col(p));
-    size_ = 1.001 * std::max(reach, (high_ - low_).maxCoeff() / most);
+    size_ = 1.001 * std::max(cutoff, (high_ - low_).maxCoeff() / most);
     for (const int p : of) entries_.push_back({cell(position.col(p)), p});
     std::sort(entries_.begin(), entries_.end());
   }
 
-  /// body(particle) for all within `reach` of x, and for some beyond, until it returns false.
+  /// body(particle) for all within `cutoff` of x, and for some beyond, until it returns false.
   template <class Body>
   bool for_each_near(const Vec3& x, const Body& body) const {
     if (((x - low_).array() < -2 * size_).any() || ((x - high_).array() > 2 * size_).any()) return true;
@@ -93,9 +93,9 @@ std::vector<std::vector<int>> bonded(const Model& model) {
 
 int connect(Model& model, const Connection& connection) {
   if (connection.first.empty() || connection.second.empty() || !(connection.within > 0)) return 0;
-  const double reach = connection.within * (1 + even);
+  const double cutoff = connection.within * (1 + even);
   const std::vector<std::vector<int>> before = bonded(model);
-  const Cells cells(model.start.position, connection.second, reach);
+  const Cells cells(model.start.position, connection.second, cutoff);
   std::vector<Pair> pairs;
   std::int64_t tries = 0;
   std::vector<Near> near;
@@ -103,10 +103,10 @@ int connect(Model& model, const Connection& connection) {
     near.clear();
     const Vec3 x = model.start.position.col(i);
     const bool few = cells.for_each_near(x, [&](int j) {
-      if (j == i || (model.start.position.col(j) - x).norm() > 2 * reach) return ++tries < most_tries;
+      if (j == i || (model.start.position.col(j) - x).norm() > 2 * cutoff) return ++tries < most_tries;
       const double distance = norm(model.start.at(j) - model.start.at(i)).value();
       const bool apart = !std::binary_search(before[i].begin(), before[i].end(), j);
-      if (apart && distance <= reach) near.push_back({distance, j});
+      if (apart && distance <= cutoff) near.push_back({distance, j});
       return ++tries < most_tries;
     });
     if (connection.bonds_per_particle > 0) keep_nearest(near, connection.bonds_per_particle);

@@ -21,7 +21,7 @@ std::string called(const Model& model, int entity) {
 }
 
 double size_of(const Model& model, int entity) {
-  if (is_body(model, entity)) return 2 * model.shapes[model.bodies[entity - model.particles()].shape].reach();
+  if (is_body(model, entity)) return 2 * model.shapes[model.bodies[entity - model.particles()].shape].bounding_radius();
   return model.diameter[entity];
 }
 

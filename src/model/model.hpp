@@ -62,7 +62,7 @@ struct Support {
   std::vector<ExactVector> reference = {};      // of each of the particles, unless empty
   Vec3 velocity = Vec3::Zero();                 // of what is held, in dynamics [length/time]
   std::vector<int> bodies = {};
-  std::array<bool, 3> turns_held{false, false, false};   // of the bodies, about x, y, z
+  std::array<bool, 3> constrained_rotations{false, false, false};   // of the bodies, about x, y, z
   Vec3 rotation = Vec3::Zero();                 // φ, a rotation vector, where all turns are held [rad]
   std::vector<Pose> body_reference = {};        // of each of the bodies, unless empty
 };
@@ -203,7 +203,7 @@ struct Model {
   std::vector<int> type, molecule;              // from 1
   std::vector<double> diameter, density;        // density 0: not given
   Field velocity;                               // 3 × particles, or empty: at rest
-  Field spin;                                   // angular velocities, 3 × particles, or empty: none
+  Field angular_velocity;              // 3 × particles, or empty: none
   std::vector<RoundedShape> shapes;
   std::vector<Body> bodies;                     // at start.bodies
   Field body_velocity, angular_momentum;        // of bodies, axes of space, 3 × bodies, or empty: at rest

@@ -10,7 +10,7 @@ void add_bodies(Model& model, const std::vector<RigidBody>& bodies) {
     RoundedShape shape = rounded_shape(b.core, b.radius);
     const MassProperties uniform = mass_properties(shape);
     Pose pose = b.pose;
-    if (!b.centered && uniform.center.norm() > 1e-12 * shape.reach()) {           // else rounding alone
+    if (!b.centered && uniform.center.norm() > 1e-12 * shape.bounding_radius()) {           // else rounding alone
       shape = rounded_shape(moved_origin(b.core, uniform.center), b.radius);
       pose.position = pose.position + ExactVector{pose.rotation * uniform.center, Vec3::Zero()};
     }

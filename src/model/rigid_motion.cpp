@@ -110,7 +110,7 @@ std::vector<Part> parts_of(const Model& model, const Pairs& also) {
 struct Member {
   int site;
   Vec3 place;
-  double lever;                                                // 0: a place
+  double length;                                                // 0: a place
 };
 
 std::vector<Member> members(const Model& model, const State& state, const Part& part) {
@@ -140,7 +140,7 @@ Held held_sites(const Model& model) {
       for (const int p : s.particles) held(c, p) = held(c, p) || s.held[c];
       for (const int b : s.bodies) {
         held(c, n + 2 * b) = held(c, n + 2 * b) || s.held[c];
-        held(c, n + 2 * b + 1) = held(c, n + 2 * b + 1) || s.turns_held[c];
+        held(c, n + 2 * b + 1) = held(c, n + 2 * b + 1) || s.constrained_rotations[c];
       }
     }
   return held;
@@ -211,10 +211,10 @@ std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& sta
     Vec3 mid = Vec3::Zero();
     for (const Member& m : all) mid += m.place / static_cast<double>(all.size());
     double size = 0;
-    for (const Member& m : all) size = std::max({size, (m.place - mid).norm(), m.lever});
+    for (const Member& m : all) size = std::max({size, (m.place - mid).norm(), m.length});
     if (size == 0) size = 1;
     const auto velocity = [&](const Twist& t, const Member& m) -> Vec3 {
-      if (m.lever > 0) return t.tail<3>() * (m.lever / size);
+      if (m.length > 0) return t.tail<3>() * (m.length / size);
       return t.head<3>() + t.tail<3>().cross(Vec3((m.place - mid) / size));
     };
     // Normal equations of "no prescribed coordinate moves": 6 × 6 however many sites are held.

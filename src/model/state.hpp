@@ -14,25 +14,25 @@ struct HardForce {
   bool operator==(const HardForce&) const = default;
 };
 
-/// Positions of all particles as position + tail (about 32 digits), poses of all rigid bodies, and the load factor λ.
-/// A chain of N particles has a condition number of about 5 N⁴; the tails keep differences of neighbours exact to the
+/// Positions of all particles as position + low (about 32 digits), poses of all rigid bodies, and the load factor λ.
+/// A chain of N particles has a condition number of about 5 N⁴; the low words keep differences of neighbours exact to the
 /// last bit although the positions are large beside them.
 struct State {
   Field position;          // 3 × particles [length]
-  Field tail;              // 3 × particles, what the rounding of `position` left out
+  Field low;              // 3 × particles, what the rounding of `position` left out
   std::vector<Pose> bodies;
   double load_factor = 0;
   std::vector<HardForce> hard;   // of the hard contacts that bear a force
 
   State() = default;
-  explicit State(Field positions) : position(std::move(positions)), tail(Field::Zero(3, position.cols())) {}
+  explicit State(Field positions) : position(std::move(positions)), low(Field::Zero(3, position.cols())) {}
 
   Eigen::Index particles() const { return position.cols(); }
-  ExactVector at(Eigen::Index i) const { return {position.col(i), tail.col(i)}; }
-  void set(Eigen::Index i, const ExactVector& x) { position.col(i) = x.hi, tail.col(i) = x.lo; }
+  ExactVector at(Eigen::Index i) const { return {position.col(i), low.col(i)}; }
+  void set(Eigen::Index i, const ExactVector& x) { position.col(i) = x.hi, low.col(i) = x.lo; }
 };
 
 /// b − a of all particles, 3 × particles [length]; with bodies see Kinematics::difference.
-inline Field displacement(const State& a, const State& b) { return (b.position - a.position) + (b.tail - a.tail); }
+inline Field displacement(const State& a, const State& b) { return (b.position - a.position) + (b.low - a.low); }
 
 }  // namespace elamin

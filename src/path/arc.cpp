@@ -56,11 +56,11 @@ Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
   kinematics.retract(state, d.x, step);
   Report blocked;
   blocked.why = "the step would carry something through something else";
-  if (energy.passage(nearest.point.state, state) < 1) return blocked;
+  if (energy.collision_free_step(nearest.point.state, state) < 1) return blocked;
   const Report report = correct_in_phase(energy, nearest, state, [&](State& x, const Eigen::MatrixXd& held) {
     return on_plane(x, held, &nearest.point.state);
   });
-  return report.converged() && energy.passage(nearest.point.state, state) < 1 ? blocked : report;
+  return report.converged() && energy.collision_free_step(nearest.point.state, state) < 1 ? blocked : report;
 }
 
 Report Arc::settle(State& state, const Eigen::MatrixXd& held) const { return on_plane(state, held, nullptr); }

@@ -52,18 +52,18 @@ ArcOptions arc_options(const PathOptions& o) {
   const double low = o.lowest.value_or(range > 0 ? o.from - 2 * range : o.to), high = o.highest.value_or(range > 0 ? o.to : o.from - 2 * range);
   ArcOptions a;
   a.load_step = std::abs(range) / o.steps;
-  a.turn = std::clamp(5.0 / o.steps, 1e-3, 0.2);
+  a.rotation = std::clamp(5.0 / o.steps, 1e-3, 0.2);
   a.contacts = o.contacts;
   a.stops = o.stops;
   for (const double end : {low, high, o.to}) a.stops.push_back(end);
   std::sort(a.stops.begin(), a.stops.end());
   a.stops.erase(std::unique(a.stops.begin(), a.stops.end()), a.stops.end());
-  a.watches = o.watches;
+  a.user_events = o.user_events;
   return a;
 }
 
 ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric metric, ArcOptions options)
-    : Branch(newton, std::move(from), options.contacts, options.watches), metric_(metric), options_(std::move(options)),
+    : Branch(newton, std::move(from), options.contacts, options.user_events), metric_(metric), options_(std::move(options)),
       direction_(std::move(direction)) {
   sign_ = sign_of(direction_.load);
   if (negative_ < 0) neutral_ = current_.zero_modes;
@@ -74,10 +74,10 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
 
 // The step that neither the load factor nor the bonds forbid.
 double ArcSteps::longest() const {
-  const double turn = distortion(newton_.energy(), current_.point.state, direction_.x, direction_.load);
+  const double rotation = distortion(newton_.energy(), current_.point.state, direction_.x, direction_.load);
   double most = std::numeric_limits<double>::infinity();
   if (direction_.load != 0) most = std::min(most, options_.load_step / std::abs(direction_.load));
-  if (turn > 0) most = std::min(most, options_.turn / turn);
+  if (rotation > 0) most = std::min(most, options_.rotation / rotation);
   return std::isfinite(most) ? most : 1.0;
 }
 
@@ -140,10 +140,10 @@ bool ArcSteps::over_bend(const Candidate& c) {
 std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why) {
   const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
-  const bool corner = !c && !along_contact && (c = reach_corner(arc, s)).has_value();
+  const bool kink = !c && !along_contact && (c = reach_kink(arc, s)).has_value();
   if (!c) return {};
   if (along_contact && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
-  if (!corner) {
+  if (!kink) {
     const double change = std::abs(c->e.point.state.load_factor - current_.point.state.load_factor);
     if (change > 1.5 * options_.load_step) return better = s * std::clamp(0.9 * std::sqrt(options_.load_step / change), 0.1, 0.9), std::nullopt;
     const bool ends_on_event = c->e.point.stability.critical > 0 && c->e.zero_modes.cols() > current_.zero_modes.cols();
@@ -154,7 +154,7 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
                                   [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
                                   [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
-  if ((!corner && !find_contact(segment, *c, why)) || !find_critical(segment, *c, why) || !find_watches(segment, *c, why)) return {};
+  if ((!kink && !find_contact(segment, *c, why)) || !find_critical(segment, *c, why) || !find_user_events(segment, *c, why)) return {};
   find_stop(segment, *c);
   return c;
 }
@@ -221,10 +221,10 @@ void ArcSteps::carry_neutral(Equilibrium& e) {
   }
 }
 
-// Or, where the branch may end or turn in a corner, the corner.
-std::optional<Branch::Candidate> ArcSteps::reach_corner(const Arc& arc, double s) {
+// Or, where the branch may end or turn back in a kink, the kink.
+std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s) {
   if (!contacts_) return {};
-  std::optional<ContactChange> change = corner_ahead(newton_, closed_, current_, s * arc.direction().x, s * arc.direction().load);
+  std::optional<ContactChange> change = kink_ahead(newton_, closed_, current_, s * arc.direction().x, s * arc.direction().load);
   if (!change) return {};
   const double t = arc.position(change->at.point.state);
   if (!(t >= -arc_steps::standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(arc_steps::largest_departure * t, arc_steps::standing * s)) return {};
@@ -302,15 +302,15 @@ Waypoint ArcSteps::accept(Candidate c) {
   neutral_ = !event && c.e.point.stability.critical > 0 ? c.e.zero_modes : Eigen::MatrixXd();
   if (neutral_.cols() > 0) name_neutral(c.e.point.stability);
   last_stop_ = c.stop, taken_ = c.natural ? 0 : c.parameter;
-  const bool corner = event && event->beyond;
-  if (c.natural && !corner && !is_critical(event)) {
+  const bool kink = event && event->beyond;
+  if (c.natural && !kink && !is_critical(event)) {
     if (at_contact_) metric_.length = std::max(metric_.length, metric_.load * c.e.tangent.norm());      // nothing may have moved before it
     direction_ = direction_of(c.e, metric_, {Vector::Zero(c.e.tangent.size()), sign_ * metric_.load});
   } else {
     rotate(c);
   }
   take(c);
-  if (corner) step_ = std::min(step_, longest());
+  if (kink) step_ = std::min(step_, longest());
   else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, arc_steps::least_part * step_);
   return {std::move(c.e), std::move(c.events), c.stop};
 }
@@ -318,9 +318,9 @@ Waypoint ArcSteps::accept(Candidate c) {
 // The direction from the candidate on, and the next step from how this one went.
 void ArcSteps::rotate(const Candidate& c) {
   const Event* event = deciding(c);
-  const bool corner = event && event->beyond, arrival = event && event->arrival, limit = is_critical(event) && event->kind == EventKind::limit;
-  Direction next = direction_of(corner ? *event->beyond : c.e, metric_, direction_);
-  if (corner && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
+  const bool kink = event && event->beyond, arrival = event && event->arrival, limit = is_critical(event) && event->kind == EventKind::limit;
+  Direction next = direction_of(kink ? *event->beyond : c.e, metric_, direction_);
+  if (kink && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
   if (arrival) next = passing(*event, metric_);                 // on along the side branch, to its other half
   if (arrival != limit) sign_ = -sign_;
   if (arrival || limit) next.load = std::copysign(next.load, sign_);      // else rounding's

@@ -6,10 +6,10 @@ namespace elamin {
 
 struct ArcOptions {
   double load_step = 0.01;             // no step changes the load factor by more
-  double turn = 0.05;                  // … nor turns or stretches a bond by more (rad)
+  double rotation = 0.05;                  // … nor turns or stretches a bond by more (rad)
   bool contacts = true;
   std::vector<double> stops = {};      // load factors at which it stops on the way
-  std::vector<Watch> watches = {};
+  std::vector<UserEvent> user_events = {};
   int patience = 0;                    // steps that may be refused altogether; 0: as many as it takes
   double step = 0, shortest = 0;       // of the first step, in the metric; 0: as long as the limits above let it be
 };
@@ -53,7 +53,7 @@ class ArcSteps final : public Branch {
   bool over_bend(const Candidate& c);
   [[nodiscard]] std::optional<Candidate> attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why);
   [[nodiscard]] std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
-  [[nodiscard]] std::optional<Candidate> reach_corner(const Arc& arc, double s);
+  [[nodiscard]] std::optional<Candidate> reach_kink(const Arc& arc, double s);
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
   [[nodiscard]] bool look_beyond(const Arc& arc, const Candidate& c);
   void carry_neutral(Equilibrium& e);

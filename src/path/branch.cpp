@@ -11,15 +11,15 @@ namespace elamin {
 
 using namespace limits;
 
-Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches)
+Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEvent> user_events)
     : newton_(newton), current_(std::move(from.at)), negative_(from.negative), singular_(from.singular || from.negative < 0),
-      at_contact_(from.at_contact), closed_(std::move(from.closed)), contacts_(contacts), watches_(std::move(watches)), side_(std::move(from.sides)) {
-  for (std::size_t k = side_.size(); k < watches_.size(); ++k) side_.push_back(watches_[k].side(current_.point.state));
+      at_contact_(from.at_contact), closed_(std::move(from.closed)), contacts_(contacts), user_events_(std::move(user_events)), side_(std::move(from.sides)) {
+  for (std::size_t k = side_.size(); k < user_events_.size(); ++k) side_.push_back(user_events_[k].side(current_.point.state));
   newton_.factors().expect(negative_ > 0);
 }
 
 const Event* Branch::deciding(const Candidate& c) {
-  return c.events.empty() || c.events.front().kind == EventKind::watch ? nullptr : &c.events.front();
+  return c.events.empty() || c.events.front().kind == EventKind::user ? nullptr : &c.events.front();
 }
 
 std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct) {
@@ -30,7 +30,7 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
   const Segment segment = beside(segment_of_loads(newton_, current_.point.state.load_factor, target), c);
   if (!find_contact(segment, c, why)) return {};
   if (!c.events.empty() && !same_branch(newton_.energy(), current_, c.e)) return why = "the corrector went to another branch", std::nullopt;
-  if (!find_critical(segment, c, why) || !find_watches(segment, c, why)) return {};
+  if (!find_critical(segment, c, why) || !find_user_events(segment, c, why)) return {};
   return c;
 }
 
@@ -132,7 +132,7 @@ bool Branch::explained(const Event& event, const Segment& segment, const Candida
   return leads_to(c.e) && (singular_ || leads_to(current_));
 }
 
-bool Branch::find_watches(Segment segment, Candidate& c, std::string& why) {
+bool Branch::find_user_events(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
   bool missed = false;
   Equilibrium end = c.e;
@@ -140,7 +140,7 @@ bool Branch::find_watches(Segment segment, Candidate& c, std::string& why) {
     const Event& arrival = c.events.front();
     end.tangent = arrival.passing / (std::abs(arrival.passing_load) > 1e-100 ? arrival.passing_load : 1e-100);
   }
-  std::vector<Event> seen = locate_watches(watches_, side_, segment, current_, end, negative_, missed);
+  std::vector<Event> seen = locate_user_events(user_events_, side_, segment, current_, end, negative_, missed);
   if (missed) return why = "where an observable reaches its value could not be located", false;
   if (seen.empty()) return true;
   if (std::abs(c.parameter - seen.front().at_parameter) > branch::coincide * std::abs(segment.b - segment.a))
@@ -158,7 +158,7 @@ void Branch::take(const Candidate& c) {
   ContactSet closed = told ? event->closed : closed_contacts(newton_.energy(), c.e);
   if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
   closed_ = std::move(closed);
-  pass_watches(watches_, c.events, c.e.point.state, side_);
+  pass_user_events(user_events_, c.events, c.e.point.state, side_);
   current_ = event && event->beyond ? *event->beyond : c.e;
   current_.point.label.clear();
   if (c.events.empty()) return;

@@ -22,11 +22,11 @@ struct Departure {
   ContactSet closed;                        // contacts from here on
   bool singular = false;                    // it is a limit point or branch point …
   bool at_contact = false;                  // … or a place where a contact is made or lost
-  std::vector<double> sides = {};           // of every watch: observable − value from here on, 0: not known; none: as the state tells
+  std::vector<double> sides = {};           // of every user event: observable − value from here on, 0: not known; none: as the state tells
 };
 
 /// The steps of a branch are a strategy's (load_steps.hpp, arc_steps.hpp); what happens on a step is found here, the same for all:
-/// contacts made and lost, limit points and branch points, watched observables at their values. All on one step are found, the first is told.
+/// contacts made and lost, limit points and branch points, observables of user events at their values. All on one step are found, the first is told.
 ///
 /// A change of the Morse index is explained by an event between the ends of the step from which the branch leads back to the one and on to the other, or
 /// the step is refused: the determinant of the bordered matrix [H c; t_x/L² t_λ/Λ²] keeps its sign on a smooth branch (Keller 1977), so a step onto
@@ -47,7 +47,7 @@ class Branch {
   const ContactSet& closed() const { return closed_; }
 
  protected:
-  Branch(Newton& newton, Departure from, bool contacts, std::vector<Watch> watches);
+  Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEvent> user_events);
 
   struct Candidate {
     double parameter;                  // on the segment from here
@@ -56,7 +56,7 @@ class Branch {
     std::optional<double> stop = {};
     bool natural = false;              // a step of the load factor
   };
-  /// The event that decides how the branch goes on behind a candidate; none if there are only watches.
+  /// The event that decides how the branch goes on behind a candidate; none if there are only user_events.
   static const Event* deciding(const Candidate& c);
   static bool is_critical(const Event* event) { return event && !event->beyond && (event->kind == EventKind::limit || event->kind == EventKind::branch); }
 
@@ -71,7 +71,7 @@ class Branch {
   [[nodiscard]] bool find_contact(const Segment& segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;
-  [[nodiscard]] bool find_watches(Segment segment, Candidate& c, std::string& why);
+  [[nodiscard]] bool find_user_events(Segment segment, Candidate& c, std::string& why);
   /// The branch is at the candidate from now on.
   void take(const Candidate& c);
   void stop_here(Status status, std::string why) { status_ = status, why_ = std::move(why); }
@@ -83,7 +83,7 @@ class Branch {
   bool singular_, at_contact_;
   ContactSet closed_;
   bool contacts_;
-  std::vector<Watch> watches_;
+  std::vector<UserEvent> user_events_;
   std::vector<double> side_;
 
  private:

@@ -34,7 +34,7 @@ void toggle(ContactSet& set, const ContactKey& key) {
 
 std::string told(const Model& model, const ContactKey& key, bool made) {
   const std::string one = called(model, key.particle);
-  const std::string verb = key.reach ? (made ? " comes within reach of " : " leaves the reach of ") : made ? " touches " : " leaves ";
+  const std::string verb = key.within_cutoff ? (made ? " comes within the cutoff of " : " leaves the cutoff of ") : made ? " touches " : " leaves ";
   return one + verb + (key.wall >= 0 ? "wall " + model.walls[key.wall].name : called(model, key.other));
 }
 
@@ -44,7 +44,7 @@ double gap(const Energy& energy, const ContactKey& key, const State& state) {
   if (key.feature < 0) return energy.gap(key.particle, key.other, key.wall, state);
   const std::optional<Touch> touch = body_touch(energy.model(), energy.body_rules(), touch_key(key), state);
   if (!touch) return std::numeric_limits<double>::infinity();
-  return touch->gap - (key.reach ? attraction_range(energy.model(), energy.body_rules(), touch_key(key)) : 0.0);
+  return touch->gap - (key.within_cutoff ? attraction_range(energy.model(), energy.body_rules(), touch_key(key)) : 0.0);
 }
 
 // What is moved by a part of the way, prescribed coordinates by their part of the change of the load factor.
@@ -55,8 +55,8 @@ State moved_by(const Kinematics& kinematics, const State& from, const Vector& wa
   return state;
 }
 
-// What two entities do to each other jumps there in its stiffness, so that the branch has a corner: `at` gets what is true
-// just before it, `beyond` what is true behind. way, load_change: to the corner.
+// What two entities do to each other jumps there in its stiffness, so that the branch has a kink: `at` gets what is true
+// just before it, `beyond` what is true behind. way, load_change: to the kink.
 void look_both_ways(Newton& newton, ContactChange& change, const std::vector<ContactKey>& keys, const Vector& way, double load_change) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
@@ -142,7 +142,7 @@ bool slope(const Energy& energy, const ContactKey& key, const State& state, doub
   Field g = Field::Zero(3, kinematics.sites());
   const auto push = [&](int body, const Vec3& at, double sign) {
     g.col(kinematics.place_of(body)) += sign * normal;
-    g.col(kinematics.turn_of(body)) += sign / kinematics.lever(body) * (at - state.bodies[body].position.hi).cross(normal);
+    g.col(kinematics.rotation_of(body)) += sign / kinematics.characteristic_length(body) * (at - state.bodies[body].position.hi).cross(normal);
   };
   const auto add = [&](int entity, double sign) {
     if (is_body(model, entity)) return push(entity - model.particles(), key.feature >= 0 ? point : Vec3(state.position.col(entity)), sign);
@@ -313,7 +313,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       t = segment.parameter(state);
       const double part = (t - segment.a) / (change.at_parameter - segment.a);
       if (!(part > -contact_event::along_chord && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
-            energy.passage(a.point.state, state) == 1)) return false;
+            energy.collision_free_step(a.point.state, state) == 1)) return false;
       found = std::move(state);
       return true;
     };
@@ -345,19 +345,19 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   return change;
 }
 
-std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change) {
+std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
   const State& from = a.point.state;
-  double reach = 4 * driven_way(energy, load_change);
+  double step_bound = 4 * driven_way(energy, load_change);
   const Field moves = kinematics.extend(way);
-  for (int s = 0; s < kinematics.sites(); ++s) reach = std::max(reach, 4 * (moves.col(s) + load_change * kinematics.drive(s)).norm());
+  for (int s = 0; s < kinematics.sites(); ++s) step_bound = std::max(step_bound, 4 * (moves.col(s) + load_change * kinematics.drive(s)).norm());
   // The one that the tangent meets first.
   ContactKey first{};
   ContactSet candidates = before;
   double least = std::numeric_limits<double>::infinity();
-  for (const Touch& t : energy.touches(from, reach))
+  for (const Touch& t : energy.touches(from, step_bound))
     for (const bool within : {false, true}) {
       const ContactKey key{t.particle, t.other, t.wall, t.feature, within};
       if (within && (t.feature < 0 || attraction_range(model, energy.body_rules(), t.key()) == 0)) continue;
@@ -376,7 +376,7 @@ std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& befo
   const Report report = close_gap(newton, first, a, way, load_change, state);
   if (!report.converged()) return {};
   if (std::abs(gap(energy, first, state)) > contact_event::together * size_of(model, first.particle)) return {};
-  if (energy.passage(from, state) < 1) return {};
+  if (energy.collision_free_step(from, state) < 1) return {};
   change.found = true;
   change.at.point.state = state, change.at.point.report = report;
   change.at = assess(newton, state, report);

@@ -12,12 +12,12 @@ namespace elamin {
 struct ContactKey {
   int particle, other, wall;
   int feature = -1;
-  bool reach = false;                  // bodies that attract each other: within the cutoff, whether they overlap or not
+  bool within_cutoff = false;                  // bodies that attract each other: within the cutoff, whether they overlap or not
   auto operator<=>(const ContactKey&) const = default;
 };
 using ContactSet = std::set<ContactKey>;
 
-/// The contacts whose surfaces overlap at the state, or are nearer than `within` [length], and which bodies are within the reach of an attraction.
+/// The contacts whose surfaces overlap at the state, or are nearer than `within` [length], and which bodies are within the cutoff of an attraction.
 ContactSet closed_contacts(Energy& energy, const State& state, double within = 0);
 /// The same of an equilibrium; of a slack one those that just touch as well.
 ContactSet closed_contacts(Energy& energy, const Equilibrium& e);
@@ -40,10 +40,10 @@ struct ContactChange {
 [[nodiscard]] std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
                                             const Equilibrium& b);
 
-/// A corner that is ahead: the equilibrium at which the first contact changes on the way along the tangent of `a`, up to the
+/// A kink that is ahead: the equilibrium at which the first contact changes on the way along the tangent of `a`, up to the
 /// part 1 of the way (dofs) and change of the load factor, found without equilibria beyond, of which there may be none: by
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
-[[nodiscard]] std::optional<ContactChange> corner_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
+[[nodiscard]] std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
 
 /// Those of the closed contacts whose gap is none: made where the state is, or next to rigid.
 std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed);

@@ -94,7 +94,7 @@ void Continuation::take_up(Equilibrium at, const Resume& resume) {
   at.point.label.clear();
   at.point.stability.critical = 0;
   from.at_contact = resume.label.starts_with("contact:"), from.singular = event.has_value();
-  for (const Watch& w : options_.watches) from.sides.push_back(resume.label.starts_with(w.name + ":") ? 0 : w.side(at.point.state));
+  for (const UserEvent& w : options_.user_events) from.sides.push_back(resume.label.starts_with(w.name + ":") ? 0 : w.side(at.point.state));
   from.at = std::move(at);
   set_out(std::move(from), {resume.direction, resume.load}, resume.step, resume.shortest);
 }
@@ -127,10 +127,10 @@ void Continuation::show(Waypoint waypoint) {
     else emit(waypoint.at.point);
   }
   for (const Event& event : waypoint.events)
-    if (event.kind == EventKind::watch && options_.watches[event.watch].stop)
+    if (event.kind == EventKind::user && options_.user_events[event.user_event].stop)
       return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, load));
   for (Event& event : waypoint.events)
-    if (event.kind != EventKind::watch && !goes_on_behind(event)) return;
+    if (event.kind != EventKind::user && !goes_on_behind(event)) return;
   if (!waypoint.events.empty()) return;
   emit(waypoint.at.point);
   if (!arcs()) return;
@@ -218,7 +218,7 @@ bool Continuation::snap(std::string& why) {
   const double at = last.point.state.load_factor, target = static_cast<const LoadSteps&>(*steps_).goal();
   State state = last.point.state;
   newton_.energy().kinematics().prescribe(state, target);
-  if (newton_.energy().passage(last.point.state, state) < 1) return false;
+  if (newton_.energy().collision_free_step(last.point.state, state) < 1) return false;
   const double before = newton_.energy().value(state);
   const Report report = newton_.minimise(state, Pace::downhill);
   if (!report.converged()) why = fmt::format("; and no minimum was found beyond, at load factor {:.10g}: {}", target, report.why);

@@ -9,7 +9,7 @@ namespace elamin {
 /// The continuation driver: one branch by load steps or in arc length (options.method), and the branches that it snaps to. It tells the
 /// points and labelled events, and decides what comes after an event: the end, the same branch, or a snap.
 ///
-/// A branch ends where the load factor reaches `to`, at a watch that stops, where it cannot be followed any further; in arc length also where
+/// A branch ends where the load factor reaches `to`, at a user event that stops, where it cannot be followed any further; in arc length also where
 /// the load factor leaves [lowest, highest] (default: from − 2 (to − from) to `to`), at a branch point of the diagram that it was not sent from,
 /// where it closes to a loop, or after most_points; by load steps at a limit point that it is to follow.
 /// when_unstable: follow goes on; stop ends where stability is lost; jump snaps to the next minimum there and goes on from

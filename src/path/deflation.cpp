@@ -41,11 +41,11 @@ class Deflation {
       // (M H + g ∇Mᵀ) d = −M g:  d = τ p,  τ = 1 / (1 − ∇(log M)·p)   (Sherman & Morrison).
       const double tau = 1 / (1 - slope(state).dot(p));
       p *= std::isfinite(tau) ? tau : 1.0;
-      const double turn = distortion(energy_, state, p);
-      const double part = std::min(1.0, deflation::largest_turn / std::max(turn, 1e-300));
+      const double rotation = distortion(energy_, state, p);
+      const double part = std::min(1.0, deflation::largest_rotation / std::max(rotation, 1e-300));
       State next = state;
       energy_.kinematics().retract(next, p, part);
-      if (const double free = energy_.passage(state, next); free < 1) {
+      if (const double free = energy_.collision_free_step(state, next); free < 1) {
         next = state;
         energy_.kinematics().retract(next, p, part * free);
       }
@@ -126,10 +126,10 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
         for (const double way : {0.02, -0.02, 0.3, -0.3}) {
           if (count == options.deflate) break;
           const Vector& v = pairs.vectors.col(m);
-          const double turn = distortion(energy, base, v);
+          const double rotation = distortion(energy, base, v);
           State guess = base;
-          energy.kinematics().retract(guess, v, way / std::max(turn, 1e-300));
-          if (energy.passage(base, guess) < 1) continue;
+          energy.kinematics().retract(guess, v, way / std::max(rotation, 1e-300));
+          if (energy.collision_free_step(base, guess) < 1) continue;
           std::optional<Equilibrium> e = deflation.find(guess);
           if (!e) continue;
           ++count;

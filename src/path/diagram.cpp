@@ -1,6 +1,6 @@
 #include "path/continuation.hpp"
 #include "path/deflation.hpp"
-#include "path/held_steps.hpp"
+#include "path/hard_contact_steps.hpp"
 #include "path/path.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ class Diagram final : public Path {
  public:
   Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options) {
     if (any_hard(newton.energy().model())) {
-      now_ = std::make_unique<HeldSteps>(newton, start, options, &numbering());
+      now_ = std::make_unique<HardContactSteps>(newton, start, options, &numbering());
       if (options.branches > 0 || options.deflate > 0 || options.method == PathMethod::arc_length)
         note("with hard contacts a path goes by load steps, without switching branches and without deflation");
       options_.branches = options_.deflate = 0;
@@ -71,7 +71,7 @@ class Diagram final : public Path {
       newton_.energy().evaluate(event.at.point.state);
       metric_ = metric_for(newton_.energy(), event.at, options_.to - options_.from);
       const ArcOptions a = arc_options(options_);
-      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_, a.load_step, a.turn);
+      const std::vector<SideBranch> sides = side_branches(newton_, event, metric_, a.load_step, a.rotation);
       if (sides.empty()) note(fmt::format("{}: no side branch was found", event.at.point.label));
       for (const SideBranch& side : sides) waiting_.push_back({switched_, side});
       ++switched_;

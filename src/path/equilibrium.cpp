@@ -106,7 +106,7 @@ bool name_zero_modes(Energy& energy, Equilibrium& e) {
 
 // Single particles and bodies that no stiffness holds: one that flies is named as such, one that slides or spins on a plane by
 // direction.
-void name_idle(const Energy& energy, std::vector<std::string>& names) {
+void name_null_dofs(const Energy& energy, std::vector<std::string>& names) {
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
   const auto entity_of = [&](int dof) {
@@ -114,18 +114,18 @@ void name_idle(const Energy& energy, std::vector<std::string>& names) {
     return body < 0 ? site : model.particles() + body;
   };
   std::size_t left_out = 0;
-  const std::vector<int>& idle = energy.idle();
+  const std::vector<int>& idle = energy.null_dofs();
   for (std::size_t k = 0; k < idle.size();) {
     const int e = entity_of(idle[k]), body = is_body(model, e) ? e - model.particles() : -1;
     std::array<std::string, 2> along;                            // places, turns
     int without_stiffness = 0, free = 0;
     for (; k < idle.size() && entity_of(idle[k]) == e; ++k, ++without_stiffness) {
-      std::string& axes = along[kinematics.is_turn(kinematics.site_of(idle[k]))];
+      std::string& axes = along[kinematics.is_rotation(kinematics.site_of(idle[k]))];
       axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[kinematics.coordinate_of(idle[k])]);
     }
     for (int c = 0; c < 3; ++c) {
       free += kinematics.dof(body < 0 ? e : kinematics.place_of(body), c) >= 0;
-      if (body >= 0) free += kinematics.dof(kinematics.turn_of(body), c) >= 0;
+      if (body >= 0) free += kinematics.dof(kinematics.rotation_of(body), c) >= 0;
     }
     const auto tell = [&](std::string name) {
       if (names.size() >= equilibrium::most_names) ++left_out;
@@ -175,8 +175,8 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   if (!state.hard.empty()) {                                    // what moves keeps the hard contacts closed
     ContactEquilibrium held(energy);
     const Inertia inertia = held.inertia(state);
-    s.negative = s.negative_rigid = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
-    name_idle(energy, s.zero_modes);
+    s.negative = s.negative_rigid = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.null_dofs().size());
+    name_null_dofs(energy, s.zero_modes);
     if (inertia.zero > 0) e.zero_modes = held.lowest(state, inertia.negative + inertia.zero).vectors.rightCols(inertia.zero);
     const bool named = inertia.zero == 0 || name_zero_modes(energy, e);
     s.critical = named ? 0 : inertia.zero;
@@ -187,8 +187,8 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   Inertia inertia = newton.factors().inertia();
   const bool slack = energy.slack() && may_touch(energy.model()) && !attracts(energy.model());
   if (slack) inertia.zero += inertia.negative, inertia.negative = 0;            // what forces that are none make of it
-  s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.idle().size());
-  name_idle(energy, s.zero_modes);
+  s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.null_dofs().size());
+  name_null_dofs(energy, s.zero_modes);
   bool named = true;
   if (inertia.zero > 0) {
     const EigenPairs lowest = newton.factors().lowest(inertia.negative + inertia.zero);
@@ -240,16 +240,16 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     return failed;
   };
   // A contact that hardly touches yields without end to the tangent: then the prediction is cut short of what is in its way.
-  if (const double part = energy.passage(start, predicted); part < 1) {
-    if (energy.passage(start, driven) < 1) return fail(driven, {}, "the step would carry something through something else");
+  if (const double part = energy.collision_free_step(start, predicted); part < 1) {
+    if (energy.collision_free_step(start, driven) < 1) return fail(driven, {}, "the step would carry something through something else");
     predicted = driven;
     kinematics.retract(predicted, from.tangent, part * (load_factor - start.load_factor));
-    if (energy.passage(start, predicted) < 1) predicted = driven;
+    if (energy.collision_free_step(start, predicted) < 1) predicted = driven;
   }
   State state = predicted;
   if (from.slack && !correct) {
     Report pushed = push_aside(newton, driven, driven_way(energy, load_factor - start.load_factor), state);
-    if (pushed.converged() && energy.passage(start, state) == 1) return assess(newton, state, pushed);
+    if (pushed.converged() && energy.collision_free_step(start, state) == 1) return assess(newton, state, pushed);
     state = predicted;
   }
   Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
@@ -261,7 +261,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     if (report.converged() && report.negative > 0) report = newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   }
   if (!report.converged()) return fail(state, report);
-  if (energy.passage(start, state) < 1)
+  if (energy.collision_free_step(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   Equilibrium e = assess(newton, state, report);
   // What is beyond a contact that is made need not lie on the tangent of what is before: then the contact comes first.
@@ -405,10 +405,10 @@ Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::Matri
       break;
     }
     if (!told) {                                            // all alike: the one that moves a single coordinate most, the first such
-      const Vector reach = left.rowwise().norm();
-      const double most = reach.maxCoeff();
+      const Vector largest = left.rowwise().norm();
+      const double most = largest.maxCoeff();
       Eigen::Index d = 0;
-      while (reach[d] < (1 - equilibrium::close_values) * most) ++d;
+      while (largest[d] < (1 - equilibrium::close_values) * most) ++d;
       best = left * left.row(d).transpose();
     }
     best.normalize();

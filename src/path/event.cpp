@@ -19,7 +19,7 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& mode
 void store(const ContactSet& closed, Resume& resume) {
   for (const ContactKey& key : closed)
     if (key.feature < 0) resume.closed.push_back({key.particle, key.other, key.wall});
-    else resume.closed_bodies.push_back({key.particle, key.other, key.wall, key.feature, key.reach});
+    else resume.closed_bodies.push_back({key.particle, key.other, key.wall, key.feature, key.within_cutoff});
 }
 
 Resume resume_of(const Event& event, const ContactSet& closed) {
@@ -50,7 +50,7 @@ std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at) 
 ContactSet resumed_contacts(const Resume& resume) {
   ContactSet set;
   for (const auto& [particle, other, wall] : resume.closed) set.insert({particle, other, wall});
-  for (const auto& [particle, other, wall, feature, reach] : resume.closed_bodies) set.insert({particle, other, wall, feature, reach != 0});
+  for (const auto& [particle, other, wall, feature, within_cutoff] : resume.closed_bodies) set.insert({particle, other, wall, feature, within_cutoff != 0});
   return set;
 }
 

@@ -6,7 +6,7 @@ namespace elamin {
 
 /// limit, branch: the equilibrium at which the Hessian is singular, with its critical modes; a limit without a mode: a contact of
 /// bodies at which the stiffness jumps and the load factor turns. contact: a gap that vanishes.
-/// watch: an observable at its value.
+/// user: an observable at its value.
 struct Event {
   EventKind kind = EventKind::branch;
   double at_parameter = 0;             // of the segment that it was found on
@@ -20,7 +20,7 @@ struct Event {
   std::optional<Equilibrium> beyond = {};   // at a contact of bodies: see ContactChange
   int onward = 0;
   std::string what;
-  int watch = -1;                      // which of the options' watches
+  int user_event = -1;                      // which of the options' user_events
 };
 
 /// What a path needs to be taken up behind this event; closed: the contacts from there on.

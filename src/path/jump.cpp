@@ -22,7 +22,7 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
     if (event.kind != EventKind::branch) break;
     State beyond = state;
     energy.kinematics().retract(beyond, event.at.tangent, past - at);
-    const bool found = newton.correct(beyond, event.modes, &event.at.point.state).converged() && energy.passage(event.at.point.state, beyond) == 1;
+    const bool found = newton.correct(beyond, event.modes, &event.at.point.state).converged() && energy.collision_free_step(event.at.point.state, beyond) == 1;
     if (found) state = std::move(beyond);
     if (found || k == jump::most_nearer) break;
   }

@@ -63,7 +63,7 @@ constexpr double next_to_nothing = 1e-6;  // of the next stiffness
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
-constexpr double standing = 1e-6;  // of the step: a corner may be where the branch stands
+constexpr double standing = 1e-6;  // of the step: a kink may be where the branch stands
 }
 
 /// Halving of load steps.
@@ -92,7 +92,7 @@ constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2�
 /// Eigenvalues that vanish.
 namespace locate {
 constexpr int most_iterations = 16;  // of a corrector between two equilibria
-constexpr double held_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
+constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
 constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
 constexpr int more_modes = 2;  // partners of a multiple one, so that a neighbour knows them
 constexpr int most_multiple = 6;  // eigenvalues that vanish together
@@ -107,7 +107,7 @@ constexpr double rounding = 1e-13;  // of the size: of a gap …
 constexpr double exact_rounding = 1e-18;  // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
 constexpr double just_open = 2e-13;  // of the size: a gap that is as good as none, and bears no force
 constexpr double together_in_step = 1e-9;  // … or of its change over the step
-constexpr double beside = 1e-9;  // of the size: where one side of a corner is looked at, …
+constexpr double beside = 1e-9;  // of the size: where one side of a kink is looked at, …
 constexpr double most_beside = 0.05;  // … but no farther than this part of the step …
 constexpr double least_beside = 1e-12;  // … where that is more than rounding, of the size
 constexpr double along_chord = 0.1;  // of the step: beyond its ends, where a gap that vanishes at one of them may be found
@@ -153,13 +153,13 @@ constexpr double no_force = 1e-12;  // of the scale of internal forces
 /// Equilibria that no branch leads to.
 namespace deflation {
 constexpr int most_iterations = 60, most_modes = 4;  // of one search; along which searches begin
-constexpr double largest_turn = 0.3;  // of a bond in one step [rad]
+constexpr double largest_rotation = 0.3;  // of a bond in one step [rad]
 constexpr double same = 1e-6;  // of ρ: states that are one
 constexpr std::size_t most_near = 12;  // states that stand for the branches
 }
 
 /// Paths with hard contacts.
-namespace held_steps {
+namespace hard_contact_steps {
 constexpr int finest = 12;  // halvings of a step
 constexpr int most_changes = 20;  // of contacts at one load factor
 constexpr double beyond_event = 1e-3;  // of the path: where a snap begins …

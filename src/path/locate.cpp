@@ -143,7 +143,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     // At a branch point the equations are regular with the critical modes held where the branch has them.
     Equilibrium e;
-    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, locate::held_together * std::abs(from.f), known);
+    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, locate::vanishing_together * std::abs(from.f), known);
     if (modes.cols() > 0) {
       State state = between(t).state;
       const Report report = segment.settle(state, side_by_side(known, modes));
@@ -195,15 +195,15 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
   return event_at(zero->e, zero->t);
 }
 
-std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::vector<double>& sides, const Segment& segment,
+std::vector<Event> locate_user_events(const std::vector<UserEvent>& user_events, const std::vector<double>& sides, const Segment& segment,
                                   const Equilibrium& a, const Equilibrium& b, int negative, bool& missed) {
   std::vector<Event> first;
   const double together = limits::branch::coincide * std::abs(segment.b - segment.a);
-  for (std::size_t k = 0; k < watches.size(); ++k) {
-    const Watch& w = watches[k];
+  for (std::size_t k = 0; k < user_events.size(); ++k) {
+    const UserEvent& w = user_events[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
     const double there = w.side(b.point.state);
-    if (sides[k] == 0 || std::isnan(sides[k]) || std::isnan(there)) continue;      // not known; or nothing, as a derivative at a corner
+    if (sides[k] == 0 || std::isnan(sides[k]) || std::isnan(there)) continue;      // not known; or nothing, as a derivative at a kink
     if (there != 0 && (sides[k] < 0) == (there < 0)) continue;
     if ((f(a) < 0) != (sides[k] < 0)) continue;                // it changes within rounding of `a`, where it has been told
     std::optional<Event> event = there == 0 ? event_at(b, segment.b) : locate_root(segment, a, b, f);
@@ -211,7 +211,7 @@ std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::
       missed = true;
       continue;
     }
-    event->kind = EventKind::watch, event->watch = static_cast<int>(k), event->what = w.name;
+    event->kind = EventKind::user, event->user_event = static_cast<int>(k), event->what = w.name;
     event->before = event->after = negative;
     const double lead = first.empty() ? 0.0 : event->at_parameter - first.front().at_parameter;
     if (lead > together) continue;
@@ -221,10 +221,10 @@ std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::
   return first;
 }
 
-void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& passed, const State& state, std::vector<double>& sides) {
-  for (std::size_t k = 0; k < watches.size(); ++k) {
-    const auto is = [&](const Event& e) { return e.kind == EventKind::watch && e.watch == static_cast<int>(k); };
-    const double here = watches[k].side(state);
+void pass_user_events(const std::vector<UserEvent>& user_events, const std::vector<Event>& passed, const State& state, std::vector<double>& sides) {
+  for (std::size_t k = 0; k < user_events.size(); ++k) {
+    const auto is = [&](const Event& e) { return e.kind == EventKind::user && e.user_event == static_cast<int>(k); };
+    const double here = user_events[k].side(state);
     if (std::any_of(passed.begin(), passed.end(), is)) sides[k] = -sides[k];
     else if (here != 0) sides[k] = here;                       // at the value without passing it: it stays on its side
   }

@@ -29,14 +29,14 @@ inline Event event_at(const Equilibrium& e, double parameter) {
 [[nodiscard]] std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                  const std::function<double(const Equilibrium&)>& f);
 
-/// The watches whose observables pass their values first on the segment: several where they coincide. sides: of each the sign of
-/// observable − value from `a` on, 0: not known. negative: the Morse index from `a` on. `missed`: a watch changes its side, but
+/// The user_events whose observables pass their values first on the segment: several where they coincide. sides: of each the sign of
+/// observable − value from `a` on, 0: not known. negative: the Morse index from `a` on. `missed`: a user event changes its side, but
 /// where could not be found.
-std::vector<Event> locate_watches(const std::vector<Watch>& watches, const std::vector<double>& sides, const Segment& segment,
+std::vector<Event> locate_user_events(const std::vector<UserEvent>& user_events, const std::vector<double>& sides, const Segment& segment,
                                   const Equilibrium& a, const Equilibrium& b, int negative, bool& missed);
 
 /// The sides from a point on where `passed` have been met.
-void pass_watches(const std::vector<Watch>& watches, const std::vector<Event>& passed, const State& state, std::vector<double>& sides);
+void pass_user_events(const std::vector<UserEvent>& user_events, const std::vector<Event>& passed, const State& state, std::vector<double>& sides);
 
 /// The branch point that a side branch arrives at between `a` and `b`, where the load factor turns although no eigenvalue
 /// changes sign. `slope`: dλ/ds, which changes sign. On the side branch the equations are singular there; so the place is

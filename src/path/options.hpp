@@ -22,7 +22,7 @@ enum class WhenUnstable {
 };
 
 /// An observable whose reaching of a value is an event, labelled NAME:1, NAME:2, …
-struct Watch {
+struct UserEvent {
   std::string name;
   std::function<double(const State&)> observable;
   double value = 0;
@@ -50,7 +50,7 @@ struct PathOptions {
   int branches = 0;                      // branch points to switch at, both ways
   std::optional<double> lowest = {}, highest = {}; // arc length ends where the load factor leaves these; see ArcLength
   int most_points = 0;                   // on one branch; 0: twenty times `steps`
-  std::vector<Watch> watches = {};
+  std::vector<UserEvent> user_events = {};
   Corrector correct = {};                     // of load steps; none: Newton's method. What is between two steps is Newton's.
   Corrector descend = {};                     // to the minimum that the path begins at; none: Newton's method
   std::optional<Resume> resume = {};          // of the point that the path is taken up at

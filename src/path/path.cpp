@@ -29,7 +29,7 @@ void Path::emit(Event& event) {
     case EventKind::limit: point.label = fmt::format("limit:{}", ++numbering_.limits); break;
     case EventKind::branch: point.label = fmt::format("branch:{}", ++numbering_.branch_points); break;
     case EventKind::contact: point.label = fmt::format("contact:{}", ++numbering_.contacts); break;
-    case EventKind::watch: point.label = fmt::format("{}:{}", event.what, ++numbering_.watches[event.what]); break;
+    case EventKind::user: point.label = fmt::format("{}:{}", event.what, ++numbering_.user_events[event.what]); break;
   }
   point.multiplicity = static_cast<int>(event.modes.cols());
   point.negative_before = event.before, point.negative_after = event.after;

@@ -13,7 +13,7 @@ namespace elamin {
 /// Numbers that run through all branches of a diagram.
 struct Numbering {
   int steps = 0, branches = 0, limits = 0, branch_points = 0, contacts = 0, jumps = 0;
-  std::map<std::string, int> watches;
+  std::map<std::string, int> user_events;
 };
 
 ///   auto path = make_path(newton, start, options);

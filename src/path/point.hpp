@@ -21,7 +21,7 @@ struct Stability {
   bool stable = false;                    // no negative one, and every zero one is named
 };
 
-enum class EventKind { limit, branch, contact, watch };
+enum class EventKind { limit, branch, contact, user };
 
 /// What a path must know beside the state to go on from a point as if it had never stopped.
 struct Resume {
@@ -33,7 +33,7 @@ struct Resume {
   double load = 0;                        // … and its load factor
   double length = 0, step = 0, shortest = 0;   // the metric's L, the next step, the shortest one
   std::vector<std::array<int, 3>> closed; // contacts from here on: particle, other or −1, wall or −1
-  std::vector<std::array<int, 5>> closed_bodies = {};   // of bodies besides: feature, 1: within reach (see ContactKey)
+  std::vector<std::array<int, 5>> closed_bodies = {};   // of bodies besides: feature, 1: within the cutoff (see ContactKey)
 };
 
 /// One equilibrium on a path; label "" unless it is an event, "initial" or "final".

@@ -27,7 +27,7 @@ Report push_aside(Newton& newton, const State& from, double way, State& state) {
   Cholesky factor;
   int version = -1;
   double least = std::numeric_limits<double>::infinity();
-  const int patience = push::patience + std::min(push::most_in_row, static_cast<int>(energy.loose().size()));
+  const int patience = push::patience + std::min(push::most_in_row, static_cast<int>(energy.unbonded_dofs().size()));
   for (int since = 0; report.iterations < push::most_iterations + patience && since < patience; ++report.iterations) {
     energy.evaluate(state);
     const Vector moved = kinematics.difference(from, state), force = energy.gradient() + ground * moved;
@@ -36,7 +36,7 @@ Report push_aside(Newton& newton, const State& from, double way, State& state) {
     if (energy.slack()) since = 0, least = std::numeric_limits<double>::infinity();
     else since = left < least / 2 ? 0 : since + 1, least = std::min(least, left);
     SparseMatrix h = energy.hessian();
-    for (const int d : energy.idle()) h.valuePtr()[h.outerIndexPtr()[d]] = 0;             // the ground holds them
+    for (const int d : energy.null_dofs()) h.valuePtr()[h.outerIndexPtr()[d]] = 0;             // the ground holds them
     if (version != energy.pattern_version()) factor.analyze(h), version = energy.pattern_version();
     ++report.factorizations;
     if (!factor.factorize(h, ground)) return report;
@@ -55,7 +55,7 @@ Report push_aside(Newton& newton, const State& from, double way, State& state) {
     do {
       next = state;
       kinematics.retract(next, step, part);
-      if (const double free = energy.passage(state, next); free < 1) {
+      if (const double free = energy.collision_free_step(state, next); free < 1) {
         next = state;
         kinematics.retract(next, step, part *= push::freely * free);
       }

@@ -23,8 +23,8 @@ struct Beside {
 
 class Switch {
  public:
-  Switch(Newton& newton, const Event& event, const Metric& metric, double load_step, double turn)
-      : newton_(newton), event_(event), metric_(metric), load_step_(load_step), turn_(turn) {}
+  Switch(Newton& newton, const Event& event, const Metric& metric, double load_step, double rotation)
+      : newton_(newton), event_(event), metric_(metric), load_step_(load_step), rotation_(rotation) {}
 
   /// The equilibrium at amplitude a along a unit vector of the critical modes, others held or not.
   Report at(State& state, const Vector& along, double amplitude, const Eigen::MatrixXd& others) const {
@@ -43,7 +43,7 @@ class Switch {
   void hold(const Eigen::MatrixXd& family) { family_ = family; }
 
   /// A bond turned by one radian, or a particle moved by its diameter, is amplitude one over this.
-  double turn(const Vector& along) const {
+  double rotation(const Vector& along) const {
     const double t = distortion(newton_.energy(), event_.at.point.state, along);
     return t > 0 ? t : movement(newton_.energy(), along);
   }
@@ -51,7 +51,7 @@ class Switch {
   /// The longest amplitude along a mode, other modes held, at which the load factor has changed by no more than a step: λ(a) is taken
   /// as a parabola.
   double amplitude(const Vector& along, const Eigen::MatrixXd& others) const {
-    double a = turn_ / turn(along);
+    double a = rotation_ / rotation(along);
     for (int k = 0; k < 12; ++k) {
       State state;
       const Report report = at(state, along, a, others);
@@ -89,14 +89,14 @@ class Switch {
     const Vector moved = kinematics().difference(event_.at.point.state, state);
     const double change = state.load_factor - event_.at.point.state.load_factor;
     if ((moved - change * event_.at.tangent).norm() < 0.1 * moved.norm()) return false;
-    return kinematics().difference(event_.at.point.state, state).norm() <= 2 * a && newton_.energy().passage(event_.at.point.state, state) == 1;
+    return kinematics().difference(event_.at.point.state, state).norm() <= 2 * a && newton_.energy().collision_free_step(event_.at.point.state, state) == 1;
   }
   const Kinematics& kinematics() const { return newton_.energy().kinematics(); }
   const Eigen::MatrixXd& zero() const { return event_.at.zero_modes; }
   Newton& newton_;
   const Event& event_;
   Metric metric_;
-  double load_step_, turn_;
+  double load_step_, rotation_;
   Eigen::MatrixXd family_;
 };
 
@@ -144,8 +144,8 @@ Eigen::MatrixXd neutral(const Beside& side, const Eigen::MatrixXd& modes, const 
 
 }  // namespace
 
-std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double turn) {
-  Switch s(newton, branch_point, metric, load_step, turn);
+std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double rotation) {
+  Switch s(newton, branch_point, metric, load_step, rotation);
   const Eigen::MatrixXd& modes = branch_point.modes;
   std::vector<Vector> rays_found;
   Eigen::MatrixXd family(modes.rows(), 0);

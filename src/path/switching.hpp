@@ -20,8 +20,8 @@ struct SideBranch {
 /// where the force along the circle vanishes; of directions that are images of each other by symmetry (the same load
 /// factor and the same energy at the same distance) one, both ways. Where the second mode costs nothing on the branch along the first
 /// one, the branch is one of a family at the same load factors: it is neutral, and the first one stands for all.
-/// The amplitude a of the first step keeps λ(a) − λ(0) within `load_step`, and the rotation of a bond within `turn` (rad). What could
+/// The amplitude a of the first step keeps λ(a) − λ(0) within `load_step`, and the rotation of a bond within `rotation` (rad). What could
 /// not be found is left out.  Source: Keller 1977; Allgower & Georg 1990, ch. 8.
-std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double turn);
+std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point, const Metric& metric, double load_step, double rotation);
 
 }  // namespace elamin

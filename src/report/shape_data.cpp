@@ -219,7 +219,7 @@ Json structure_data(const Model& model, const std::vector<RunStage>& stages) {
   j["supports"] = Json::array(), j["loads"] = Json::array();
   for (const Support& s : model.supports)
     j["supports"].push_back({{"group", s.group}, {"particles", s.particles}, {"held", names(s.held)}, {"bodies", s.bodies},
-                             {"turns", names(s.turns_held)}});
+                             {"turns", names(s.constrained_rotations)}});
   for (const Load& l : model.loads) {
     Field force(3, static_cast<Eigen::Index>(l.particles.size()));
     for (std::size_t k = 0; k < l.particles.size(); ++k) force.col(static_cast<Eigen::Index>(k)) = l.on(k);

@@ -11,11 +11,11 @@ namespace {
 
 AngleField field_of(const CosineAngle& law, const Points<3>& x, bool reversed, const std::optional<int>& normal) {
   const CosineAngle::Bending b = law.bending(x);
-  AngleField f{b.turn, b.curvature, b.moment, b.moment * b.axis};
+  AngleField f{b.angle, b.curvature, b.moment, b.moment * b.axis};
   if (reversed) f.moment_vector = -f.moment_vector;
   if (!normal) return f;
   const double sign = (b.axis[*normal] < 0) != reversed ? -1 : 1;
-  f.turn *= sign, f.curvature *= sign, f.moment *= sign;
+  f.angle *= sign, f.curvature *= sign, f.moment *= sign;
   return f;
 }
 
@@ -117,11 +117,11 @@ std::vector<std::pair<std::string, Table>> field_tables(const Model& model, cons
   }
   if (!bonds.rows.empty()) all.emplace_back(".bonds.csv", std::move(bonds));
 
-  Table angles{{"first", "middle", "third", "turn", "curvature", "moment", "mx", "my", "mz"}, {}};
+  Table angles{{"first", "middle", "third", "angle", "curvature", "moment", "mx", "my", "mz"}, {}};
   for (std::size_t a = 0; a < fields.angles.size(); ++a) {
     const auto& p = model.angles[a].particles;
     const AngleField& f = fields.angles[a];
-    Row row{model.id[p[0]], model.id[p[1]], model.id[p[2]], f.turn, f.curvature, f.moment};
+    Row row{model.id[p[0]], model.id[p[1]], model.id[p[2]], f.angle, f.curvature, f.moment};
     add_components(row, f.moment_vector);
     angles.rows.push_back(std::move(row));
   }

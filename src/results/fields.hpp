@@ -16,13 +16,13 @@ struct BondField {
   double tension = 0;           // N = ∂U/∂r [force]; negative: compression
 };
 
-/// See CosineAngle::bending. Turn, curvature and moment: in a plane with the sign of a turn about its normal from the first bond to the
-/// second, else that of a turn further away from straight.
+/// See CosineAngle::bending. Angle, curvature and moment: in a plane with the sign of a rotation about its normal from the first bond to the
+/// second, else that of a rotation further away from straight.
 struct AngleField {
-  double turn = 0;              // φ [rad]; 0: straight
+  double angle = 0;             // φ [rad]; 0: straight
   double curvature = 0;         // φ over the mean length of the two bonds [1/length]
   double moment = 0;            // M = ∂U/∂φ = −∂U/∂θ [force·length]
-  Vec3 moment_vector = Vec3::Zero();   // M about the axis of the turn: that of what is behind the angle on what is before it
+  Vec3 moment_vector = Vec3::Zero();   // M about the axis of the rotation: that of what is behind the angle on what is before it
 };
 
 struct Fields {

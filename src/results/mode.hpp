@@ -15,7 +15,7 @@ struct Mode {
 /// Motion and turn of a body in a field over sites: [length], [rad].
 Eigen::Matrix<double, 6, 1> body_motion(const Model& model, const Field& sites, int body);
 
-/// The state moved along the mode, so far that what moves most (turns in units of the body's reach) moves a tenth of the smallest
+/// The state moved along the mode, so far that what moves most (turns in units of the body's bounding radius) moves a tenth of the smallest
 /// diameter.
 State moved_along(const Mode& mode, const Model& model, const State& state);
 

@@ -174,7 +174,7 @@ void Observables::hold_supports() {
   };
   for (const Support& s : model_.supports) {
     for (const int i : s.particles) hold(i, s.held);
-    for (const int b : s.bodies) hold(model_.particles() + 2 * b, s.held), hold(model_.particles() + 2 * b + 1, s.turns_held);
+    for (const int b : s.bodies) hold(model_.particles() + 2 * b, s.held), hold(model_.particles() + 2 * b + 1, s.constrained_rotations);
   }
 }
 

@@ -111,7 +111,7 @@ PathRates::Steps PathRates::steps(const State& state, const Tangent& t) {
   const auto of_entity = [&](int e) {
     if (!is_body(model, e)) return v.col(e).norm();
     const int body = e - model.particles();
-    return v.col(kinematics.place_of(body)).norm() + v.col(kinematics.turn_of(body)).norm();
+    return v.col(kinematics.place_of(body)).norm() + v.col(kinematics.rotation_of(body)).norm();
   };
   for (const Touch& touch : energy.touches(state)) {
     const double closing = of_entity(touch.particle) + (touch.other >= 0 ? of_entity(touch.other) : of_wall(touch.wall));

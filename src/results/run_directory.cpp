@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "model/entities.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 #include "path/arc.hpp"
 #include "results/body_picture.hpp"
 #include "results/columns.hpp"
@@ -43,7 +43,7 @@ ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& p
   std::vector<std::string> all;
   const auto add = [&](const std::string& data) {
     if (data.empty()) return;
-    for (const std::string& file : {data, tail_file(data), bodies_file(data)}) all.push_back(file);
+    for (const std::string& file : {data, supplement_file(data), bodies_file(data)}) all.push_back(file);
   };
   add(problem.path.start);
   if (problem.lammps) add(problem.lammps->data), add(problem.lammps->bodies);
@@ -100,9 +100,9 @@ void RunDirectory::add_state(const std::string& label, const PathPoint& point, c
 void RunDirectory::add_point(const std::string& name, const std::string& called, const PathPoint& point) {
   const State& state = point.state;
   add_state_file(name, model_, state, fmt::format("{}; load factor {:.17g}", called, state.load_factor));
-  StateTail stored{state.load_factor, state.tail, stage_, {}, stored_poses(state)};
+  StateSupplement stored{state.load_factor, state.low, stage_, {}, stored_poses(state)};
   if (point.resume) stored.path = StoredPath{varied_, rising_, *point.resume};
-  write_text(results_.file(name + ".json"), tail_text(stored));
+  write_text(results_.file(name + ".json"), supplement_text(stored));
   add_picture(name, state, called);
 }
 
@@ -133,11 +133,11 @@ void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) 
   if (moment.label.empty()) return;
   const State& state = moment.motion.state;
   Model moving = model_;
-  moving.velocity = moment.motion.velocity, moving.spin = moment.motion.spin;
+  moving.velocity = moment.motion.velocity, moving.angular_velocity = moment.motion.angular_velocity;
   moving.body_velocity = moment.motion.body_velocity, moving.angular_momentum = moment.motion.angular_momentum;
   const std::string name = state_name(moment.label);
   add_state_file(name, moving, state, fmt::format("{}; time {:.17g}", moment.label, moment.motion.time));
-  write_text(results_.file(name + ".json"), tail_text({state.load_factor, state.tail, {}, {}, stored_poses(state)}));
+  write_text(results_.file(name + ".json"), supplement_text({state.load_factor, state.low, {}, {}, stored_poses(state)}));
   add_picture(name, state, moment.label);
   add_contacts(contacts_, moment.label, state, touches);
 }

@@ -52,7 +52,7 @@ class RunDirectory {
   bool has_film() const { return static_cast<bool>(film_); }
   void add_to_film(const Shot& shot) { film_.add(shot); }
 
-  /// states/LABEL.data with LABEL.json (see input/state_tail.hpp), of bodies a picture LABEL.vtk, and every closed contact
+  /// states/LABEL.data with LABEL.json (see input/state_supplement.hpp), of bodies a picture LABEL.vtk, and every closed contact
   /// (gap < 0, or it attracts; at an event also what just touches) as a row of contacts.csv: label, lambda, first (id of the
   /// particle or body), second (id of the other one, or the wall's name), gap, force (its magnitude), fx, fy, fz (on the first), x, y, z (of contact). The label stands for the
   /// point's own.

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "lammps/data.hpp"
 #include "lammps/state.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -195,12 +195,12 @@ State read_state(const StoredState& stored, const Model& model) {
     LammpsData bodies = read_lammps_data(bodies_file(stored.file));
     data.bodies = std::move(bodies.bodies), data.body_position = std::move(bodies.body_position);
   }
-  const auto tail = read_tail(stored.file);
-  want(data.id == model.id && data.bodies.size() == model.bodies.size() && (model.bodies.empty() || tail), stored.file);
+  const auto supplement = read_supplement(stored.file);
+  want(data.id == model.id && data.bodies.size() == model.bodies.size() && (model.bodies.empty() || supplement), stored.file);
   State state(std::move(data.position));
-  if (tail) state.load_factor = tail->load_factor;
+  if (supplement) state.load_factor = supplement->load_factor;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    state.bodies.push_back({{data.body_position.col(static_cast<Eigen::Index>(b)), Vec3::Zero()}, tail->bodies[b].rotation});
+    state.bodies.push_back({{data.body_position.col(static_cast<Eigen::Index>(b)), Vec3::Zero()}, supplement->bodies[b].rotation});
   return state;
 }
 

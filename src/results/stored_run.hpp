@@ -37,7 +37,7 @@ StoredRun read_run(const std::string& directory);
 /// it is neither.
 std::vector<std::string> runs_in(const std::string& directory);
 
-/// Positions, poses and load factor of a stored state of this model (see input/state_tail.hpp); without tails. Throws InputError if
+/// Positions, poses and load factor of a stored state of this model (see input/state_supplement.hpp); without tails. Throws InputError if
 /// the file cannot be understood or holds other particles.
 State read_state(const StoredState& stored, const Model& model);
 

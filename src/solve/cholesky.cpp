@@ -61,7 +61,8 @@ struct Cholesky::Cholmod {
 Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()) {}
 Cholesky::~Cholesky() = default;
 
-void Cholesky::analyze(const SparseMatrix& pattern) {
+void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders) {
+  assert(borders == 0);
   const Timed timed(seconds_);
   const OneThread one;
   cholmod_->release();
@@ -72,7 +73,8 @@ void Cholesky::analyze(const SparseMatrix& pattern) {
   if (!cholmod_->factor) throw std::runtime_error("CHOLMOD: the analysis of the pattern failed (out of memory?)");
 }
 
-bool Cholesky::factorize(const SparseMatrix& hessian, double shift) {
+bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unused]] const Eigen::MatrixXd& borders) {
+  assert(borders.cols() == 0);
   if (hessian.cols() == 0) return true;
   assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   const Timed timed(seconds_);
@@ -101,7 +103,6 @@ Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) {
 }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) { return solve(CHOLMOD_A, b); }
-Vector Cholesky::solve(const Vector& b) { return solve(CHOLMOD_A, b).col(0); }
 Vector Cholesky::root(const Vector& b) { return solve(CHOLMOD_Pt, solve(CHOLMOD_Lt, b)).col(0); }
 Vector Cholesky::root_transposed(const Vector& b) { return solve(CHOLMOD_L, solve(CHOLMOD_P, b)).col(0); }
 

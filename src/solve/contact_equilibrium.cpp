@@ -113,7 +113,7 @@ double ContactEquilibrium::worst_gap(const State& state) const {
 
 // With `changing` the load factor moves by δ so that its gap or force vanishes:  p = p₀ + δ p₁, Δf = f₀ + δ f₁, where p₀, f₀ leave the
 // load factor as it is and p₁, f₁ are the tangent.
-Report ContactEquilibrium::newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held,
+Report ContactEquilibrium::newton(State& state, double tolerance, const State* from, double step_bound, const Eigen::MatrixXd& held,
                                   const HardForce* changing) {
   const Stopwatch watch;
   std::size_t place = 0;                                        // of `changing` among the closed ones
@@ -168,13 +168,13 @@ Report ContactEquilibrium::newton(State& state, double tolerance, const State* f
       step.p += change * by_load.p, step.force += change * by_load.force;
     }
     if (!step.p.allFinite() || !std::isfinite(change)) return end(Status::not_converged, "the equations have no solution");
-    const double turn = distortion(energy_, state, step.p);
-    const double part = std::min({1.0, 0.3 / std::max(turn, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
+    const double rotation = distortion(energy_, state, step.p);
+    const double part = std::min({1.0, 0.3 / std::max(rotation, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
     previous = state, from = &previous;
     if (changing) energy_.kinematics().prescribe(state, state.load_factor + part * change);
     energy_.kinematics().retract(state, step.p, part);
     moved = part * infinity_norm(step.p);
-    if (energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > reach) return end(Status::not_converged, too_far);
+    if (energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > step_bound) return end(Status::not_converged, too_far);
     for (std::size_t k = 0; k < gaps_.size(); ++k) state.hard[k].force += part * step.force[static_cast<Eigen::Index>(k)];
   }
 }
@@ -218,8 +218,8 @@ Report ContactEquilibrium::slide(State& state, const State& origin, const Vector
     const double change = -step.border / by_load.border;
     step.p += change * by_load.p, step.force += change * by_load.force;
     if (!step.p.allFinite() || !std::isfinite(change)) break;
-    const double turn = distortion(energy_, state, step.p, change);
-    const double part = std::min({1.0, 0.3 / std::max(turn, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
+    const double rotation = distortion(energy_, state, step.p, change);
+    const double part = std::min({1.0, 0.3 / std::max(rotation, 1e-300), 0.5 / std::max(movement(energy_, step.p), 1e-300)});
     previous = state, from = &previous;
     energy_.kinematics().prescribe(state, state.load_factor + part * change);
     energy_.kinematics().retract(state, step.p, part);
@@ -238,17 +238,17 @@ double ContactEquilibrium::curvature(const State& state, const Vector& mode, con
   return -solve(Vector::Zero(mode.size()), Vector::Zero(static_cast<Eigen::Index>(gaps_.size())), 1).border;
 }
 
-Report ContactEquilibrium::correct(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held) {
+Report ContactEquilibrium::correct(State& state, double tolerance, const State* from, double step_bound, const Eigen::MatrixXd& held) {
   const State start = state;
   Report total;
   const Stopwatch watch;
   for (int change = 0;; ++change) {
-    Report report = settle(state, tolerance, change == 0 ? from : nullptr, reach, held);
+    Report report = settle(state, tolerance, change == 0 ? from : nullptr, step_bound, held);
     total.iterations += report.iterations, total.evaluations += report.evaluations, total.factorizations += report.factorizations;
     total.history.insert(total.history.end(), report.history.begin(), report.history.end());
     total.status = report.status, total.why = report.why, total.energy = report.energy, total.residual = report.residual;
     total.seconds = watch.seconds();
-    if (report.converged() && energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > reach)
+    if (report.converged() && energy_.kinematics().displacement(start, state).cwiseAbs().maxCoeff() > step_bound)
       total.status = Status::not_converged, total.why = too_far;
     if (!total.converged()) return total;
     const double slightest = std::max(tolerance, 64 * epsilon) * energy_.force_scale();

@@ -22,10 +22,10 @@ class ContactEquilibrium {
 
   /// The stationary point with these contacts closed, forces of any sign. Not converged if the steps do not shrink. `from`: where a
   /// prediction led here from (see Energy::evaluate).
-  /// `reach`: how far coordinates may move [length]. Directions in the columns of `held` (orthonormal, dofs × any number) keep their
+  /// `step_bound`: how far coordinates may move [length]. Directions in the columns of `held` (orthonormal, dofs × any number) keep their
   /// value: motions that cost nothing. Ends as close as rounding allows, once the residual is below the tolerance.
-  [[nodiscard]] Report settle(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {}) {
-    return newton(state, tolerance, from, reach, held, nullptr);
+  [[nodiscard]] Report settle(State& state, double tolerance, const State* from = nullptr, double step_bound = anywhere, const Eigen::MatrixXd& held = {}) {
+    return newton(state, tolerance, from, step_bound, held, nullptr);
   }
 
   /// The same where a contact changes: the load factor is an unknown too, and what is zero there is the force of `changing`, if it is
@@ -45,7 +45,7 @@ class ContactEquilibrium {
 
   /// The same, and the right contacts: those that would pull are let go, those that would overlap are taken in, until no gap is
   /// negative and no force either, within rounding; State::hard then holds those that bear a force.
-  [[nodiscard]] Report correct(State& state, double tolerance, const State* from = nullptr, double reach = anywhere, const Eigen::MatrixXd& held = {});
+  [[nodiscard]] Report correct(State& state, double tolerance, const State* from = nullptr, double step_bound = anywhere, const Eigen::MatrixXd& held = {});
 
   /// Numbers of eigenvalues below zero and at zero of the Hessian of L among the motions that keep the closed gaps: stability, to
   /// second order.
@@ -69,7 +69,7 @@ class ContactEquilibrium {
 
  private:
   struct Step { Vector p, force; double border = 0; };         // of the last of the directions held
-  [[nodiscard]] Report newton(State& state, double tolerance, const State* from, double reach, const Eigen::MatrixXd& held, const HardForce* changing);
+  [[nodiscard]] Report newton(State& state, double tolerance, const State* from, double step_bound, const Eigen::MatrixXd& held, const HardForce* changing);
   void linearise(const State& state, const State* from, const Eigen::MatrixXd& held = {});
   [[nodiscard]] bool factorize(double shift);
   [[nodiscard]] bool factorize_near(double shift);

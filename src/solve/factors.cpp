@@ -20,22 +20,16 @@ Factors::Factors(Energy& energy) : energy_(energy) {
         if (energy.kinematics().dof(p, c) >= 0) stiffest_ = std::max(stiffest_, 2 * model.bond_types[b.type].stiffness);
 }
 
-PivotedFactor& Factors::pivoted() {
-  if (!pivoted_) pivoted_ = std::make_unique<PivotedFactor>();
-  return *pivoted_;
-}
-
-bool Factors::try_cholesky(double shift) {
+template <class F> bool Factors::attempt(Analysed<F>& in, double shift, const Eigen::MatrixXd& borders) {
   ++factorizations_;
-  if (std::exchange(cholesky_version_, energy_.pattern_version()) != energy_.pattern_version()) cholesky_.analyze(energy_.hessian());
-  return cholesky_.factorize(energy_.hessian(), shift);
+  if (in.version != energy_.pattern_version() || in.borders != borders.cols()) {
+    in.factor.analyze(energy_.hessian(), static_cast<int>(borders.cols()));
+    in.version = energy_.pattern_version(), in.borders = borders.cols();
+  }
+  return in.factor.factorize(energy_.hessian(), shift, borders);
 }
-
-bool Factors::try_pivoted(double shift) {
-  ++factorizations_;
-  if (std::exchange(pivoted_version_, energy_.pattern_version()) != energy_.pattern_version()) pivoted().analyze(energy_.hessian());
-  return pivoted().factorize(energy_.hessian(), shift);
-}
+template bool Factors::attempt(Analysed<Cholesky>&, double, const Eigen::MatrixXd&);
+template bool Factors::attempt(Analysed<PivotedFactor>&, double, const Eigen::MatrixXd&);
 
 // The pivoted factor of H + shift I, or with a shift a little larger where that is singular to rounding itself.
 bool Factors::pivot_near(double first, double next) {
@@ -51,38 +45,27 @@ std::string Factors::why_none() const {
   return "";
 }
 
-bool Factors::factorize_beside(const Eigen::MatrixXd& held, std::unique_ptr<PivotedFactor>& factor, int& version, Eigen::Index& borders) {
-  ++factorizations_;
-  if (!factor) factor = std::make_unique<PivotedFactor>();
-  if (version != energy_.pattern_version() || borders != held.cols()) {
-    factor->analyze(energy_.hessian(), static_cast<int>(held.cols()));
-    version = energy_.pattern_version(), borders = held.cols();
-  }
-  return first_shift(0, zero_level(), 2, [&](double shift) { return factor->factorize(energy_.hessian(), shift, held); }).has_value();
+bool Factors::pivot_beside(Analysed<PivotedFactor>& in, const Eigen::MatrixXd& held) {
+  return first_shift(0, zero_level(), 2, [&](double shift) { return attempt(in, shift, held); }).has_value();
 }
 
 bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
   assert(held.cols() == 0 || held.rows() == energy_.dofs());
+  holder_ = nullptr, resolved_ = false;
   if (held.cols() > 0) {
-    holder_ = factorize_beside(held, bordered_, bordered_version_, borders_) ? Holder::bordered : Holder::none;
+    if (pivot_beside(bordered_, held)) holder_ = &bordered_.factor;
   } else if (!indefinite_ && try_cholesky(0)) {
-    holder_ = Holder::cholesky;
-  } else {
-    holder_ = pivot_near(0, zero_level()) ? Holder::pivoted : Holder::none;
+    holder_ = &cholesky_.factor;
+  } else if (pivot_near(0, zero_level())) {
+    holder_ = &pivoted_.factor;
   }
-  return holder_ != Holder::none;
+  return holder_ != nullptr;
 }
 
 Vector Factors::solve_holding(const Vector& b) {
   assert(b.size() == energy_.dofs());
-  switch (holder_) {
-    case Holder::none: return Vector::Zero(b.size());
-    case Holder::cholesky: return cholesky_.solve(b);
-    case Holder::pivoted: return pivoted().solve(b);
-    case Holder::resolved: return solve_resolved(b);
-    case Holder::bordered: break;
-  }
-  return bordered_->solve(b);
+  if (resolved_) return solve_resolved(b);
+  return holder_ ? holder_->solve(b) : Vector(Vector::Zero(b.size()));
 }
 
 Factors::Bordered Factors::solve_bordered(const Vector& column, const Vector& row, double corner, const Vector& b, double beta) {
@@ -156,7 +139,7 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
   Vector values = Vector::Zero(block), before;
   const int settle = 3, most = 200;
   for (int k = 0; k < most && !interrupted(); ++k) {
-    x = orthonormal(cholesky_.solve(x));
+    x = orthonormal(cholesky().solve(x));
     before = values;
     values = rotate_to_ritz(energy_, x);
     const double change = (values - before).head(count).cwiseAbs().maxCoeff();

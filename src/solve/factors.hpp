@@ -67,31 +67,35 @@ class Factors {
   struct Bordered { Vector p; double delta; };
   Bordered solve_bordered(const Vector& column, const Vector& row, double corner, const Vector& b, double beta);
 
-  Cholesky& cholesky() { return cholesky_; }
-  PivotedFactor& pivoted();
+  Cholesky& cholesky() { return cholesky_.factor; }
+  PivotedFactor& pivoted() { return pivoted_.factor; }
   int factorizations() const { return factorizations_; }
   /// Time spent in analyses, factorisations and solves so far.
   double seconds() const {
-    return cholesky_.seconds() + (pivoted_ ? pivoted_->seconds() : 0.0) + (bordered_ ? bordered_->seconds() : 0.0) +
-           (beside_ ? beside_->seconds() : 0.0);
+    return cholesky_.factor.seconds() + pivoted_.factor.seconds() + bordered_.factor.seconds() + beside_.factor.seconds();
   }
-  [[nodiscard]] bool try_cholesky(double shift);
-  [[nodiscard]] bool try_pivoted(double shift);
+  [[nodiscard]] bool try_cholesky(double shift) { return attempt(cholesky_, shift); }
+  [[nodiscard]] bool try_pivoted(double shift) { return attempt(pivoted_, shift); }
 
  private:
+  /// A factorisation, and the pattern of the Hessian and the number of borders that it has analysed.
+  template <class F> struct Analysed {
+    F factor;
+    int version = -1;
+    Eigen::Index borders = 0;
+  };
+  template <class F> [[nodiscard]] bool attempt(Analysed<F>& in, double shift, const Eigen::MatrixXd& borders = {});
   [[nodiscard]] bool pivot_near(double first, double next);
-  [[nodiscard]] bool factorize_beside(const Eigen::MatrixXd& held, std::unique_ptr<PivotedFactor>& factor, int& version, Eigen::Index& borders);
+  [[nodiscard]] bool pivot_beside(Analysed<PivotedFactor>& in, const Eigen::MatrixXd& held);
   using Solve = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
-  [[nodiscard]] std::optional<Eigen::MatrixXd> soft_modes(double reach, const Solve& solve);
+  [[nodiscard]] std::optional<Eigen::MatrixXd> soft_modes(double bound, const Solve& solve);
   [[nodiscard]] std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
   Vector solve_resolved(const Vector& b);
   double smallest();
   Energy& energy_;
   double stiffest_ = 0;                          // bond with a free end [force/length]
-  Cholesky cholesky_;
-  std::unique_ptr<PivotedFactor> pivoted_, bordered_, beside_;  // made when first needed
-  int cholesky_version_ = -1, pivoted_version_ = -1, bordered_version_ = -1, beside_version_ = -1;   // of the pattern that was analysed
-  Eigen::Index borders_ = 0, beside_borders_ = 0;   // of bordered_, beside_
+  Analysed<Cholesky> cholesky_;
+  Analysed<PivotedFactor> pivoted_, bordered_, beside_;
   int factorizations_ = 0;
   struct Near {                                  // of the last inertia that needed it, as in inertia.cpp
     Eigen::MatrixXd x, w, r, t;                  // X, H⊥⁻¹R, R, T
@@ -99,7 +103,8 @@ class Factors {
     Solve outside;                               // H⊥⁻¹, or near to it
   } near_;
   bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first
-  enum class Holder { none, cholesky, pivoted, bordered, resolved } holder_ = Holder::cholesky;   // of the factor of factorize_holding
+  Factorization* holder_ = nullptr;              // the factor of factorize_holding; none: solutions are zero, or …
+  bool resolved_ = false;                        // … those of solve_resolved
 };
 
 }  // namespace elamin

@@ -65,9 +65,9 @@ class Curvature {
 
 }  // namespace
 
-// The eigenvectors to eigenvalues within ± reach, near enough to span them, by block inverse iteration with a factor near zero; none if
+// The eigenvectors to eigenvalues within ± bound, near enough to span them, by block inverse iteration with a factor near zero; none if
 // there are too many.
-std::optional<Eigen::MatrixXd> Factors::soft_modes(double reach, const Solve& solve) {
+std::optional<Eigen::MatrixXd> Factors::soft_modes(double bound, const Solve& solve) {
   const int n = energy_.dofs();
   for (int block = std::min(n, 6);; block = std::min(n, 2 * block)) {
     Eigen::MatrixXd x = starting_block(n, block);
@@ -76,13 +76,13 @@ std::optional<Eigen::MatrixXd> Factors::soft_modes(double reach, const Solve& so
     for (int k = 0; k < limits::most_rounds && !interrupted(); ++k) {
       x = orthonormal(solve(x));
       values = rotate_to_ritz(energy_, x);
-      inside = (values.array().abs() <= reach).count();
+      inside = (values.array().abs() <= bound).count();
       if (std::exchange(before, inside) == inside && k >= limits::least_rounds) break;
     }
     if (inside < block || block == n) {
       Eigen::MatrixXd soft(n, inside);
       for (Eigen::Index j = 0, k = 0; j < block; ++j)
-        if (std::abs(values[j]) <= reach) soft.col(k++) = x.col(j);
+        if (std::abs(values[j]) <= bound) soft.col(k++) = x.col(j);
       return soft;
     }
     if (block >= limits::most_doubtful || interrupted()) return {};
@@ -97,15 +97,15 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   constexpr double part = 1 / limits::doubtful;                 // to which the second-order term is known
   int below = 0;
   if (positive) {
-    const Eigen::MatrixXd y = cholesky_.solve(x);
+    const Eigen::MatrixXd y = cholesky().solve(x);
     near_.outside = [this, x, y, within = Eigen::MatrixXd(x.transpose() * y)](const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
-      const Eigen::MatrixXd z = cholesky_.solve(b);
+      const Eigen::MatrixXd z = cholesky().solve(b);
       return z - y * solved(within, x.transpose() * z);
     };
   } else {
-    if (!factorize_beside(x, beside_, beside_version_, beside_borders_)) return {};
-    below = beside_->negative() - static_cast<int>(x.cols());
-    near_.outside = [this](const Eigen::MatrixXd& b) { return beside_->solve(b); };
+    if (!pivot_beside(beside_, x)) return {};
+    below = beside_.factor.negative() - static_cast<int>(x.cols());
+    near_.outside = [this](const Eigen::MatrixXd& b) { return beside_.factor.solve(b); };
   }
   const double out_of_balance = energy_.gradient().norm();
   const Curvature curvature(energy_);
@@ -113,7 +113,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   for (int k = 0;; ++k) {
     const Eigen::Index m = x.cols();
     Eigen::MatrixXd s(m, m), r(x.rows(), m), w(x.rows(), m);
-    Vector size(m), turn(m);
+    Vector size(m), bend(m);
     for (Eigen::Index j = 0; j < m; ++j) {
       r.col(j) = energy_.multiply(x.col(j));
       for (Eigen::Index i = 0; i <= j; ++i) {
@@ -121,7 +121,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
         s(i, j) = s(j, i) = form.value;
         if (i == j) size[j] = form.size;
       }
-      turn[j] = curvature.of(x.col(j));
+      bend[j] = curvature.of(x.col(j));
     }
     r -= x * s;
     r -= x * (x.transpose() * r);
@@ -131,7 +131,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     const EigenPairs small = symmetric_eigen(s - second);
     const Eigen::MatrixXd& v = small.vectors;
     const Eigen::MatrixXd weight = v.cwiseAbs2().transpose();
-    const Vector of_forms = limits::form_rounding * epsilon * (weight * size), rounding = of_forms + 2 * out_of_balance * (weight * turn);
+    const Vector of_forms = limits::form_rounding * epsilon * (weight * size), rounding = of_forms + 2 * out_of_balance * (weight * bend);
     const Vector unknown = (v.transpose() * second * v).diagonal().cwiseAbs();
     const Vector error = rounding + part * unknown;
     const Vector& t = small.values;
@@ -152,22 +152,23 @@ Inertia Factors::inertia() {
   const double sigma = zero_level();
   const Inertia unknown{0, energy_.dofs()};
   if (energy_.dofs() == 0) return {};
-  const auto by_cholesky = [&](const Eigen::MatrixXd& b) { return cholesky_.solve(b); };
+  const auto by_cholesky = [&](const Eigen::MatrixXd& b) { return cholesky().solve(b); };
   const auto by_pivoted = [&](const Eigen::MatrixXd& b) { return pivoted().solve(b); };
   std::optional<Eigen::MatrixXd> soft;
   bool looked = false, positive = false;
   const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * energy_.gradient().norm() * Curvature(energy_).largest()); };
+  resolved_ = false;
   if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
-    holder_ = Holder::pivoted;
-    const double reach = doubtful();
-    if (smallest() > 2 * reach) return {pivoted().negative(), 0};                       // the factor stays for solutions
-    soft = soft_modes(reach, by_pivoted), looked = true;
+    holder_ = &pivoted();
+    const double bound = doubtful();
+    if (smallest() > 2 * bound) return {pivoted().negative(), 0};                       // the factor stays for solutions
+    soft = soft_modes(bound, by_pivoted), looked = true;
   }
   if (!looked) {
     indefinite_ = false;
-    holder_ = Holder::cholesky;
+    holder_ = &cholesky();
     if (try_cholesky(-sigma)) return {};
-    holder_ = Holder::none;
+    holder_ = nullptr;
     if ((positive = try_cholesky(sigma))) soft = soft_modes(doubtful(), by_cholesky);
     else if (pivot_near(0, sigma)) soft = soft_modes(doubtful(), by_pivoted);
     else return unknown;
@@ -175,19 +176,19 @@ Inertia Factors::inertia() {
   Inertia inertia;
   if (soft && soft->cols() == 0) {
     if (!pivot_near(0, sigma)) return unknown;
-    holder_ = Holder::pivoted;
+    holder_ = &pivoted();
     inertia.negative = pivoted().negative();
   } else if (soft) {
     const std::optional<Inertia> resolved = resolve(*soft, positive);
     if (!resolved) return unknown;
     inertia = *resolved;
-    holder_ = Holder::resolved;
+    resolved_ = true;
   } else {                                                      // too many: what a factor cannot tell is zero
     if (!pivot_near(sigma, 1.5 * sigma)) return unknown;
     inertia.negative = pivoted().negative();
     if (!pivot_near(-sigma, -1.5 * sigma)) return unknown;
     inertia.zero = std::max(0, pivoted().negative() - inertia.negative);
-    holder_ = Holder::pivoted;
+    holder_ = &pivoted();
   }
   indefinite_ = inertia.negative > 0;
   return inertia;
@@ -208,7 +209,7 @@ double Factors::smallest() {
 
 // |H|⁻¹ b with |T| for T, its zero eigenvalues held; after inertia(), where that resolved them.
 std::optional<Vector> Factors::solve_convex(const Vector& b) {
-  if (holder_ != Holder::resolved) return {};
+  if (!resolved_) return {};
   const EigenPairs t = symmetric_eigen(near_.t);
   Vector y = near_.outside(b);
   y -= near_.x * (near_.x.transpose() * y);

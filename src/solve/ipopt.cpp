@@ -94,7 +94,7 @@ void run(Energy& energy, ContactEquilibrium& equilibrium, State& state, const Ip
       report.status = Status::interrupted, report.why = "interrupted";
       return;
     }
-    if (problem->stale() && idle < limits::ipopt::most_idle && report.iterations < options.max_iterations) continue;
+    if (problem->stale() && idle < limits::ipopt::most_rounds_without_gain && report.iterations < options.max_iterations) continue;
     report.status = Status::not_converged;
     report.why = problem->escaped().empty()
                      ? told(status)
@@ -118,7 +118,7 @@ bool is_equilibrium(Energy& energy, ContactEquilibrium& equilibrium, State& stat
 // Off a saddle, along the motion of lowest curvature that keeps the closed contacts; so far that this is not its rounding.
 void leave_saddle(Energy& energy, ContactEquilibrium& equilibrium, State& state) {
   const Vector v = equilibrium.lowest(state, 1).vectors.col(0);
-  const double part = std::min(limits::ipopt::turn / std::max(distortion(energy, state, v), 1e-300), limits::ipopt::way / std::max(movement(energy, v), 1e-300));
+  const double part = std::min(limits::ipopt::rotation / std::max(distortion(energy, state, v), 1e-300), limits::ipopt::way / std::max(movement(energy, v), 1e-300));
   energy.kinematics().retract(state, v, part);
 }
 

@@ -206,7 +206,7 @@ bool IpoptProblem::settle() {
   report_.evaluations += found.evaluations, report_.factorizations += found.factorizations;
   differentiated_ = false;
   const bool saddle = found.converged() && !near.hard.empty() && memory_.close > 1e-8 && equilibrium_.inertia(near).negative > 0;
-  const bool good = found.converged() && !saddle && (near.hard.empty() || energy_.passage(state_, near) == 1);
+  const bool good = found.converged() && !saddle && (near.hard.empty() || energy_.collision_free_step(state_, near) == 1);
   if (good) {
     state_ = near;
     report_.energy = found.energy, report_.residual = found.residual;
@@ -225,15 +225,15 @@ bool IpoptProblem::move(const Number* y, bool renewed) {
   arrived_ = to.allFinite();
   if (!arrived_) return free_ = false;
   step_ = to;
-  at_.position = origin_.position, at_.tail = origin_.tail, at_.bodies = origin_.bodies;
+  at_.position = origin_.position, at_.low = origin_.low, at_.bodies = origin_.bodies;
   energy_.kinematics().retract(at_, step_, length_);
   return free_ = energy_.kinematics().displacement(origin_, at_).colwise().norm().maxCoeff() <= freedom_ && passes();
 }
 
 // Whether nothing is in the way from a state that was accepted: the last one, or one that Ipopt has gone back to.
 bool IpoptProblem::passes() const {
-  if (energy_.passage(state_, at_) == 1) return true;
-  return std::any_of(trail_.begin(), trail_.end(), [&](const State& s) { return energy_.passage(s, at_) == 1; });
+  if (energy_.collision_free_step(state_, at_) == 1) return true;
+  return std::any_of(trail_.begin(), trail_.end(), [&](const State& s) { return energy_.collision_free_step(s, at_) == 1; });
 }
 
 bool IpoptProblem::differentiate(const Number* y, bool renewed) {

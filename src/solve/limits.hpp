@@ -34,7 +34,7 @@ constexpr double hold_zero_modes = 100;
 constexpr double least_pressed = 1e-6;
 
 /// Newton's steps. Bonds turn by so much at most in one [rad]: the series of cos and sin are good to one part in a hundred there.
-constexpr double largest_turn = 0.3;
+constexpr double largest_rotation = 0.3;
 /// Part of the predicted decrease that must come true (Nocedal & Wright 2006, §3.1, with room for what contacts add).
 constexpr double armijo = 0.1;
 /// Simplified Newton corrections that bend one step back; each must shrink to this part of the one before, or the step is too long.
@@ -64,8 +64,8 @@ constexpr int packing = 20, newton_alone = 50;
 /// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor: overlaps shrink to a fifth.
 constexpr double wanted_overlap = 0.01, stiffer = 10;
 /// The longest step, of the smallest diameter: less than takes a grain past another one.
-constexpr double settling_reach = 0.3;
-/// The least shift that is tried, of the one that keeps a step within reach where nothing else resists.
+constexpr double settling_step = 0.3;
+/// The least shift that is tried, of the one that keeps a step within bounds where nothing else resists.
 constexpr double least_shift = 1e-3;
 /// Steps that are refused in a row, each a quarter of the one before, until a descent is given up; and steps of one descent.
 constexpr int most_refused = 40, most_settling = 5000;
@@ -99,7 +99,7 @@ constexpr double rounding_of_rates = 1e-9;
 
 namespace ipopt {
 /// Runs in a row that do not get anywhere; saddles that may be left; steps that Ipopt may take back.
-constexpr int most_idle = 5, most_saddles = 10;
+constexpr int most_rounds_without_gain = 5, most_saddles = 10;
 constexpr std::size_t most_watched = 10;
 /// What Ipopt takes for no bound.
 constexpr double unbounded = 2e19;
@@ -108,7 +108,7 @@ constexpr int patience = 10;
 /// Of the length scale: what Newton's method may move in the end; what one run may move where there are hard walls.
 constexpr double near_by = 0.1, wide = 8;
 /// A saddle is left so far that this is not its rounding: by such a rotation of bonds [rad], by such a part of a diameter.
-constexpr double turn = 1e-2, way = 1e-2;
+constexpr double rotation = 1e-2, way = 1e-2;
 /// What Newton's method may move from a state that may be the equilibrium already, of the smallest diameter.
 constexpr double in_place = 1e-3;
 }  // namespace ipopt
@@ -120,7 +120,7 @@ constexpr std::size_t most_entries = 4000;
 /// A change of energy is worth looking at where it is so many times its rounding: its derivative has five digits then.
 constexpr double seen = 1e5;
 /// Rounds in a row without gain.
-constexpr int most_idle = 3;
+constexpr int most_rounds_without_gain = 3;
 /// Dofs up to which a column beyond buckling was found within a minute: dense matrices, simplices, models of the energy, boxes.
 constexpr int dense = 500, simplex = 10, quadratic = 60, global = 12;
 }  // namespace nlopt

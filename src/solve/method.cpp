@@ -33,7 +33,7 @@ int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
     if (energy.relative(energy.gradient()) <= 4 * epsilon) return k;
     State next = state;
     energy.kinematics().retract(next, factors.cholesky().solve(energy.gradient()), -1);
-    if (energy.passage(state, next) < 1) return k;
+    if (energy.collision_free_step(state, next) < 1) return k;
     energy.evaluate(next, false);
     ++report.evaluations;
     if (!(energy.relative(energy.gradient()) <= report.residual / 2)) return k;
@@ -47,7 +47,7 @@ Report by_what_works(Newton& newton, State& state) {
   const Model& model = newton.energy().model();
   const bool presses = std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.effective_modulus > 0; }) ||
                        std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& w) { return w.effective_modulus > 0; });
-  const int loose = presses && model.bodies.empty() ? loose_grains(newton.energy()) : 0;
+  const int loose = presses && model.bodies.empty() ? unbonded_grains(newton.energy()) : 0;
   if (loose >= limits::packing) return settle(newton, state, limits::most_settling);
   State settled = state;
   const Report report = newton.minimise(state, Pace::long_steps, loose > 0 ? limits::newton_alone : std::numeric_limits<int>::max());

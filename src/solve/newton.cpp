@@ -88,7 +88,7 @@ void Newton::polish(State& state, Report& report, const std::function<void(State
 
 Report Newton::minimise(State& state, Pace pace, int most) {
   const Effort effort(factors_);
-  Descent descent{.pace = pace, .most = most, .reach = extent_};
+  Descent descent{.pace = pace, .most = most, .step_bound = extent_};
   std::optional<Halt> halt;
   while (!(halt = iterate(state, descent))) ++descent.report.iterations;
   effort.tell(descent.report);
@@ -119,7 +119,7 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
     return {};
   }
   if (settled) return Halt{Status::not_converged, "a saddle could not be left along its negative curvature"};
-  std::optional<Step> step = step_within(descent.reach, g, descent.shift);
+  std::optional<Step> step = step_within(descent.step_bound, g, descent.shift);
   if (!step) return without_factor();
   if (!resolve_softest(g, descent.shift, *step)) return without_factor();
   return advance(state, descent, std::move(*step));
@@ -156,8 +156,8 @@ bool Newton::is_minimum(State& state, Descent& descent) {
 
 // How far the state may go along a step, before anything is asked of the energy.
 Newton::Part Newton::part_of(const State& state, const Step& step) const {
-  const double turn = part_within_turn(state, step.p), free = free_part(state, step.p, turn);
-  return {turn * free, free};
+  const double rotation = part_within_rotation(state, step.p), free = free_part(state, step.p, rotation);
+  return {rotation * free, free};
 }
 
 // Takes as much of the step as goes down, halving it; where rounding hides the energy's change and the Hessian itself is convex, Newton's step
@@ -191,8 +191,8 @@ std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step
           descent.report.residual)};
   }
   descent.moved = alpha * infinity_norm(step.p);
-  descent.reach = part.free < 0.5 ? std::min(descent.reach, 2 * part.first * infinity_norm(step.p))
-                                  : std::min(std::max(descent.reach, 4 * descent.moved), extent_);
+  descent.step_bound = part.free < 0.5 ? std::min(descent.step_bound, 2 * part.first * infinity_norm(step.p))
+                                  : std::min(std::max(descent.step_bound, 4 * descent.moved), extent_);
   descent.previous = state;
   descent.linearised = descent.pace != Pace::downhill;
   state = next;
@@ -201,11 +201,11 @@ std::optional<Newton::Halt> Newton::advance(State& state, Descent& descent, Step
 
 // Contacts of bodies open and close on the way: a shorter step, bent to where they are stiff, instead of a small part of a long one.
 std::optional<Newton::Step> Newton::shorter_step(const State& state, Descent& descent, const Step& step, double alpha) {
-  descent.reach = alpha * infinity_norm(step.p);
+  descent.step_bound = alpha * infinity_norm(step.p);
   energy_.evaluate(state, true, {.from = descent.from()});
   steady_bodies(energy_, step.g);
   if (!factors_.make_positive_from(descent.shift)) return {};
-  return step_within(descent.reach, step.g, descent.shift);
+  return step_within(descent.step_bound, step.g, descent.shift);
 }
 
 Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* from, int most, Plane* plane) {
@@ -261,7 +261,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const std::size_t k = sizes.size() - 1;
     if (!step.p.allFinite() || !std::isfinite(step.delta) || (k >= 4 && !(sizes[k] < sizes[k - 2])))
       return end(Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", report.residual));
-    const double turn = part_within_turn(state, step.p, step.delta), alpha = turn * free_part(state, step.p, turn);
+    const double rotation = part_within_rotation(state, step.p, step.delta), alpha = rotation * free_part(state, step.p, rotation);
     moved = alpha * infinity_norm(step.p);
     previous = state;
     from = &previous;

@@ -97,7 +97,7 @@ class Newton {
   struct Descent {
     Pace pace;
     int most;                    // iterations
-    double reach;                // of a step, as far as the last ones could be taken [length]
+    double step_bound;                // of a step, as far as the last ones could be taken [length]
     double shift = 0;            // the last one: a guess for the next [force/length]
     double pressed = 1;          // part of what compression takes that the last indefinite Hessian was taken without: a guess, too
     bool eased = false;          // the last step was one without compression; …
@@ -125,10 +125,10 @@ class Newton {
   std::optional<Halt> must_halt(const State& state, const Report& report, int most) const;
   std::optional<Halt> no_factor() const;
   Halt without_factor() const;
-  double part_within_turn(const State& state, const Vector& p, double load_change = 0) const;
+  double part_within_rotation(const State& state, const Vector& p, double load_change = 0) const;
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
-  [[nodiscard]] std::optional<Step> step_within(double reach, const Vector& g, double& shift);
+  [[nodiscard]] std::optional<Step> step_within(double step_bound, const Vector& g, double& shift);
   [[nodiscard]] bool resolve_softest(const Vector& g, double shift, Step& step);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
   [[nodiscard]] bool comes_nearer(const Step& step, double alpha);

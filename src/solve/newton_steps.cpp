@@ -23,10 +23,10 @@ bool pushed(const EigenPairs& lowest, const Vector& g) {
 
 }  // namespace
 
-// The part of p that one step may take: turns within reach, nothing longer than the whole …
-double Newton::part_within_turn(const State& state, const Vector& p, double load_change) const {
+// The part of p that one step may take: rotations within bounds, nothing longer than the whole …
+double Newton::part_within_rotation(const State& state, const Vector& p, double load_change) const {
   constexpr double tiny = std::numeric_limits<double>::min();
-  return std::min({1.0, limits::largest_turn / std::max(distortion(energy_, state, p, load_change), tiny),
+  return std::min({1.0, limits::largest_rotation / std::max(distortion(energy_, state, p, load_change), tiny),
                    extent_ / std::max(infinity_norm(p), tiny)});
 }
 
@@ -34,7 +34,7 @@ double Newton::part_within_turn(const State& state, const Vector& p, double load
 double Newton::free_part(const State& state, const Vector& p, double part) const {
   State to = state;
   energy_.kinematics().retract(to, p, part);
-  return energy_.passage(state, to);
+  return energy_.collision_free_step(state, to);
 }
 
 // The step with the factor of H + shift I at hand, from the last evaluation.
@@ -72,7 +72,7 @@ bool Newton::take_long(const State& from, const Step& step, double alpha, State&
   if (!std::isfinite(change)) return false;
   if (step.hidden(alpha)) return comes_nearer(step, alpha);
   const double wanted = limits::armijo * step.predicted(alpha);
-  return change <= wanted || change - energy_.unpredicted(to, from) <= wanted;
+  return change <= wanted || change - energy_.residual_energy(to, from) <= wanted;
 }
 
 // Downhill the energy itself must fall; simplified Newton corrections across the step bend it back that stretched the structure, until
@@ -87,7 +87,7 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
     const bool falls = std::isfinite(change) && (!step.hidden(alpha) ? change <= limits::armijo * step.predicted(alpha)
                                                  : step.leaves      ? energy_.gradient().dot(step.p) < 0
                                                                     : comes_nearer(step, alpha));
-    if (falls && (k == 0 || energy_.passage(from, to) == 1)) fallen = to;
+    if (falls && (k == 0 || energy_.collision_free_step(from, to) == 1)) fallen = to;
     Vector correction;
     bool on = std::isfinite(change) && k < limits::most_corrections && !(fallen && step.leaves);
     if (on) {
@@ -150,12 +150,12 @@ std::optional<double> Newton::make_convex(State& state, const Vector& g, Descent
   return factors_.make_positive_from(lowest.values[0] < 0 ? std::min(-2 * lowest.values[0], *positive) : *positive);
 }
 
-// The Newton step, with a shift τ so large that no dof moves by more than about `reach`: along a direction that has a force
+// The Newton step, with a shift τ so large that no dof moves by more than about `step_bound`: along a direction that has a force
 // but hardly a stiffness, as of a grain that must slide, the step would be of no use however it is cut.
-std::optional<Newton::Step> Newton::step_within(double reach, const Vector& g, double& shift) {
+std::optional<Newton::Step> Newton::step_within(double step_bound, const Vector& g, double& shift) {
   Step step = newton_step(g, shift);
-  while (infinity_norm(step.p) > 2 * reach) {
-    const std::optional<double> stiffer = factors_.make_positive_from(std::max(4 * shift, infinity_norm(g) / (4 * reach)), 4);
+  while (infinity_norm(step.p) > 2 * step_bound) {
+    const std::optional<double> stiffer = factors_.make_positive_from(std::max(4 * shift, infinity_norm(g) / (4 * step_bound)), 4);
     if (!stiffer) return {};
     step = newton_step(g, shift = *stiffer);
   }
@@ -179,7 +179,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   energy_.evaluate(state);
   if (!factors_.make_positive_from(-2 * energy_.quadratic_form(direction) / direction.squaredNorm())) return false;
   Step step;
-  const double turn = distortion(energy_, state, direction), unit = turn > 0 ? turn : movement(energy_, direction);
+  const double rotation = distortion(energy_, state, direction), unit = rotation > 0 ? rotation : movement(energy_, direction);
   if (!(unit > 0)) return false;
   step.p = direction / unit;
   step.g = energy_.gradient();
@@ -189,7 +189,7 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
   step.leaves = true;
   if (!(step.curvature < 0)) return false;
-  const double farthest = free_part(state, step.p, limits::largest_turn) * limits::largest_turn;
+  const double farthest = free_part(state, step.p, limits::largest_rotation) * limits::largest_rotation;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;

@@ -25,7 +25,7 @@ using Optimiser = std::unique_ptr<nlopt_opt_s, Destroy>;
 
 NloptSearch::NloptSearch(Newton& newton, const State& start, const NloptOptions& options, Report& report)
     : newton_(newton), energy_(newton.energy()), options_(options), report_(report), base_(start), best_(start),
-      reach_(extent(newton.energy().model())), most_evaluations_(options.max_evaluations) {}
+      extent_(extent(newton.energy().model())), most_evaluations_(options.max_evaluations) {}
 
 void NloptSearch::end(Status status, std::string why) { report_.status = status, report_.why = std::move(why); }
 
@@ -51,8 +51,8 @@ std::optional<double> NloptSearch::factorise(const Vector& g) {
   } else if (shift && *shift > 0) {
     shift = factors.make_positive_from(100 * sigma);
   }
-  while (shift && infinity_norm(factors.cholesky().solve(g)) > 2 * reach_)
-    shift = factors.make_positive_from(std::max(4 * *shift, infinity_norm(g) / (4 * reach_)));
+  while (shift && infinity_norm(factors.cholesky().solve(g)) > 2 * extent_)
+    shift = factors.make_positive_from(std::max(4 * *shift, infinity_norm(g) / (4 * extent_)));
   return shift;
 }
 
@@ -112,10 +112,10 @@ double NloptSearch::value(const Vector& z, double* gradient) {
   ++looks_;
   if (must_stop()) nlopt_force_stop(running_);
   const Vector move = z.allFinite() ? step(z) : z;
-  if (!move.allFinite() || infinity_norm(move) > 4 * reach_) return barred(z, gradient);   // farther than everything there is
+  if (!move.allFinite() || infinity_norm(move) > 4 * extent_) return barred(z, gradient);   // farther than everything there is
   State next = base_;
   energy_.kinematics().retract(next, move);
-  if (energy_.passage(whole_space_ ? base_ : best_, next) < 1) return barred(z, gradient);
+  if (energy_.collision_free_step(whole_space_ ? base_ : best_, next) < 1) return barred(z, gradient);
   energy_.evaluate(next, false);
   ++report_.evaluations;
   const double total = energy_.last_terms().total();
@@ -165,7 +165,7 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
   whole_space_ = false, most_evaluations_ = options_.max_evaluations;
   most_looks_ = derivatives ? (options_.precondition ? 100 : 2000) : 200 + 100 * n;
   patience_ = !derivatives ? 20 + 20 * n : options_.precondition ? 30 : 500;
-  const double far = limits::lost * reach_;
+  const double far = limits::lost * extent_;
   for (int idle = 0, rounds = 0;; ++rounds) {
     energy_.evaluate(best_);
     ++report_.evaluations;
@@ -181,7 +181,7 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
     if (report_.evaluations >= options_.max_evaluations)
       return end(Status::not_converged, fmt::format("{} evaluations were not enough for {}; the residual is {:.2g}", options_.max_evaluations,
                                                     algorithm.name, report_.residual));
-    if (idle >= limits::nlopt::most_idle)
+    if (idle >= limits::nlopt::most_rounds_without_gain)
       return end(Status::not_converged, fmt::format("{} gains nothing more; the residual stays at {:.2g}", algorithm.name, report_.residual));
     if (!begin_round(idle > 0)) {
       const std::string why = newton_.factors().why_none();

@@ -56,7 +56,7 @@ class NloptSearch {
   double length_ = 1;              // of a variable, where they are not preconditioned
   double unit_ = 1;                // e [energy]
   double base_energy_ = 0, base_residual_ = 0, best_value_ = 0, best_residual_ = 0, worst_ = 0;
-  double shift_ = 0, reach_ = 0;
+  double shift_ = 0, extent_ = 0;
   Vector base_slope_;              // γ₀
   bool from_forces_ = false;
   bool whole_space_ = false;       // a small residual is not yet the end

@@ -109,8 +109,6 @@ bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const E
 
 int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
 
-Vector PivotedFactor::solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
-
 Eigen::MatrixXd PivotedFactor::solve(const Eigen::MatrixXd& b) {
   if (b.size() == 0) return b;
   assert(b.rows() <= mumps_->id.n);

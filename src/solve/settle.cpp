@@ -33,10 +33,10 @@ double first_part(const Energy& energy, const State& state) {
   Energy outside(alone);
   outside.evaluate(state, false);
   double force = 0, modulus = 0, size = 0;
-  for (const int d : energy.loose()) force += std::abs(outside.gradient()[d]), size = std::max(size, model.diameter[energy.kinematics().site_of(d)]);
+  for (const int d : energy.unbonded_dofs()) force += std::abs(outside.gradient()[d]), size = std::max(size, model.diameter[energy.kinematics().site_of(d)]);
   for (const PairContact& c : model.contacts) modulus = std::max(modulus, c.effective_modulus);
   for (const Wall& w : model.walls) modulus = std::max(modulus, w.effective_modulus);
-  const double layer = force / std::pow(std::max(loose_grains(energy), 1), 2.0 / 3);
+  const double layer = force / std::pow(std::max(unbonded_grains(energy), 1), 2.0 / 3);
   const double part = layer / (modulus * size * size) / std::pow(limits::wanted_overlap, 1.5);
   return std::isfinite(part) && part > 0 ? std::min(part, 1.0) : 1.0;
 }
@@ -45,7 +45,7 @@ double first_part(const Energy& energy, const State& state) {
 class Descend {
  public:
   Descend(Energy& energy, Factors& factors, double farthest, Report& report)
-      : energy_(energy), factors_(factors), farthest_(farthest), reach_(farthest), report_(report) {}
+      : energy_(energy), factors_(factors), farthest_(farthest), step_bound_(farthest), report_(report) {}
 
   // Whether the residual gets below the tolerance.
   bool to(State& state, double tolerance, int most) {
@@ -64,12 +64,12 @@ class Descend {
  private:
   // The smallest shift, of a short list that begins below the last one, with which H + τI is positive definite and the step within reach.
   bool shifted_step(const Vector& g, Vector& p) {
-    const double stiff = infinity_norm(g) / reach_, least = limits::least_shift * stiff;
+    const double stiff = infinity_norm(g) / step_bound_, least = limits::least_shift * stiff;
     const double first = shift_ / 8 > least ? shift_ / 8 : 0.0;
     for (double shift = first; std::isfinite(shift) && !interrupted(); shift = std::max(4 * shift, least)) {
       if (!factors_.try_cholesky(shift)) continue;
       p = -factors_.cholesky().solve(g);
-      if (!p.allFinite() || infinity_norm(p) > 2 * reach_) continue;
+      if (!p.allFinite() || infinity_norm(p) > 2 * step_bound_) continue;
       shift_ = shift;
       return true;
     }
@@ -90,28 +90,28 @@ class Descend {
     const double change = energy_.last_terms().total() - before;
     const bool hidden = std::abs(predicted) <= rounding;
     if (hidden ? !(infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(g)) : !(change <= limits::armijo * predicted)) {
-      reach_ = length / 4;
+      step_bound_ = length / 4;
       energy_.evaluate(state);
       return false;
     }
     state = std::move(next), moved_ = length;
-    if (change <= predicted / 2) reach_ = std::min(farthest_, std::max(reach_, 2 * length));
-    else if (change > predicted / 4) reach_ = length / 2;
+    if (change <= predicted / 2) step_bound_ = std::min(farthest_, std::max(step_bound_, 2 * length));
+    else if (change > predicted / 4) step_bound_ = length / 2;
     return true;
   }
 
   Energy& energy_;
   Factors& factors_;
   const double farthest_;
-  double reach_, shift_ = 0, moved_ = 0;
+  double step_bound_, shift_ = 0, moved_ = 0;
   Report& report_;
 };
 
 }  // namespace
 
-int loose_grains(const Energy& energy) {
+int unbonded_grains(const Energy& energy) {
   int count = 0, last = -1;
-  for (const int d : energy.loose()) {
+  for (const int d : energy.unbonded_dofs()) {
     const int site = energy.kinematics().site_of(d);
     if (site != last && site < energy.model().particles()) ++count, last = site;
   }
@@ -124,8 +124,8 @@ Report settle(Newton& newton, State& state, int most) {
   const Model& model = energy.model();
   Report report;
   double smallest = std::numeric_limits<double>::infinity();
-  for (const int d : energy.loose()) smallest = std::min(smallest, model.diameter[energy.kinematics().site_of(d)]);
-  const double farthest = limits::settling_reach * smallest, first = first_part(energy, state);
+  for (const int d : energy.unbonded_dofs()) smallest = std::min(smallest, model.diameter[energy.kinematics().site_of(d)]);
+  const double farthest = limits::settling_step * smallest, first = first_part(energy, state);
   const auto descend = [&](Energy& in, Factors& factors) {
     const int before = factors.factorizations();
     const bool there = Descend(in, factors, farthest, report).to(state, newton.tolerance(), most);

@@ -5,7 +5,7 @@
 namespace elamin {
 
 /// How many grains of the model are free and held by no bond: a packing, if they are many.
-int loose_grains(const Energy& energy);
+int unbonded_grains(const Energy& energy);
 
 /// Minimises where contacts of loose grains are far stiffer than what presses on them: with their moduli lowered to where grains overlap by a
 /// hundredth of their size, then tenfold again and again up to what they are, each time from the minimum before; at the end by Newton's method, whose

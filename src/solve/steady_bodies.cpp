@@ -9,9 +9,9 @@ void steady_bodies(Energy& energy, const Vector& g) {
   const Kinematics& kinematics = energy.kinematics();
   SparseMatrix& h = energy.hessian();
   const double force = g.cwiseAbs().maxCoeff();
-  auto idle = energy.idle().begin();
+  auto idle = energy.null_dofs().begin();
   for (int d = 0; d < energy.dofs(); ++d) {
-    if (idle != energy.idle().end() && *idle == d) {
+    if (idle != energy.null_dofs().end() && *idle == d) {
       ++idle;
       continue;
     }

@@ -80,7 +80,7 @@ struct Ran {
   State state;
 };
 
-Ran run(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, double limit) {
+Ran run(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, double limit) {
   Ran ran;
   Compared& row = ran.row;
   row.method = problem.solver.method;
@@ -153,8 +153,8 @@ std::vector<std::string> compared_methods() {
 
 std::vector<Compared> compare(const Problem& problem, const std::vector<std::string>& methods, double limit) {
   const Model model = build_model(problem);
-  std::optional<StateTail> stored;
-  if (!problem.path.start.empty()) stored = read_tail(problem.path.start);
+  std::optional<StateSupplement> stored;
+  if (!problem.path.start.empty()) stored = read_supplement(problem.path.start);
   std::vector<Compared> rows;
   std::optional<Ran> first;                                        // that converged
   for (const std::string& method : methods) {

@@ -30,7 +30,7 @@ std::string shape_lines(const RoundedShape& s) {
   for (const Vec3& v : s.vertices) lo = lo.cwiseMin(v), hi = hi.cwiseMax(v);
   const Vec3 size = hi - lo + Vec3::Constant(2 * s.radius);
   return fmt::format("  {}; extents [{:.10g}, {:.10g}, {:.10g}], reach {:.10g} from the centre of mass, volume {:.10g}\n", corners_of(s), size[0],
-                     size[1], size[2], s.reach(), mass_properties(s).volume);
+                     size[1], size[2], s.bounding_radius(), mass_properties(s).volume);
 }
 
 std::string mass_line(const Body& b) {

@@ -14,7 +14,7 @@ Outcome trace_modes(const Problem& problem, Newton& newton, const Sink& sink);
 /// The `count` lowest modes at an equilibrium that `assess` has just looked at, eigenvalues ascending. Modes that cost
 /// nothing are turned so that those that are rigid motions stand alone and have their name; those of a multiple
 /// eigenvalue so that their choice does not depend on rounding (see canonical_modes). Grains that no stiffness holds
-/// (Energy::idle) are not among them; Stability::zero_modes names them.
+/// (Energy::null_dofs) are not among them; Stability::zero_modes names them.
 std::vector<Mode> lowest_modes(Newton& newton, const Equilibrium& equilibrium, int count);
 
 }  // namespace elamin

@@ -4,8 +4,8 @@
 
 namespace elamin {
 
-std::vector<Watch> watches(const Problem& problem, const Model& model) {
-  std::vector<Watch> all;
+std::vector<UserEvent> user_events(const Problem& problem, const Model& model) {
+  std::vector<UserEvent> all;
   for (const EventTable& e : problem.events)
     for (std::size_t k = 0; k < problem.observe.size(); ++k) {
       if (problem.observe[k].name != e.observable) continue;

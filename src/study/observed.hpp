@@ -6,6 +6,6 @@
 namespace elamin {
 
 /// The [[event]]s of a problem as functions of a state; problem and model must outlive them.
-std::vector<Watch> watches(const Problem& problem, const Model& model);
+std::vector<UserEvent> user_events(const Problem& problem, const Model& model);
 
 }  // namespace elamin

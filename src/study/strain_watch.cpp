@@ -15,7 +15,7 @@ namespace elamin {
 
 namespace {
 
-constexpr double small_strain = 0.1, small_turn = pi / 3;
+constexpr double small_strain = 0.1, small_rotation = pi / 3;
 
 }  // namespace
 
@@ -36,12 +36,12 @@ void StrainWatch::look(const Model& model, const State& state, const std::string
     if (strain_.grows(std::abs(strain), small_strain, where)) bond = b;
   }
   for (std::size_t a = 0; a < angles.size(); ++a) {
-    const double turn = angles[a].bending(points<3>(state, angle_sites(model, model.angles[a]))).turn;
-    const double off = std::abs(std::remainder(turn - (pi - model.angle_types[model.angles[a].type].rest), 2 * pi));
-    if (angles[a].B > 0 && turn_.grows(off, small_turn, where)) angle = a;
+    const double angle_here = angles[a].bending(points<3>(state, angle_sites(model, model.angles[a]))).angle;
+    const double off = std::abs(std::remainder(angle_here - (pi - model.angle_types[model.angles[a].type].rest), 2 * pi));
+    if (angles[a].B > 0 && bend_.grows(off, small_rotation, where)) angle = a;
   }
   if (bond) strain_.whose = called(model, model.bonds[*bond].particles[0]) + " and " + called(model, model.bonds[*bond].particles[1]);
-  if (angle) turn_.whose = called(model, model.angles[*angle].particles[1]);
+  if (angle) bend_.whose = called(model, model.angles[*angle].particles[1]);
 }
 
 std::vector<std::string> StrainWatch::warnings() const {
@@ -52,9 +52,9 @@ std::vector<std::string> StrainWatch::warnings() const {
   if (!strain_.since.empty())
     all.push_back(fmt::format("the bond of {} is strained by {:.3g} at {}, {}; the model means small strains", strain_.whose, strain_.value,
                               strain_.where, since(strain_, "0.1")));
-  if (!turn_.since.empty())
+  if (!bend_.since.empty())
     all.push_back(fmt::format("the angle at {} is bent by {:.0f}° from rest at {}, {}; more particles make the angles of a bend smaller",
-                              turn_.whose, turn_.value * 180 / pi, turn_.where, since(turn_, "60°")));
+                              bend_.whose, bend_.value * 180 / pi, bend_.where, since(bend_, "60°")));
   return all;
 }
 

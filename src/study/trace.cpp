@@ -40,7 +40,7 @@ bool reachable(const Energy& energy, const State& from, const State& to) {
     const double length = (from.at(j) - from.at(i)).hi.norm();
     if (length > 0 && (moved.col(j) - moved.col(i)).norm() > largest_imposed * length) return false;
   }
-  return energy.passage(from, to) >= 1;
+  return energy.collision_free_step(from, to) >= 1;
 }
 
 // The minimum at the load factor, from a state where nothing is imposed yet: supports and walls are brought there in steps
@@ -107,7 +107,7 @@ State starting_state(const Problem& problem, const Energy& energy) {
   return state;
 }
 
-Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
+Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink) {
   if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink);
   if (problem.in_time()) return trace_dynamics(problem, model, sink);
   Energy energy(model);

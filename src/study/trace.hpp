@@ -41,6 +41,6 @@ State starting_state(const Problem& problem, const Energy& energy);
 std::string not_finite(const Energy& energy, const State& state);
 
 /// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from.
-Outcome trace(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink);
+Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink);
 
 }  // namespace elamin

@@ -33,13 +33,13 @@ PathOptions options_of(const Problem& problem, const PathTable& t, const Model& 
           .when_unstable = t.when_unstable.value_or(WhenUnstable::jump), .start = t.start_lambda,
           .stops = stops_of(problem), .limits = locates("limit"), .branch_points = locates("branch"),
           .contacts = locates("contact"), .branches = t.branches, .lowest = t.lowest, .highest = t.highest,
-          .most_points = t.points.value_or(0), .watches = watches(problem, model), .resume = {}, .deflate = t.deflate,
+          .most_points = t.points.value_or(0), .user_events = user_events(problem, model), .resume = {}, .deflate = t.deflate,
           .deflate_at = t.deflate_at.value_or(std::vector<double>{})};
 }
 
 // One stage at work, perhaps one that is taken up where a state was stored.
 struct Run {
-  Run(const Problem& problem, Stage in_force, Model in_stage, const State& start, const std::optional<StateTail>& stored)
+  Run(const Problem& problem, Stage in_force, Model in_stage, const State& start, const std::optional<StateSupplement>& stored)
       : stage(std::move(in_force)), model(std::move(in_stage)), energy(model), newton(energy, solver_options(problem)) {
     PathOptions options = options_of(problem, stage.path, model);
     options.correct = corrector_of(problem, newton);
@@ -51,7 +51,7 @@ struct Run {
 
   // Whether this is the path that the state is of: the same load factor, that scales the same and goes the same way, and the
   // same free coordinates.
-  bool goes_on(const StateTail& stored, const Problem& problem) const {
+  bool goes_on(const StateSupplement& stored, const Problem& problem) const {
     if (!stored.path || stage.path.start_lambda != stored.load_factor) return false;
     if (stored.path->varied != varied(problem, stage) || stored.path->rising != (stage.path.to > stage.path.from)) return false;
     const Resume& r = stored.path->resume;
@@ -156,7 +156,7 @@ class Headway {
 
 }  // namespace
 
-Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateTail>& stored, const Sink& sink) {
+Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink) {
   Stages stages(problem);
   int k = 0;
   if (stored && stored->stage && stages.resume(*stored->stage)) k = stages.next();

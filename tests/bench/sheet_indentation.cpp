@@ -113,7 +113,7 @@ bool same_bits(const double* a, const double* b, Eigen::Index n) { return std::m
 
 bool same_bits(const State& a, const State& b) {
   return same_bits(a.position.data(), b.position.data(), a.position.size()) &&
-         same_bits(a.tail.data(), b.tail.data(), a.tail.size());
+         same_bits(a.low.data(), b.low.data(), a.low.size());
 }
 
 struct Assembly {

@@ -16,7 +16,7 @@ int add_body(Model& m, const CoreMesh& core, double radius, const Vec3& x, const
   const MassProperties p = mass_properties(m.shapes.back());
   const int b = static_cast<int>(m.bodies.size());
   m.bodies.push_back({b, m.particles() + b + 1, 1, mass, mass / p.volume * p.inertia});
-  m.start.bodies.push_back({{x, Vec3::Zero()}, turn(turned)});
+  m.start.bodies.push_back({{x, Vec3::Zero()}, quaternion(turned)});
   return b;
 }
 
@@ -79,11 +79,11 @@ std::array<Vec3, 2> momenta(const Model& m, const Motion& now) {
   for (const Glued& g : m.glued) {
     const RigidState s{now.state.bodies[g.body], Vec3::Zero(), now.angular_momentum.col(g.body)};
     const double moment = 0.1 * m.mass(g.particle) * m.diameter[g.particle] * m.diameter[g.particle];
-    p[1] += moment * s.motion({m.bodies[g.body].mass, m.bodies[g.body].inertia}).spin;
+    p[1] += moment * s.motion({m.bodies[g.body].mass, m.bodies[g.body].inertia}).angular_velocity;
   }
-  for (int i = 0; i < now.spin.cols(); ++i)
+  for (int i = 0; i < now.angular_velocity.cols(); ++i)
     if (std::none_of(m.glued.begin(), m.glued.end(), [&](const Glued& g) { return g.particle == i; }))
-      p[1] += 0.1 * m.mass(i) * m.diameter[i] * m.diameter[i] * now.spin.col(i);
+      p[1] += 0.1 * m.mass(i) * m.diameter[i] * m.diameter[i] * now.angular_velocity.col(i);
   return p;
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("bodies, glued particles and contacts keep energy to second order, mom
   const Field f = energy.forces(verlet.motion().state);
   for (int b = 0; b < 4; ++b) {
     CHECK((f.col(energy.kinematics().place_of(b)) - verlet.motion().body_force.col(b)).norm() <= 1e-9);
-    CHECK((energy.kinematics().lever(b) * f.col(energy.kinematics().turn_of(b)) - verlet.motion().torque.col(b)).norm() <= 1e-9);
+    CHECK((energy.kinematics().characteristic_length(b) * f.col(energy.kinematics().rotation_of(b)) - verlet.motion().torque.col(b)).norm() <= 1e-9);
   }
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("a support that drives a body does work", "[dynamics][bodies]") {
   Model m = swarm();
   m.glued.clear();
   Support drive;
-  drive.bodies = {1}, drive.velocity = Vec3(-0.3, 0.05, 0.1), drive.turns_held = {true, true, true};
+  drive.bodies = {1}, drive.velocity = Vec3(-0.3, 0.05, 0.1), drive.constrained_rotations = {true, true, true};
   m.supports.push_back(drive);
   CHECK(imbalance_of_bodies(m, 1e-3, 1.6) > 0.7 * 64 * imbalance_of_bodies(m, 1.25e-4, 1.6));
   Verlet verlet(m, begin_motion(m), 1e-3);
@@ -277,7 +277,7 @@ TEST_CASE("a body with one free turn is a pendulum", "[dynamics][bodies]") {
   weight.bodies = {0}, weight.particles = {0}, weight.acceleration = Vec3(0, -g, 0);
   m.gravity.push_back(weight);
   Support s;
-  s.bodies = {0}, s.turns_held = {true, true, false};
+  s.bodies = {0}, s.constrained_rotations = {true, true, false};
   m.supports.push_back(s);
   Energy energy(m);
   m.start = [&] { State at = m.start; energy.kinematics().prescribe(at, 0); return at; }();
@@ -315,6 +315,6 @@ TEST_CASE("bodies that cannot move as they are held are refused", "[dynamics][bo
   CHECK(refused(m).empty());
   m.supports[0].velocity = Vec3(1, 0, 0);
   CHECK(refused(m).find("is driven by a support at a place that is not its centre of mass") != std::string::npos);
-  m.supports[0].turns_held = {true, true, true};
+  m.supports[0].constrained_rotations = {true, true, true};
   CHECK(refused(m).empty());
 }

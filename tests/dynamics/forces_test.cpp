@@ -17,7 +17,7 @@ void shake(Model& m, double size, unsigned seed = 1) {
   for (Eigen::Index p = 0; p < m.start.particles(); ++p)
     for (int c = 0; c < 3; ++c)
       if (m.plane_normal != c) m.start.position(c, p) += normal(random);
-  m.start.tail.setZero();
+  m.start.low.setZero();
 }
 
 // Rounding of positions of this size moves a force by ε times it times the stiffness.

@@ -39,8 +39,8 @@ void follow(const std::string& name) {
     CHECK(largest(m.force - f) <= tolerance * std::max(largest(f), energy.force_scale()) + rounding);
     if (record.contains("spins")) {
       const Field w = field_of(record["spins"]);
-      REQUIRE(m.spin.cols() == w.cols());
-      CHECK(largest(m.spin - w) <= tolerance * largest(w));
+      REQUIRE(m.angular_velocity.cols() == w.cols());
+      CHECK(largest(m.angular_velocity - w) <= tolerance * largest(w));
     }
     if (!record.contains("energy_lammps")) continue;
     const EnergyTerms t = energy.terms(m.state);

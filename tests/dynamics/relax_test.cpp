@@ -50,7 +50,7 @@ TEST_CASE("relax converges on a slender column that buckled", "[dynamics][relax]
     m.start.position(2, p) *= 0.99;
     if (p > 1 && p < 38) m.start.position(0, p) = 0.5 * std::sin(pi * (p - 1) / 37.0);
   }
-  m.start.tail.setZero();
+  m.start.low.setZero();
   same_minimum(m);
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("a heap of bodies comes to rest", "[dynamics][bodies]") {
     m.shapes.push_back(rounded_shape(core, 0.1));
     const int b = static_cast<int>(m.bodies.size());
     m.bodies.push_back({b, b + 1, 1, 1.0, Mat3::Identity()});
-    m.start.bodies.push_back({{x, Vec3::Zero()}, turn(turned)});
+    m.start.bodies.push_back({{x, Vec3::Zero()}, quaternion(turned)});
   };
   add(cube_core(0.8), Vec3(0, 0, 0.55), Vec3(0.05, -0.04, 0.1));
   add(box_core(Vec3(0.7, 0.7, 0.5)), Vec3(0.05, 0.02, 1.4), Vec3(-0.03, 0.02, 0.5));

@@ -91,13 +91,13 @@ TEST_CASE("friction and damping dissipate what the motion loses", "[dynamics]") 
   const auto lost = [](double dt) {
     Model m = colliding({ContactDamping::Model::viscoelastic, 3, 0.6, 0.3}, 1);
     m.velocity(1, 0) = 0.4;
-    m.spin = random_velocity(2, 3);
+    m.angular_velocity = random_velocity(2, 3);
     Energy energy(m);
     Verlet verlet(m, begin_motion(m), dt);
     const double before = balance(energy, verlet);
     verlet.advance(std::lround(0.2 / dt));
     CHECK(verlet.motion().dissipation > 0.005);
-    CHECK(verlet.motion().spin.col(0) != m.spin.col(0));
+    CHECK(verlet.motion().angular_velocity.col(0) != m.angular_velocity.col(0));
     return std::abs(balance(energy, verlet) - before);
   };
   const double first = lost(2e-5), second = lost(1e-5);
@@ -114,7 +114,7 @@ TEST_CASE("an undamped buckled column keeps its energy over a million steps", "[
     m.start.position(2, p) *= 0.93;
     if (p > 1 && p < 12) m.start.position(0, p) = 0.5 * std::sin(pi * (p - 1) / 11.0);
   }
-  m.start.tail.setZero();
+  m.start.low.setZero();
   Energy energy(m);
   const double mass = m.mass(0), dt = 0.1 * std::sqrt(mass / (8 * 100));
   Verlet verlet(m, begin_motion(m), dt);
@@ -175,7 +175,7 @@ TEST_CASE("an elastic collision gives everything back", "[dynamics]") {
   Verlet verlet(m, begin_motion(m), 1e-5);
   verlet.advance(20'000);
   CHECK(verlet.motion().velocity(0, 1) - verlet.motion().velocity(0, 0) == Approx(1).epsilon(1e-6));
-  CHECK(verlet.motion().spin.cols() == 0);
+  CHECK(verlet.motion().angular_velocity.cols() == 0);
 }
 
 TEST_CASE("the bits do not depend on how the steps are divided", "[dynamics]") {

@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "chain.hpp"
 #include "core/parallel.hpp"
-#include "energy/body_passage.hpp"
+#include "energy/body_collision_free_step.hpp"
 #include "energy/energy.hpp"
 #include "energy/load_difference.hpp"
 #include "laws/check_law.hpp"
@@ -12,7 +12,7 @@ using namespace elamin;
 
 namespace {
 
-Pose pose(const Vec3& x, const Vec3& turned) { return {{x, Vec3::Zero()}, turn(turned)}; }
+Pose pose(const Vec3& x, const Vec3& turned) { return {{x, Vec3::Zero()}, quaternion(turned)}; }
 
 int add_body(Model& m, const CoreMesh& core, double radius, const Pose& at) {
   m.shapes.push_back(rounded_shape(core, radius));
@@ -89,7 +89,7 @@ TEST_CASE("with bodies the assembled energy agrees with its differences", "[ener
   const Vector g = energy.gradient();
   const Eigen::MatrixXd H = whole(energy.hessian());
   CHECK(energy.dofs() == 5 * 3 + 4 * 6);
-  CHECK(energy.idle().empty());
+  CHECK(energy.null_dofs().empty());
   CHECK(std::abs(energy.last_terms().body) > 0.01);
   CHECK(energy.last_terms().wall > 0.01);
   CHECK(energy.last_terms().total() == energy.value(state));
@@ -116,11 +116,11 @@ TEST_CASE("with bodies the assembled energy agrees with its differences", "[ener
 TEST_CASE("with bodies ∂g/∂λ agrees with differences in the load factor", "[energy][bodies]") {
   Model model = crowd(RoundedFormulation::multi);
   Support turned;
-  turned.bodies = {1}, turned.displacement = Vec3(0.1, -0.2, 0.05), turned.turns_held = {true, true, true}, turned.rotation = Vec3(0.3, -0.2, 0.5);
+  turned.bodies = {1}, turned.displacement = Vec3(0.1, -0.2, 0.05), turned.constrained_rotations = {true, true, true}, turned.rotation = Vec3(0.3, -0.2, 0.5);
   Support pushed;
   pushed.bodies = {2}, pushed.held = {true, false, true}, pushed.displacement = Vec3(0.1, 0, -0.1);
   Support clamped;
-  clamped.bodies = {0}, clamped.turns_held = {true, true, true}, clamped.rotation = Vec3(-0.1, 0.2, 0.1);
+  clamped.bodies = {0}, clamped.constrained_rotations = {true, true, true}, clamped.rotation = Vec3(-0.1, 0.2, 0.1);
   const bool clamp = GENERATE(false, true);
   model.supports = {turned, pushed};
   if (clamp) model.supports.push_back(clamped);
@@ -167,11 +167,11 @@ TEST_CASE("coordinates about another state have derivatives of their own", "[ene
 }
 
 TEST_CASE("the torque of a load follows a turn by more than half a circle", "[energy][bodies]") {
-  const RotationTorque torque{Vec3(0.3, -0.8, 0.5), turn(Vec3(0.2, 0.1, -0.4))};
+  const RotationTorque torque{Vec3(0.3, -0.8, 0.5), quaternion(Vec3(0.2, 0.1, -0.4))};
   for (const double angle : {0.0, 1e-3, 0.04, 0.06, 1.0, 3.0, 3.3, 5.0}) {
-    const Eigen::Quaterniond q = turn(angle * Vec3(0.48, 0.6, -0.64)) * torque.from;
+    const Eigen::Quaterniond q = quaternion(angle * Vec3(0.48, 0.6, -0.64)) * torque.from;
     const Local<1> u = torque.derivatives(q);
-    const auto at = [&](int k, double s) { return turn(s * Vec3::Unit(k)) * q; };
+    const auto at = [&](int k, double s) { return quaternion(s * Vec3::Unit(k)) * q; };
     Mat3 D;
     for (int k = 0; k < 3; ++k) {
       CHECK(std::abs(difference([&](double s) { return torque.value(at(k, s)); }, difference_step) - u.gradient[k]) <= accuracy_of_bodies);
@@ -187,9 +187,9 @@ TEST_CASE("turned as a whole, bodies have the same energy and turned forces", "[
   model.walls.clear(), model.loads.clear(), model.gravity.clear();
   Energy energy(model);
   const State state = bent(energy, 0, 0.03);
-  const Eigen::Quaterniond q = turn(Vec3(0.7, -1.1, 0.4));
+  const Eigen::Quaterniond q = quaternion(Vec3(0.7, -1.1, 0.4));
   State turned = state;
-  for (int p = 0; p < model.particles(); ++p) turned.set(p, {q * Vec3(state.position.col(p)), q * Vec3(state.tail.col(p))});
+  for (int p = 0; p < model.particles(); ++p) turned.set(p, {q * Vec3(state.position.col(p)), q * Vec3(state.low.col(p))});
   for (Pose& b : turned.bodies) b.position = {q * b.position.hi, q * b.position.lo}, b.rotation = q * b.rotation;
   const Field before = energy.forces(state);
   const double size = energy.last_terms().size(), e = energy.last_terms().total();
@@ -202,7 +202,7 @@ TEST_CASE("turned as a whole, bodies have the same energy and turned forces", "[
   for (int b = 0; b < 4; ++b) {
     const Vec3 f = before.col(energy.kinematics().place_of(b));
     force += f;
-    moment += state.bodies[b].position.hi.cross(f) + energy.kinematics().lever(b) * before.col(energy.kinematics().turn_of(b));
+    moment += state.bodies[b].position.hi.cross(f) + energy.kinematics().characteristic_length(b) * before.col(energy.kinematics().rotation_of(b));
   }
   CHECK(force.norm() <= 1e-13 * before.norm());
   CHECK(moment.norm() <= 1e-12 * before.norm());
@@ -233,7 +233,7 @@ TEST_CASE("a step ends before a body passes through another one, a particle or a
   const auto part = [&](const Vec3& cube, const Vec3& rod) {
     State to = model.start;
     to.bodies[0].position.hi += size * cube, to.bodies[1].position.hi += size * rod;
-    return energy.passage(model.start, to);
+    return energy.collision_free_step(model.start, to);
   };
   CHECK(part(Vec3::Zero(), Vec3::Zero()) == 1);
   CHECK(part(Vec3(0, 5, 0), Vec3(0, 5, 0)) == 1);

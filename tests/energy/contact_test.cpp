@@ -167,7 +167,7 @@ TEST_CASE("which pairs feel each other", "[energy][contact]") {
     CHECK(rules.hertz(5, 3) == 0);
     CHECK(rules.lj(1, 5) == 2);
     CHECK(rules.lj(5, 2) == -1);
-    CHECK(rules.reach(1) == 4.5);
+    CHECK(rules.cutoff_radius(1) == 4.5);
   }
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("no step passes through anything", "[energy][contact]") {
   const auto fly = [&](int p, const Vec3& u) {
     State to = m.start;
     to.position.col(p) += u;
-    return energy.passage(m.start, to);
+    return energy.collision_free_step(m.start, to);
   };
   CHECK(fly(0, Vec3(20, 0, 0)) == Approx((10 - 0.8 * 1.5) / 20).epsilon(1e-12));
   CHECK(fly(0, Vec3(5, 0, 0)) == 1);
@@ -202,7 +202,7 @@ TEST_CASE("no step passes through anything", "[energy][contact]") {
     m.walls[0].displacement = Vec3(0, 0, 100);                // nor does a wall pass through them
     State to = m.start;
     to.load_factor = 1;
-    const double rise = 100 * energy.passage(m.start, to);
+    const double rise = 100 * energy.collision_free_step(m.start, to);
     CHECK(rise <= 7 - 0.8 * 1 + 1e-3);                        // the larger one meets it first
     CHECK(rise >= 7 - 1);
   }

@@ -77,7 +77,7 @@ TEST_CASE("the form of a bond keeps the digits of its stiffness across", "[energ
   const Vec3 n = Vec3(1, -2, 0.7).normalized();
   hold(model, 0, 0);
   model.start.position.col(1) = model.start.position.col(0) + (1 + strain) * n;
-  model.start.tail.setZero();
+  model.start.low.setZero();
   Energy energy(model);
   energy.evaluate(model.start);
   const Vec3 across = n.cross(Vec3::UnitX()).normalized();

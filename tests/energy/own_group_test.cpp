@@ -36,7 +36,7 @@ class Wide final : public ElementGroup {
     *value = 0, std::fill_n(gradient, gradient_size(), 0.0);
     if (hessian) std::fill_n(hessian, hessian_size(), 0.0);
   }
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
+  bool residual_energy(const State&, const State&, double*) const override { return false; }
 
  private:
   std::vector<int> sites_;
@@ -57,7 +57,7 @@ TEST_CASE("bonds that a program adds are the model's own under another name") {
   CHECK(added.last_terms().total() == built_in.last_terms().total());
   CHECK(added.gradient() == built_in.gradient());
   CHECK(added.hessian().toDense() == built_in.hessian().toDense());
-  CHECK(added.loose().empty());
+  CHECK(added.unbonded_dofs().empty());
   State state = bare.start;
   const Report report = Newton(added).minimise(state);
   CHECK(report.converged());

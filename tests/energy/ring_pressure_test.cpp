@@ -38,7 +38,7 @@ State compressed(Energy& energy, double R) {
     for (Eigen::Index i = 0; i < X.cols(); ++i)
       for (int c = 0; c < 3; ++c) {
         const Exact x = (energy.model().start.at(static_cast<int>(i))[c] + (-center[c])) * Exact{part} + center[c];
-        state.position(c, i) = x.hi, state.tail(c, i) = x.lo;
+        state.position(c, i) = x.hi, state.low(c, i) = x.lo;
       }
     state.load_factor = 1;
     return state;

@@ -117,15 +117,15 @@ TEST_CASE("A support of bodies holds all six coordinates, or what it names", "[p
   using Three = std::array<bool, 3>;
   const Three all{true, true, true}, none{false, false, false};
   const Support s = support("");
-  CHECK((s.bodies == std::vector{0} && s.held == all && s.turns_held == all));
+  CHECK((s.bodies == std::vector{0} && s.held == all && s.constrained_rotations == all));
   CHECK((support("directions = \"xz\"\n").held == Three{true, false, true}));
-  CHECK((support("directions = \"xz\"\n").turns_held == none));
+  CHECK((support("directions = \"xz\"\n").constrained_rotations == none));
   CHECK((support("turns = \"zy\"\n").held == none));
-  CHECK((support("turns = \"zy\"\n").turns_held == Three{false, true, true}));
-  CHECK((support("turns = \"z\"\n", "plane = \"xy\"\n").turns_held == Three{false, false, true}));
+  CHECK((support("turns = \"zy\"\n").constrained_rotations == Three{false, true, true}));
+  CHECK((support("turns = \"z\"\n", "plane = \"xy\"\n").constrained_rotations == Three{false, false, true}));
   const Support turned = support("rotation = {axis = [0, -2, 0], angle = 90}\n");
   CHECK((turned.rotation - Vec3(0, -pi / 2, 0)).norm() <= 1e-15);
-  CHECK((turned.held == all && turned.turns_held == all));
+  CHECK((turned.held == all && turned.constrained_rotations == all));
 }
 
 TEST_CASE("Loads, weights and velocities act on bodies", "[problem][bodies]") {
@@ -202,7 +202,7 @@ TEST_CASE("A support of bodies that enters in a stage holds them where they are 
   kinematics.prescribe(begin, 0), kinematics.prescribe(end, 1);
   CHECK(kinematics.displacement(now, begin).norm() <= 1e-15);
   CHECK((kinematics.displacement(now, end).col(kinematics.place_of(0)) - Vec3(0, 0, 0.5)).norm() <= 1e-15);
-  CHECK((turn_between(now.bodies[0].rotation, end.bodies[0].rotation) - Vec3(pi / 3, 0, 0)).norm() <= 1e-14);
+  CHECK((rotation_between(now.bodies[0].rotation, end.bodies[0].rotation) - Vec3(pi / 3, 0, 0)).norm() <= 1e-14);
 }
 
 TEST_CASE("A setting reaches a body's sizes", "[problem][bodies]") {

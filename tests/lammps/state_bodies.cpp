@@ -3,7 +3,7 @@
 #include "laws/rounded/bodies.hpp"
 #include "lammps/data.hpp"
 #include "input/model_of.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 #include "lammps/state.hpp"
 #include "results/sample.hpp"
 #include "core/text_file.hpp"
@@ -139,7 +139,7 @@ TEST_CASE("a path goes on from a state of bodies to the last bit", "[lammps_stat
     CHECK(off(m.shapes[m.bodies[b].shape], again.restart->bodies[b].rotation, read_lammps_data(scratch / "x.data").shapes[b]) <= 1e-14);
   }
 
-  write_text(scratch / "x.json", tail_text({0.25, state.tail, {}, {}, stored_poses(state)}));
+  write_text(scratch / "x.json", supplement_text({0.25, state.low, {}, {}, stored_poses(state)}));
   again = model_of(problem);
   CHECK(again.restart->load_factor == 0.25);
   for (std::size_t b = 0; b < 5; ++b) {
@@ -149,7 +149,7 @@ TEST_CASE("a path goes on from a state of bodies to the last bit", "[lammps_stat
   }
 
   std::swap(state.bodies[1].rotation, state.bodies[2].rotation);
-  write_text(scratch / "x.json", tail_text({0.25, state.tail, {}, {}, stored_poses(state)}));
+  write_text(scratch / "x.json", supplement_text({0.25, state.low, {}, {}, stored_poses(state)}));
   CHECK(said_of(problem).find("are not of one state") != std::string::npos);
   write_text(scratch / "x.json", "{\"lambda\": 0, \"tail\": [], \"bodies\": [[0, 0, 0, 1, 0, 0]]}");
   CHECK(said_of(problem).find("bodies must be [[x, y, z, qw, qx, qy, qz], …], finite numbers") != std::string::npos);

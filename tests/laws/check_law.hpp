@@ -15,8 +15,8 @@ namespace elamin {
 template <int n>
 Points<n> moved(const Points<n>& x, int k, double h) {
   Points<n> y = x;
-  const Exact e = Exact{x.position(k % 3, k / 3), x.tail(k % 3, k / 3)} + h;
-  y.position(k % 3, k / 3) = e.hi, y.tail(k % 3, k / 3) = e.lo;
+  const Exact e = Exact{x.position(k % 3, k / 3), x.low(k % 3, k / 3)} + h;
+  y.position(k % 3, k / 3) = e.hi, y.low(k % 3, k / 3) = e.lo;
   return y;
 }
 

@@ -12,7 +12,7 @@ Points<2> apart(double distance) {            // along (3, 4, 0)/5, away from th
   x.position.col(0) << 0.7, -1.1, 0.4;
   for (int c = 0; c < 2; ++c) {
     const Exact e = two_sum(x.position(c, 0), distance * (3 + c) / 5);
-    x.position(c, 1) = e.hi, x.tail(c, 1) = e.lo;
+    x.position(c, 1) = e.hi, x.low(c, 1) = e.lo;
   }
   x.position(2, 1) = 0.4;
   return x;
@@ -37,13 +37,13 @@ TEST_CASE("Hertz's contact agrees with differences of its value", "[laws][contac
     for (const double modulus : {1.0, 1e11})
       for (const double overlap : {1e-6, 1e-3, 0.1, 0.5, 0.9}) {
         INFO("size " << size << ", overlap " << overlap);
-        const double r0 = 0.5 * size, r1 = 0.3 * size, reach = r0 + r1;
-        const HertzContact contact{hertz_stiffness(modulus, r0, r1), reach};
-        const Points<2> x = apart(reach * (1 - overlap));
-        CHECK(check_law(contact, x, std::min(overlap, 1 - overlap) * reach) == std::vector<std::string>{});
+        const double r0 = 0.5 * size, r1 = 0.3 * size, contact_distance = r0 + r1;
+        const HertzContact contact{hertz_stiffness(modulus, r0, r1), contact_distance};
+        const Points<2> x = apart(contact_distance * (1 - overlap));
+        CHECK(check_law(contact, x, std::min(overlap, 1 - overlap) * contact_distance) == std::vector<std::string>{});
         // 8/15 E √R δ^{5/2} and 4/3 E √R δ^{3/2} as they are printed
         const double R = r0 * r1 / (r0 + r1), delta = -contact.gap(x);
-        CHECK(delta == Approx(overlap * reach).epsilon(1e-9));
+        CHECK(delta == Approx(overlap * contact_distance).epsilon(1e-9));
         const double energy = 8.0 / 15 * modulus * std::sqrt(R) * std::pow(delta, 2.5);
         const double force = 4.0 / 3 * modulus * std::sqrt(R) * std::pow(delta, 1.5);
         CHECK(contact.value(x) == Approx(energy).epsilon(16 * epsilon));

@@ -88,7 +88,7 @@ TEST_CASE("small strains keep all their digits", "[laws]") {
   for (int c = 0; c < 2; ++c)
     for (int i = 0; i < 2; ++i) {
       const Exact e = two_sum(1e6, x(c, i));
-      far.position(c, i) = e.hi, far.tail(c, i) = e.lo;
+      far.position(c, i) = e.hi, far.low(c, i) = e.lo;
     }
   CHECK(bond.value(far) == Approx(7 * 25 * s * s).epsilon(8 * epsilon));
 }

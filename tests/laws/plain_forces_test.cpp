@@ -36,8 +36,8 @@ void agree() {
     const HarmonicBond bond{3, 0.8};
     CHECK((number(HarmonicBond::pull(T(r), T(3.0), T(0.8))) / r * d - bond.derivatives(pair).force_part(1)).norm() <= 1e-13 * 6);
     const HertzContact contact{5, r + 0.1 * (k % 7 + 1)};
-    const double push = number(HertzContact::push(T(contact.reach - r), T(5.0)));
-    CHECK((-push / r * d - contact.derivatives(pair).force_part(1)).norm() <= 1e-13 * 5 * contact.reach * std::sqrt(contact.reach));
+    const double push = number(HertzContact::push(T(contact.contact_distance - r), T(5.0)));
+    CHECK((-push / r * d - contact.derivatives(pair).force_part(1)).norm() <= 1e-13 * 5 * contact.contact_distance * std::sqrt(contact.contact_distance));
     const Cohesion cohesion{2, 0.9 * r, 3 * r};
     const Vec3 exact = cohesion.derivatives(pair).force_part(1);
     CHECK((-number(Cohesion::push(T(r * r), T(2.0), T(0.9 * r))) * d - exact).norm() <= 1e-13 * 100 * 2 / r);

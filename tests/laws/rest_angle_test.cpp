@@ -51,7 +51,7 @@ TEST_CASE("near its rest angle an angle keeps its digits", "[laws][angle]") {
   Points<3> near = turned(pi - 1.2, 1), far = near;
   for (Eigen::Index k = 0; k < 9; ++k) {
     const Exact e = two_sum(1e6, near.position.data()[k]);
-    far.position.data()[k] = e.hi, far.tail.data()[k] = e.lo;
+    far.position.data()[k] = e.hi, far.low.data()[k] = e.lo;
   }
   const CosineAngle other(3, 1.2);
   CHECK(other.value(near) <= 3 * 1e-31);

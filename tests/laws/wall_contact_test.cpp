@@ -21,7 +21,7 @@ struct WithoutBend : AtWall {
 struct FixedRadius : AtWall {
   Local<1> derivatives(const Points<1>& x) const {
     Local<1> u = AtWall::derivatives(x);
-    u.gradient = -touch_force(wall, {x.position.col(0), x.tail.col(0)}, radius);
+    u.gradient = -touch_force(wall, {x.position.col(0), x.low.col(0)}, radius);
     return u;
   }
 };

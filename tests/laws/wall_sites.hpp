@@ -13,8 +13,8 @@ struct AtWall {
   static constexpr int sites = 1;
   WallContact wall;
   double radius;
-  double value(const Points<1>& x) const { return wall.value({x.position.col(0), x.tail.col(0)}, radius); }
-  Local<1> derivatives(const Points<1>& x) const { return wall.derivatives({x.position.col(0), x.tail.col(0)}, radius); }
+  double value(const Points<1>& x) const { return wall.value({x.position.col(0), x.low.col(0)}, radius); }
+  Local<1> derivatives(const Points<1>& x) const { return wall.derivatives({x.position.col(0), x.low.col(0)}, radius); }
 };
 
 /// The forces of all faces along their normals.

@@ -36,14 +36,14 @@ TEST_CASE("An oblique beam is uniform and straight to 1e-30") {
   REQUIRE(m.particles() == n);
   CHECK(m.start.position.col(0) == from);
   CHECK(m.start.position.col(n - 1) == to);
-  CHECK(m.start.tail.col(0).isZero(0));
-  CHECK(m.start.tail.col(n - 1).isZero(0));
+  CHECK(m.start.low.col(0).isZero(0));
+  CHECK(m.start.low.col(n - 1).isZero(0));
   const ExactVector whole = exact(to) - exact(from);
   double bent = 0, uneven = 0, rounding = 0;
   for (int i = 1; i + 1 < n; ++i) {
     bent = std::max(bent, length_of(cross(m.start.at(i) - m.start.at(0), whole)) / (scale * scale));
     uneven = std::max(uneven, length_of((m.start.at(i + 1) - m.start.at(i)) - (m.start.at(i) - m.start.at(i - 1))) / scale);
-    rounding = std::max(rounding, m.start.tail.col(i).norm() / scale);
+    rounding = std::max(rounding, m.start.low.col(i).norm() / scale);
   }
   CHECK(bent < 1e-30);
   CHECK(uneven < 1e-30);

@@ -18,7 +18,7 @@ TEST_CASE("Grains are free: a molecule each, a type a set, no bonds", "[model]")
   CHECK(m.diameter == std::vector<double>{1, 0.1, 0.2, 0.3, 0.5});
   CHECK(m.density == std::vector<double>{1, 5, 5, 5, 0});
   CHECK(m.start.position.middleCols(1, 3) == three);
-  CHECK(m.start.tail.isZero(0));
+  CHECK(m.start.low.isZero(0));
   CHECK((m.bonds.empty() && m.bond_types.empty() && m.angles.empty()));
   REQUIRE(m.structures.size() == 3);
   CHECK((m.structures[2].name == "b" && m.structures[2].kind == "grains" && m.structures[2].first == 4 &&

@@ -16,7 +16,7 @@ Model arch(const nlohmann::json& c, const std::vector<double>& slopes, const Vec
   const double q0 = c["q0"];
   const int n = static_cast<int>(slopes.size()) + 1;
   Model m;
-  m.start.position = Field::Zero(3, n), m.start.tail = Field::Zero(3, n);
+  m.start.position = Field::Zero(3, n), m.start.low = Field::Zero(3, n);
   for (int i = 0; i + 1 < n; ++i) m.start.position.col(i + 1) = m.start.position.col(i) + q0 * Vec3(std::cos(slopes[i]), std::sin(slopes[i]), 0);
   m.bond_types = {{c["K"], q0}}, m.angle_types = {{c["B"]}};
   for (int i = 0; i + 1 < n; ++i) m.bonds.push_back({0, {i, i + 1}});

@@ -9,7 +9,7 @@ using namespace elamin;
 
 namespace {
 
-double tilt(const State& s) { return turn_between(Eigen::Quaterniond::Identity(), s.bodies[0].rotation)[1]; }
+double tilt(const State& s) { return rotation_between(Eigen::Quaterniond::Identity(), s.bodies[0].rotation)[1]; }
 
 // A box on a floor, its centre held against sliding, pushed at a height a above its centre by a dead force; it turns about y. Core
 // 2b × · × 2c, floor k_n at two vertices in front and two behind.

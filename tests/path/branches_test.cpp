@@ -104,7 +104,7 @@ TEST_CASE("deflation finds the states that the branch does not reach", "[path]")
   const double h = 0.3, b = std::sqrt(1 - h * h);
   m.start.position = Field::Zero(3, 3);
   m.start.position(0, 0) = -b, m.start.position(1, 1) = h, m.start.position(0, 2) = b;
-  m.start.tail.setZero();
+  m.start.low.setZero();
   m.plane_normal = 2;
   hold(m, 0, 0), hold(m, 2, 2);
   Load load;
@@ -140,7 +140,7 @@ TEST_CASE("a watch is located and may end the path", "[path]") {
     PathOptions options;
     options.method = method, options.steps = 20;
     const double top = 13 - 2 * 0.4;
-    options.watches = {{"end", [](const State& s) { return s.position(2, 13); }, top, false},
+    options.user_events = {{"end", [](const State& s) { return s.position(2, 13); }, top, false},
                        {"half", [](const State& s) { return s.position(2, 13); }, 12, true}};
     const Trace t = trace(newton, m.start, options);
     CAPTURE(t.why, t.notes);

@@ -10,7 +10,7 @@ namespace {
 Model truss(double degrees, bool plane_symmetric) {
   const double a = degrees * 3.14159265358979323846 / 180;
   Model m;
-  m.start.position = Field::Zero(3, 3), m.start.tail = Field::Zero(3, 3);
+  m.start.position = Field::Zero(3, 3), m.start.low = Field::Zero(3, 3);
   m.start.position.col(0) << -std::cos(a), 0, 0;
   m.start.position.col(1) << 0, 0, std::sin(a);
   m.start.position.col(2) << std::cos(a), 0, 0;

@@ -135,7 +135,7 @@ TEST_CASE("a chain rolled up by an end couple lies on a circle", "[path][referen
     model.plane_normal = 2;
     Vec3 at(-q0, 0, 0);
     for (int i = 0; i < free + 2; ++i) {
-      model.start.position.col(i) = at, model.start.tail.col(i).setZero();
+      model.start.position.col(i) = at, model.start.low.col(i).setZero();
       const double slope = std::max(0, i) * phi;
       at += q0 * Vec3(std::cos(slope), std::sin(slope), 0);
     }

@@ -15,7 +15,7 @@ double number(const nlohmann::json& x) { return x.get<double>(); }
 Model truss(const nlohmann::json& c, double y) {
   const double b = number(c["b"]), q0 = number(c["q0"]);
   Model m;
-  m.start.position = Field::Zero(3, 3), m.start.tail = Field::Zero(3, 3);
+  m.start.position = Field::Zero(3, 3), m.start.low = Field::Zero(3, 3);
   m.start.position(0, 0) = -b, m.start.position(1, 1) = y, m.start.position(0, 2) = b;
   m.bond_types = {{number(c["K"]), q0}};
   m.bonds = {{0, {0, 1}}, {0, {1, 2}}};

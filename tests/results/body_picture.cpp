@@ -61,7 +61,7 @@ TEST_CASE("A picture of bodies is polydata of VTK", "[results][bodies]") {
   Model m;
   m.shapes = {rounded_shape(cube_core(1), 0.1), rounded_shape(rod_core(2), 0.2)};
   m.bodies = {{1, 7, 2, 1, Mat3::Identity()}, {0, 9, 3, 1, Mat3::Identity()}};
-  m.start.bodies = {{{Vec3(1, 2, 3), Vec3::Zero()}, turn(Vec3(0, 0, 0.4))}, {{Vec3(-5, 0, 0), Vec3::Zero()}, turn(Vec3::Zero())}};
+  m.start.bodies = {{{Vec3(1, 2, 3), Vec3::Zero()}, quaternion(Vec3(0, 0, 0.4))}, {{Vec3(-5, 0, 0), Vec3::Zero()}, quaternion(Vec3::Zero())}};
   const ScratchDirectory folder;
   const std::string file = folder / "bodies.vtk";
   write_picture(file, m, m.start, "two\nlines");
@@ -81,7 +81,7 @@ TEST_CASE("A picture of bodies is polydata of VTK", "[results][bodies]") {
   REQUIRE(points == rod.points.size() + cube.points.size());
   std::vector<Vec3> x(points);
   for (Vec3& p : x) in >> p[0] >> p[1] >> p[2];
-  CHECK((x[0] - (Vec3(1, 2, 3) + turn(Vec3(0, 0, 0.4)) * rod.points[0])).norm() <= 1e-8);
+  CHECK((x[0] - (Vec3(1, 2, 3) + quaternion(Vec3(0, 0, 0.4)) * rod.points[0])).norm() <= 1e-8);
   REQUIRE((in >> word >> cells >> numbers && word == "POLYGONS"));
   CHECK(cells == rod.polygons.size() + cube.polygons.size());
   std::size_t read = 0;

@@ -15,7 +15,7 @@ Fields fields_of(Energy& energy, const State& state) { return fields_at(energy, 
 Model knee(double turn, double rest = pi) {
   Model m = chain(3, 50, 0.25, 1);
   m.start.position.col(2) = Vec3(2 * std::sin(turn), 0, 1 + 2 * std::cos(turn));
-  m.start.tail.setZero();
+  m.start.low.setZero();
   m.bond_types.push_back({10, 2}), m.bonds[1].type = 1;
   m.angle_types[0].rest = rest, m.plane_normal = 1;
   return m;
@@ -26,7 +26,7 @@ Model knee(double turn, double rest = pi) {
 TEST_CASE("a stretched bond: tension 2K(r - r0), strain, half of its energy on each end", "[fields]") {
   Model m = chain(2, 50, 0, 1);
   const double stretch = 1e-9;
-  m.start.tail(2, 1) += stretch;
+  m.start.low(2, 1) += stretch;
   Energy energy(m);
   const Fields f = fields_of(energy, m.start);
   REQUIRE(f.bonds.size() == 1);
@@ -59,7 +59,7 @@ TEST_CASE("a knee: turn, curvature and moment, signed in a plane, whichever way 
       Energy energy(m);
       const AngleField f = fields_of(energy, m.start).angles.at(0);
       const double M = 0.25 * std::sin(turn - from);
-      CHECK(f.turn == Approx(sign * turn).epsilon(1e-13));
+      CHECK(f.angle == Approx(sign * turn).epsilon(1e-13));
       CHECK(f.curvature == Approx(sign * turn / 1.5).epsilon(1e-13));
       CHECK(f.moment == Approx(sign * M).epsilon(1e-13));
       CHECK((f.moment_vector - Vec3(0, sign * M, 0)).norm() <= 1e-13 * std::abs(M));
@@ -82,7 +82,7 @@ TEST_CASE("in space a moment is minus the derivative of the energy by the angle"
     const Model m = bent(turn);
     Energy energy(m);
     const AngleField f = fields_of(energy, m.start).angles.at(0);
-    CHECK(f.turn == Approx(turn).epsilon(1e-14));
+    CHECK(f.angle == Approx(turn).epsilon(1e-14));
     CHECK(f.moment == Approx((energy_of(turn + step) - energy_of(turn - step)) / (2 * step)).margin(1e-9));    // B step²/6 and ε B/step
     CHECK((f.moment_vector - Vec3(0, f.moment, 0)).norm() <= 1e-15);
   }
@@ -108,7 +108,7 @@ TEST_CASE("elastica: at every hinge of a buckled chain M = -P x, the turns add u
   double turns = 0;
   for (int i = 1; i + 1 < n; ++i) {
     CHECK(std::abs(f.angles[i - 1].moment + thrust * state.position(0, i)) <= 1e-9 * thrust * widest);
-    turns += f.angles[i - 1].turn;
+    turns += f.angles[i - 1].angle;
   }
   const auto slope = [&](int i) { return std::atan2(state.position(0, i + 1) - state.position(0, i), state.position(2, i + 1) - state.position(2, i)); };
   CHECK(turns == Approx(slope(n - 2) - slope(0)).epsilon(1e-12));

@@ -38,7 +38,7 @@ struct Truss {
     model = chain(3, K, 0, rest);
     model.angles.clear();
     model.start.position << -1, 0, 1, 0, rise, 0, 0, 0, 0;
-    model.start.tail.setZero();
+    model.start.low.setZero();
     hold(model, 0, 0), hold(model, 2, 2);
     model.loads.push_back({"", {1}, Vec3(0, -1, 0), Scaling()});
     model.plane_normal = 2;

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 #include "lammps/data.hpp"
 #include "results/files.hpp"
 #include "results/sample.hpp"
@@ -143,7 +143,7 @@ TEST_CASE("a state has beside it how its path goes on, with all digits", "[run_d
   r.closed = {{0, 4, -1}, {2, -1, 1}};
   p.resume = r;
   run.add(p, Field::Zero(3, 5), {});
-  const auto stored = read_tail(run.state_file("branch:2"));
+  const auto stored = read_supplement(run.state_file("branch:2"));
   REQUIRE(stored);
   REQUIRE(stored->path);
   CHECK(stored->path->varied == std::vector<std::string>{"support.top"});
@@ -169,19 +169,19 @@ TEST_CASE("a state has its tails beside it, an event its null vectors, and a sta
   stage.name = "load", stage.path.from = 0.1 + 0.2, stage.scaling = {{1, 0}, {-1.0 / 3, 1}};
   run.enter(stage, m);
   PathPoint p = sample_point(m, 0, 1.0 / 3, "limit:1");
-  p.state.tail(2, 1) = 1e-18 / 3;
+  p.state.low(2, 1) = 1e-18 / 3;
   run.add(p, Field::Zero(3, 5), {});
   CHECK(run.record().path().rows[0].back() == Cell(std::string("load")));
-  const auto stored = read_tail(run.state_file("limit:1"));
+  const auto stored = read_supplement(run.state_file("limit:1"));
   REQUIRE(stored);
   CHECK(stored->load_factor == 1.0 / 3);
-  CHECK(stored->tail == p.state.tail);
+  CHECK(stored->low == p.state.low);
   REQUIRE(stored->stage);
   CHECK(stored->stage->name == "load");
   CHECK(stored->stage->from == 0.1 + 0.2);
   CHECK(stored->stage->scaling == stage.scaling);
   CHECK(!stored->path);
-  CHECK(!read_tail(scratch / "run/states/none.data"));
+  CHECK(!read_supplement(scratch / "run/states/none.data"));
 
   Field first = Field::Zero(3, 5), second = Field::Zero(3, 5);
   first.col(1) = Vec3(0.5, 0, -1), second.col(4) = Vec3(0, 1.0 / 3, 0);

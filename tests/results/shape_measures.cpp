@@ -58,7 +58,7 @@ TEST_CASE("a row that encloses nothing, or is too short, has no area", "[observa
 
 TEST_CASE("distance and end_to_end keep the digits that the tails have; a group is where its mean is", "[observables]") {
   Model m = points({{100, 0, 0}, {100, 0, 0}, {102, 0, 4}});
-  m.start.tail(0, 1) = 3e-20, m.start.tail(1, 1) = 4e-20;
+  m.start.low(0, 1) = 3e-20, m.start.low(1, 1) = 4e-20;
   CHECK(value(m, m.start, shape(Quantity::distance, "1", "0")) == Approx(5e-20).epsilon(1e-14));
   m.groups.push_back({"both", {0, 2}});
   CHECK(value(m, m.start, shape(Quantity::distance, "both", "0")) == Approx(std::sqrt(5.0)).epsilon(1e-15));

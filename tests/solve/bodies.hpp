@@ -4,7 +4,7 @@
 
 namespace elamin {
 
-inline Pose pose(const Vec3& x, const Vec3& turned = Vec3::Zero()) { return {{x, Vec3::Zero()}, turn(turned)}; }
+inline Pose pose(const Vec3& x, const Vec3& turned = Vec3::Zero()) { return {{x, Vec3::Zero()}, quaternion(turned)}; }
 
 inline int add_body(Model& m, const CoreMesh& core, double radius, const Pose& at, double mass = 1) {
   m.shapes.push_back(rounded_shape(core, radius));
@@ -46,7 +46,7 @@ inline void add_weight(Model& m, const Vec3& acceleration) {
 
 inline void hold_bodies(Model& m, std::vector<int> bodies, std::array<bool, 3> places, std::array<bool, 3> turns) {
   Support s;
-  s.bodies = std::move(bodies), s.held = places, s.turns_held = turns;
+  s.bodies = std::move(bodies), s.held = places, s.constrained_rotations = turns;
   m.supports.push_back(s);
 }
 

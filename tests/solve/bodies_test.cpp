@@ -231,8 +231,8 @@ TEST_CASE("a beam clamped to a body is a clamped beam", "[solve][bodies]") {
   add_body(turned, box_core(Vec3(0.4, 0.3, 0.3)), 0.05, pose(Vec3(-0.1, 0, 0)));
   turned.glued = {{0, 0, Vec3(0.1, 0, 0)}, {1, 0, Vec3(0.1 + q, 0, 0)}};
   Support s;
-  s.bodies = {0}, s.turns_held = {true, true, true}, s.rotation = Vec3(0, angle, 0);
-  s.displacement = Vec3(0.1, 0, 0) - turn(Vec3(0, angle, 0)) * Vec3(0.1, 0, 0);      // the first particle stays
+  s.bodies = {0}, s.constrained_rotations = {true, true, true}, s.rotation = Vec3(0, angle, 0);
+  s.displacement = Vec3(0.1, 0, 0) - quaternion(Vec3(0, angle, 0)) * Vec3(0.1, 0, 0);      // the first particle stays
   turned.supports.push_back(s);
   Energy of_turned(turned);
   Newton newton_turned(of_turned);
@@ -244,7 +244,7 @@ TEST_CASE("a beam clamped to a body is a clamped beam", "[solve][bodies]") {
   CHECK((by_body.position - straight.position).cwiseAbs().maxCoeff() <= 1e-9);
   // … or that the torque of that support turns.
   const Field forces = of_turned.forces(by_body);
-  const Vec3 torque = -of_turned.kinematics().lever(0) * forces.col(of_turned.kinematics().turn_of(0));
+  const Vec3 torque = -of_turned.kinematics().characteristic_length(0) * forces.col(of_turned.kinematics().rotation_of(0));
   const Vec3 tip = by_body.position.col(n - 1), body = place(by_body, 0);
   const Vec3 moment = (tip - body).cross(Vec3(held.loads[0].force));
   CHECK((torque + moment).norm() <= 1e-9 * moment.norm());
@@ -261,7 +261,7 @@ TEST_CASE("a beam clamped to a body is a clamped beam", "[solve][bodies]") {
   of_twisted.kinematics().retract(near, Vector::Constant(of_twisted.dofs(), 1e-3));
   REQUIRE(newton_twisted.correct(near).converged());
   CHECK((near.position - by_body.position).cwiseAbs().maxCoeff() <= 1e-9);
-  CHECK(turn_between(near.bodies[0].rotation, by_body.bodies[0].rotation).norm() <= 1e-9);
+  CHECK(rotation_between(near.bodies[0].rotation, by_body.bodies[0].rotation).norm() <= 1e-9);
 }
 
 TEST_CASE("a pile of many kinds of bodies comes to rest in a box", "[solve][bodies]") {

@@ -133,7 +133,7 @@ TEST_CASE("what nothing stops is told by name", "[solve][contact]") {
 
 TEST_CASE("a chain falls into a corner and rests there", "[solve][contact]") {
   Model m = chain(12, 500, 50, 1, Vec3(1, 0.1, 0));
-  for (int i = 0; i < 12; ++i) m.start.position(2, i) += 4 + 0.3 * i, m.start.tail(2, i) = 0;
+  for (int i = 0; i < 12; ++i) m.start.position(2, i) += 4 + 0.3 * i, m.start.low(2, i) = 0;
   m.structures[0].name = "chain";
   meet(m, 1e4), floor(m, 1e4, Vec3(0, 1, 1)), floor(m, 1e4, Vec3(0, -1, 1));
   weigh(m, 1);

@@ -79,7 +79,7 @@ TEST_CASE("the Lagrangian's derivatives agree with differences", "[energy][hard]
   energy.evaluate(state);
   const Vector g = energy.gradient(), rate = energy.load_derivative();
   const Eigen::MatrixXd H = Eigen::MatrixXd(energy.hessian()).selfadjointView<Eigen::Lower>();
-  REQUIRE(energy.idle().empty());
+  REQUIRE(energy.null_dofs().empty());
   const double h = 1e-3;
   const auto gradient_at = [&](const State& s) {
     energy.evaluate(s);

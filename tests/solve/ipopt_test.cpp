@@ -39,7 +39,7 @@ Report compare(const Model& model, Energy& energy, const State& start, bool mirr
   if (mirror) {
     CHECK(by_newton.position.row(0).minCoeff() >= -1e-7 * extent);                 // Newton's method stays on the side that it begins on
     State image = by_newton;
-    image.position.row(0) *= -1, image.tail.row(0) *= -1;
+    image.position.row(0) *= -1, image.low.row(0) *= -1;
     apart = std::min(apart, displacement(image, by_ipopt).cwiseAbs().maxCoeff());
   }
   CHECK(apart <= 1e-7 * extent);
@@ -135,7 +135,7 @@ TEST_CASE("Ipopt presses a ball into a sheet", "[solve][ipopt][contact]") {
 TEST_CASE("Ipopt presses two beams on each other", "[solve][ipopt][contact]") {
   Model m = chain(30, round_bond, round_angle, 1, Vec3::UnitX());
   const Model other = m;
-  m.start.position.conservativeResize(3, 60), m.start.tail.conservativeResize(3, 60);
+  m.start.position.conservativeResize(3, 60), m.start.low.conservativeResize(3, 60);
   for (int i = 0; i < 30; ++i) m.start.set(30 + i, {other.start.position.col(i) + Vec3(0.3, 1.2, 0), Vec3::Zero()});
   for (const Bond& b : other.bonds) m.bonds.push_back({0, {b.particles[0] + 30, b.particles[1] + 30}});
   for (const Angle& a : other.angles) m.angles.push_back({0, {a.particles[0] + 30, a.particles[1] + 30, a.particles[2] + 30}});

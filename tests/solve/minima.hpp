@@ -41,8 +41,8 @@ inline Model two_beams() {
   const int n = 30;
   Model m = chain(n, pi / 8, pi / 64, 1);
   const Model other = m;
-  m.start.position.conservativeResize(3, 2 * n), m.start.tail.conservativeResize(3, 2 * n);
-  m.start.position.rightCols(n) = other.start.position, m.start.tail.rightCols(n) = other.start.tail;
+  m.start.position.conservativeResize(3, 2 * n), m.start.low.conservativeResize(3, 2 * n);
+  m.start.position.rightCols(n) = other.start.position, m.start.low.rightCols(n) = other.start.low;
   m.start.position.row(0).tail(n).setConstant(1.5);
   for (const Bond& b : other.bonds) m.bonds.push_back({0, {b.particles[0] + n, b.particles[1] + n}});
   for (const Angle& a : other.angles) m.angles.push_back({0, {a.particles[0] + n, a.particles[1] + n, a.particles[2] + n}});
@@ -83,7 +83,7 @@ inline Model grains_in_slot() {
 /// minima, apex up and apex down, the upper one is lower.
 inline Model two_bar_truss(double apex, double force) {
   Model m;
-  m.start.position = Field::Zero(3, 3), m.start.tail = Field::Zero(3, 3);
+  m.start.position = Field::Zero(3, 3), m.start.low = Field::Zero(3, 3);
   m.start.position(0, 0) = -1, m.start.position(2, 1) = apex, m.start.position(0, 2) = 1;
   m.bond_types = {{1, 1.1}};
   m.bonds = {{0, {0, 1}}, {0, {1, 2}}};

@@ -39,7 +39,7 @@ void check_same(const Found& found, const Found& known, const Model& model) {
 }
 
 State mirrored(State s) {
-  s.position.row(0) *= -1, s.tail.row(0) *= -1;
+  s.position.row(0) *= -1, s.low.row(0) *= -1;
   return s;
 }
 

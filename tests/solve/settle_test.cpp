@@ -88,7 +88,7 @@ TEST_CASE("without loose grains the method auto is Newton's", "[solve][settle]")
   Model m = heap(25, 1, 1e4);
   m.supports.push_back({"", numbers(25), {true, true, true}, Vec3::Zero(), Scaling()});
   Energy energy(m);
-  CHECK(loose_grains(energy) == 0);
+  CHECK(unbonded_grains(energy) == 0);
   Newton newton(energy);
   State by_auto = m.start, by_newton = m.start;
   const Report a = minimise(newton, by_auto, AutoOptions{}), b = minimise(newton, by_newton, NewtonOptions{});

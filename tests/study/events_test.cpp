@@ -103,8 +103,8 @@ void check_contact(const PathPoint& p, Energy& energy) {
 // A corner of the path, where a contact of bodies that opens or closes changes the stiffness at once: nothing is singular there.
 bool at_corner(const PathPoint& p, const Model& model) { return kind_of(p) == "limit" && p.modes.cols() == 0 && !model.bodies.empty(); }
 
-void check_watch(const PathPoint& p, const std::vector<PathPoint>& points, const std::vector<Watch>& watched) {
-  const auto watch = std::find_if(watched.begin(), watched.end(), [&](const Watch& w) { return w.name == kind_of(p); });
+void check_watch(const PathPoint& p, const std::vector<PathPoint>& points, const std::vector<UserEvent>& watched) {
+  const auto watch = std::find_if(watched.begin(), watched.end(), [&](const UserEvent& w) { return w.name == kind_of(p); });
   REQUIRE(watch != watched.end());
   double most = 0;
   for (const PathPoint& q : points) most = std::max(most, std::abs(watch->observable(q.state)));
@@ -124,7 +124,7 @@ void check_index(const std::vector<PathPoint>& points, std::size_t k) {
 void check_events(const StagePoints& stage, const Problem& problem) {
   Energy energy(stage.model);
   Factors factors(energy);
-  const std::vector<Watch> watched = watches(problem, stage.model);
+  const std::vector<UserEvent> watched = user_events(problem, stage.model);
   for (std::size_t k = 0; k < stage.points.size(); ++k) {
     const PathPoint& p = stage.points[k];
     if (p.label.empty()) continue;

@@ -44,7 +44,7 @@ ClosestFeatures edge_axis(const PairView& view) {
       if (view.shape(true).edges[ea].flat || view.shape(false).edges[eb].flat) continue;
       LinePair lines = view.lines(ea, eb);
       if (!lines.crossing) continue;
-      for (int side = 0; side < 2; ++side, lines.turn()) {
+      for (int side = 0; side < 2; ++side, lines.flip()) {
         const double separation = separation_along(view, lines.normal);
         if (separation > best.distance && lines.distance - separation <= rounding)
           best.distance = separation, best.edge_a = ea, best.edge_b = eb, best.lines = lines;
@@ -93,9 +93,9 @@ ClosestFeatures nearest(const PairView& view, double range) {
   return best;
 }
 
-std::optional<ClosestFeatures> find(PairView& view, const RoundedBody& a, const RoundedBody& b, double reach) {
-  if (!view.set(a, b, reach)) return {};
-  return closest_features(view, view.radii() + reach);
+std::optional<ClosestFeatures> find(PairView& view, const RoundedBody& a, const RoundedBody& b, double cutoff) {
+  if (!view.set(a, b, cutoff)) return {};
+  return closest_features(view, view.radii() + cutoff);
 }
 
 RoundedContact contact_at(const PairView& view, const ClosestFeatures& f) {

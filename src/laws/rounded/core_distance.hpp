@@ -65,7 +65,7 @@ struct LinePair {
   LinePair(const Vec3& a, const Vec3& u, const Vec3& b, const Vec3& v);
 
   /// n ← −n, d ← −d: for cores that overlap.
-  void turn() { normal = -normal, distance = -distance; }
+  void flip() { normal = -normal, distance = -distance; }
   /// Both feet between the ends of their edges.
   bool within() const { return crossing && ta > 0 && ta < 1 && tb > 0 && tb < 1; }
 };

@@ -84,7 +84,7 @@ void sphere_hits(int sphere, const LammpsPlaced& s, const LammpsPlaced& body, do
 }
 
 /// The edges of body a (0: i, 1: j) against the faces of the other.
-void edges_on_faces(int first_of, const LammpsPlaced& a, const LammpsPlaced& b, double reach, const OnHit& hit) {
+void edges_on_faces(int first_of, const LammpsPlaced& a, const LammpsPlaced& b, double cutoff, const OnHit& hit) {
   const std::size_t faces = b.normals.size();
   std::vector<bool> met(a.vertices.size());
   // of a's vertices and of b's center above b's faces
@@ -114,7 +114,7 @@ void edges_on_faces(int first_of, const LammpsPlaced& a, const LammpsPlaced& b, 
         }
       }
       for (int k = 0; k < 2; ++k) {
-        if (met[ends[k]] || std::abs(height[k]) > reach || !inside_face(b, face, foot(k))) continue;
+        if (met[ends[k]] || std::abs(height[k]) > cutoff || !inside_face(b, face, foot(k))) continue;
         met[ends[k]] = true;
         hit({first_of, {FeatureKind::vertex, ends[k]}, on, a.vertices[ends[k]], foot(k), std::abs(height[k])});
       }
@@ -140,14 +140,14 @@ Meeting beside(const Line& a, const Line& b) {
   return {true, a.from + (0.5 - s) / (t - s) * (a.to - a.from), (b.from + b.to) / 2};
 }
 
-void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, const OnHit& hit) {
+void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff, const OnHit& hit) {
   for (int ei = 0; ei < static_cast<int>(i.shape->edges.size()); ++ei)
     for (int ej = 0; ej < static_cast<int>(j.shape->edges.size()); ++ej) {
       const Line a = line(j, ej), b = line(i, ei);
       const Vec3 u = a.to - a.from, v = b.to - b.from;
-      // Points between the ends are farther apart than reach, also where r is that of another point of nearly parallel
+      // Points between the ends are farther apart than cutoff, also where r is that of another point of nearly parallel
       // edges.
-      const double far = 0.55 * (u.norm() + v.norm()) + reach;
+      const double far = 0.55 * (u.norm() + v.norm()) + cutoff;
       if ((a.from + a.to - b.from - b.to).squaredNorm() > 4 * far * far) continue;
       const bool parallel = std::abs(std::abs(u.normalized().dot(v.normalized())) - 1) < eps;
       Meeting m;
@@ -161,7 +161,7 @@ void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double reach, 
         m = {between_ends(a.parameter(lines.foot_a)) && between_ends(b.parameter(lines.foot_b)), lines.foot_a,
             lines.foot_b};
       }
-      if (!m.found || r < eps || !(r < reach)) continue;
+      if (!m.found || r < eps || !(r < cutoff)) continue;
       hit({1, {FeatureKind::edge, ej}, {FeatureKind::edge, ei}, m.on_a, m.on_b, r, false, parallel});
     }
 }
@@ -175,15 +175,15 @@ LammpsPlaced::LammpsPlaced(const RoundedBody& body, const Vec3& at) : shape(body
 }
 
 void lammps_hits(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff, const OnHit& hit) {
-  const double reach = i.shape->radius + j.shape->radius + cutoff;
+  const double within = i.shape->radius + j.shape->radius + cutoff;
   const Feature point{FeatureKind::vertex, 0};
   if (i.sphere() && j.sphere()) hit({0, point, point, i.center, j.center, (i.center - j.center).norm()});
   else if (i.sphere()) sphere_hits(0, i, j, cutoff, hit);
   else if (j.sphere()) sphere_hits(1, j, i, cutoff, hit);
   else {
-    edges_on_faces(0, i, j, reach, hit);
-    edges_on_faces(1, j, i, reach, hit);
-    edges_on_edges(i, j, reach, hit);
+    edges_on_faces(0, i, j, within, hit);
+    edges_on_faces(1, j, i, within, hit);
+    edges_on_edges(i, j, within, hit);
   }
 }
 

@@ -144,7 +144,7 @@ Wrench LammpsWall::on(const RoundedBody& body, const BodyMotion& motion, Wrench*
   Wrench w;
   const Vec3 x = body.pose.position.hi;
   const double plane = x[axis] - lo < hi - x[axis] ? lo : hi, rho = body.shape->radius;
-  if (!std::isfinite(plane) || std::abs(x[axis] - plane) > body.shape->reach()) return w;
+  if (!std::isfinite(plane) || std::abs(x[axis] - plane) > body.shape->bounding_radius()) return w;
   for (const Vec3& r : body.shape->vertices) {
     const Vec3 arm = body.pose.rotation * r;
     const double height = x[axis] + arm[axis] - plane, s = std::abs(height);

@@ -4,12 +4,12 @@
 
 namespace elamin {
 
-void CoreView::set(const RoundedShape& s, const RoundedShape& b, const Vec3& shift, const Mat3& turn) {
+void CoreView::set(const RoundedShape& s, const RoundedShape& b, const Vec3& shift, const Mat3& rotation) {
   seen = &s, by = &b;
   const std::size_t n = s.vertices.size(), faces = b.faces.size();
   vertices.resize(n), heights.resize(n * faces), bounds.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    vertices[k] = shift + turn * s.vertices[k];
+    vertices[k] = shift + rotation * s.vertices[k];
     bounds[k] = std::max(vertices[k].norm() - b.extent, face_heights(b, vertices[k], heights.data() + k * faces));
   }
 }
@@ -26,15 +26,15 @@ PairView& PairView::scratch() {
   return view;
 }
 
-bool PairView::set(const RoundedBody& a, const RoundedBody& b, double reach) {
+bool PairView::set(const RoundedBody& a, const RoundedBody& b, double cutoff) {
   a_from_b_ = (a.pose.position - b.pose.position).hi;
-  const double far = a.shape->reach() + b.shape->reach() + reach;
+  const double far = a.shape->bounding_radius() + b.shape->bounding_radius() + cutoff;
   if (!(a_from_b_.squaredNorm() <= (1 + 64 * epsilon) * far * far)) return false;
   position_b_ = b.pose.position.hi;
   rotation_a_ = a.pose.rotation.toRotationMatrix(), rotation_b_ = b.pose.rotation.toRotationMatrix();
-  const Mat3 turn = rotation_b_.transpose() * rotation_a_;
-  a_by_b_.set(*a.shape, *b.shape, rotation_b_.transpose() * a_from_b_, turn);
-  b_by_a_.set(*b.shape, *a.shape, -(rotation_a_.transpose() * a_from_b_), turn.transpose());
+  const Mat3 rotation = rotation_b_.transpose() * rotation_a_;
+  a_by_b_.set(*a.shape, *b.shape, rotation_b_.transpose() * a_from_b_, rotation);
+  b_by_a_.set(*b.shape, *a.shape, -(rotation_a_.transpose() * a_from_b_), rotation.transpose());
   return true;
 }
 
@@ -47,10 +47,10 @@ void PairView::add_vertex(PairLocal& u, bool first, int vertex, const Vec3& grad
 
 void PairView::add_lines(PairLocal& u, int ea, const LinePair& lines, const Vec6& gradient, const Mat6& hessian) const {
   const Vec3 offset = rotation_b_ * lines.foot_a, along = rotation_b_ * edge_a(ea);
-  Mat6 turn = Mat6::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = rotation_b_;
+  Mat6 rotation = Mat6::Zero();
+  rotation.topLeftCorner<3, 3>() = rotation.bottomRightCorner<3, 3>() = rotation_b_;
   const Carried point{offset - a_from_b_, offset, true}, direction{along, along, false};
-  add_carried<2>(u, true, {point, direction}, Vec6(turn * gradient), Mat6(turn * hessian * turn.transpose()));
+  add_carried<2>(u, true, {point, direction}, Vec6(rotation * gradient), Mat6(rotation * hessian * rotation.transpose()));
 }
 
 void PairView::push_vertex(std::array<Wrench, 2>& on, bool first, int vertex, const Vec3& gradient) const {

@@ -24,8 +24,8 @@ struct CoreView {
   std::vector<double> heights;                 // above the faces of `by`, vertex after vertex
   std::vector<double> bounds;                  // a vertex
 
-  /// Vertices at shift + turn · r.
-  void set(const RoundedShape& s, const RoundedShape& b, const Vec3& shift, const Mat3& turn);
+  /// Vertices at shift + rotation · r.
+  void set(const RoundedShape& s, const RoundedShape& b, const Vec3& shift, const Mat3& rotation);
   const double* heights_of(int vertex) const {
     return heights.data() + static_cast<std::size_t>(vertex) * by->faces.size();
   }
@@ -40,8 +40,8 @@ class PairView {
   /// One of each thread, to be set anew by whoever uses it.
   static PairView& scratch();
 
-  /// Whether the cores may be nearer than `reach` plus the radii; if not, nothing else may be asked. Keeps its memory.
-  bool set(const RoundedBody& a, const RoundedBody& b, double reach);
+  /// Whether the cores may be nearer than `cutoff` plus the radii; if not, nothing else may be asked. Keeps its memory.
+  bool set(const RoundedBody& a, const RoundedBody& b, double cutoff);
 
   const CoreView& seen(bool first) const { return first ? a_by_b_ : b_by_a_; }
   const RoundedShape& shape(bool first) const { return *seen(first).seen; }

@@ -14,23 +14,23 @@ struct Pose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// exp([θ]×) as a quaternion: the turn by |θ| about θ; good for any θ, also 0.
-inline Eigen::Quaterniond turn(const Vec3& theta) {
+/// exp([θ]×) as a quaternion: the rotation by |θ| about θ; good for any θ, also 0.
+inline Eigen::Quaterniond quaternion(const Vec3& theta) {
   const double angle = theta.norm(), half = angle / 2;
   const Vec3 axis = (angle > 0 ? std::sin(half) / angle : 0.5) * theta;
   return {std::cos(half), axis.x(), axis.y(), axis.z()};
 }
 
-/// The least turn that takes the direction of a to that of b, a, b ≠ 0; of opposite ones any.
+/// The least rotation that takes the direction of a to that of b, a, b ≠ 0; of opposite ones any.
 inline Eigen::Quaterniond shortest_rotation(const Vec3& a, const Vec3& b) {
   const Vec3 across = a.cross(b);
   const double sine = across.norm();
-  return turn(std::atan2(sine, a.dot(b)) * (sine > 0 ? Vec3(across / sine) : a.unitOrthogonal()));
+  return quaternion(std::atan2(sine, a.dot(b)) * (sine > 0 ? Vec3(across / sine) : a.unitOrthogonal()));
 }
 
-/// The pose moved by dx and then turned by θ about its own position: x + dx, exp([θ]×) R.
+/// The pose moved by dx and then rotated by θ about its own position: x + dx, exp([θ]×) R.
 inline Pose moved(const Pose& pose, const Vec3& dx, const Vec3& theta) {
-  return {pose.position + ExactVector{dx, Vec3::Zero()}, (turn(theta) * pose.rotation).normalized()};
+  return {pose.position + ExactVector{dx, Vec3::Zero()}, (quaternion(theta) * pose.rotation).normalized()};
 }
 
 /// A body of a shape at a pose. The shape outlives it.

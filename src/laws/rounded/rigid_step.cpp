@@ -6,7 +6,7 @@ namespace elamin {
 
 namespace {
 
-Vec3 spin(const Eigen::Quaterniond& q, const RigidMass& m, const Vec3& L) {
+Vec3 angular_velocity(const Eigen::Quaterniond& q, const RigidMass& m, const Vec3& L) {
   return q * (m.inverse_inertia * (q.conjugate() * L));
 }
 
@@ -28,7 +28,7 @@ RigidMass::RigidMass(double m, const Mat3& inertia) : mass(m) {
   }
 }
 
-BodyMotion RigidState::motion(const RigidMass& m) const { return {velocity, spin(pose.rotation, m, angular_momentum)}; }
+BodyMotion RigidState::motion(const RigidMass& m) const { return {velocity, angular_velocity(pose.rotation, m, angular_momentum)}; }
 
 void kick(RigidState& s, const RigidMass& m, const Wrench& w, double dt) {
   s.velocity += dt / 2 / m.mass * w.force;
@@ -39,9 +39,9 @@ void drift(RigidState& s, const RigidMass& m, double dt) {
   s.pose.position = s.pose.position + ExactVector{dt * s.velocity, Vec3::Zero()};
   const Eigen::Quaterniond q = s.pose.rotation;
   const Vec3& L = s.angular_momentum;
-  const Vec3 omega = spin(q, m, L);
+  const Vec3 omega = angular_velocity(q, m, L);
   const Eigen::Quaterniond full = turned(q, omega, dt / 2), quarter = turned(q, omega, dt / 4);
-  const Eigen::Quaterniond half = turned(quarter, spin(quarter, m, L), dt / 4);
+  const Eigen::Quaterniond half = turned(quarter, angular_velocity(quarter, m, L), dt / 4);
   s.pose.rotation = Eigen::Quaterniond(2 * half.coeffs() - full.coeffs()).normalized();
 }
 

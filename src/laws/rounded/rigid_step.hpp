@@ -25,7 +25,7 @@ struct RigidState {
 /// v += dt/2 F/m,  L += dt/2 T.
 void kick(RigidState& s, const RigidMass& m, const Wrench& w, double dt);
 
-/// x += dt v and the turn of the rotation q by L, two half steps beside a full one, extrapolated (Richardson):
+/// x += dt v and the change of the rotation q by L, two half steps beside a full one, extrapolated (Richardson):
 ///   q_full = norm(q + dt/2 ω q),   q_half = norm(q + dt/4 ω q)
 ///   ω′ = I(q_half)⁻¹ L,            q_half ← norm(q_half + dt/4 ω′ q_half)
 ///   q ← norm(2 q_half − q_full)

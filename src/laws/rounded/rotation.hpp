@@ -1,5 +1,5 @@
 #pragma once
-// Rotation vectors: where a turn leads to, and how that varies.
+// Rotation vectors: where a rotation leads to, and how that varies.
 #include "laws/rounded/carried.hpp"
 #include "laws/rounded/pose.hpp"
 
@@ -14,8 +14,8 @@ inline Vec3 rotation_vector(const Eigen::Quaterniond& q) {
   return s > 0 ? Vec3(2 * std::atan2(s, q.w()) / s * q.vec()) : Vec3(Vec3::Zero());
 }
 
-/// The same of the turn that leads from q to p, the shorter way.
-inline Vec3 turn_between(const Eigen::Quaterniond& q, const Eigen::Quaterniond& p) {
+/// The same of the rotation that leads from q to p, the shorter way.
+inline Vec3 rotation_between(const Eigen::Quaterniond& q, const Eigen::Quaterniond& p) {
   Eigen::Quaterniond d = p * q.conjugate();
   if (d.w() < 0) d.coeffs() = -d.coeffs();
   return rotation_vector(d);
@@ -24,9 +24,9 @@ inline Vec3 turn_between(const Eigen::Quaterniond& q, const Eigen::Quaterniond& 
 /// How exp([θ + δ]×) = exp([ω]×) exp([θ]×) turns with δ:  ω = J δ + Q(δ, δ)/2 + O(δ³),
 ///   J = I + a [θ]× + b [θ]×²,   a = (1 − cos φ)/φ²,   b = (φ − sin φ)/φ³,   φ = |θ|;   Q(δ, δ) = (∂J/∂θ · δ) δ
 /// J: left Jacobian of SO(3) (Chirikjian 2012, Stochastic Models 2, sec. 10.5).
-class TurnChart {
+class RotationChart {
  public:
-  explicit TurnChart(const Vec3& theta) : theta_(theta) {
+  explicit RotationChart(const Vec3& theta) : theta_(theta) {
     const double p2 = theta.squaredNorm(), p = std::sqrt(p2);
     if (p < 0.03) {                                              // series: the next terms are below 1e-17 of these
       a_ = 0.5 - p2 / 24 + p2 * p2 / 720 - p2 * p2 * p2 / 40320, b_ = 1.0 / 6 - p2 / 120 + p2 * p2 / 5040;

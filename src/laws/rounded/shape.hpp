@@ -37,7 +37,7 @@ struct RoundedShape {
   double shortest_edge = 0;                    // 0 for a sphere [length]
 
   /// The bounding sphere of the body about the origin of its frame [length].
-  double reach() const { return extent + radius; }
+  double bounding_radius() const { return extent + radius; }
 };
 
 /// Everything that is wrong with a core and its radius, one sentence each; empty: nothing. Asked for: finite numbers;

@@ -64,7 +64,7 @@ struct Couple {
 inline Couple couple(const RoundedShape& a, const RoundedShape& b, double gap, std::mt19937& random) {
   const Vec3 from = random_vector(random), direction = random_vector(random).normalized();
   Couple c{placed(a, from, random_rotation(random)), placed(b, from, random_rotation(random))};
-  double lo = 0, hi = a.reach() + b.reach() + std::abs(gap);
+  double lo = 0, hi = a.bounding_radius() + b.bounding_radius() + std::abs(gap);
   for (int k = 0; k < 60; ++k) {
     const double middle = (lo + hi) / 2;
     c.b.pose.position.hi = from + middle * direction;

@@ -49,7 +49,7 @@ Vec12 random_motion(std::mt19937& random) {
 /// leave open, on a straight motion; both negative if E is C¹ with second derivatives as given.
 template <class L>
 double jump(const L& law, const Couple& from, const Vec12& motion, int steps) {
-  const double size = from.a.shape->reach() + from.b.shape->reach();
+  const double size = from.a.shape->bounding_radius() + from.b.shape->bounding_radius();
   const AtPoses<L> at{law, from, size};
   std::vector<PairLocal> u;
   double bend = 0;
@@ -75,8 +75,8 @@ double jump(const L& law, const Couple& from, const Vec12& motion, int steps) {
 Couple resting_boxes(double angle) {
   static const RoundedShape box = rounded_shape(box_core({1.0, 0.8, 1.3}), 0.1);
   const Vec3 axis = Vec3(0.6, 0.8, 0);
-  return {placed(box, {0.013, -0.021, 1.3 + 0.2 - 0.03}, turn(angle * axis) * turn({0, 0, 0.3})),
-      placed(box, Vec3::Zero(), turn({0, 0, 0}))};
+  return {placed(box, {0.013, -0.021, 1.3 + 0.2 - 0.03}, quaternion(angle * axis) * quaternion({0, 0, 0.3})),
+      placed(box, Vec3::Zero(), quaternion({0, 0, 0}))};
 }
 
 }  // namespace
@@ -211,15 +211,15 @@ TEST_CASE("aligned boxes have finite derivatives and the energy of their corners
 TEST_CASE("edges that are nearly parallel: the distance keeps its digits", "[laws][rounded]") {
   const RoundedShape rod = rounded_shape(rod_core(2), 0.2);
   const double h = 0.35;
-  const Eigen::Quaterniond Q = turn({0.4, -0.7, 0.2});
+  const Eigen::Quaterniond Q = quaternion({0.4, -0.7, 0.2});
   for (double angle = 0.3; angle > 1e-18; angle /= 3) {
     INFO("angle " << angle);
-    const RoundedBody a = placed(rod, Vec3::Zero(), Q), b = placed(rod, Q * Vec3(0.8, 0, h), Q * turn({0, 0, angle}));
+    const RoundedBody a = placed(rod, Vec3::Zero(), Q), b = placed(rod, Q * Vec3(0.8, 0, h), Q * quaternion({0, 0, angle}));
     CHECK(std::abs(core_separation(a, b) - h) <= 1e-13);
     const PairLocal u = RoundedClosest{kernel}.derivatives(a, b);
     CHECK(u.hessian.allFinite());
     CHECK((u.gradient.segment<3>(0) + kernel.slope(h - 0.4) * (Q * Vec3::UnitZ())).norm() <= 1e-6);
-    // Below the gate of the angle an end of each rod at the side of the other; the far ends are out of reach.
+    // Below the gate of the angle an end of each rod at the side of the other; the far ends are out of contact_distance.
     const double U = kernel.value(h - 0.4), m = RoundedMulti{kernel}.value(a, b);
     if (angle < 1e-4) CHECK(m == Approx(2 * U).epsilon(1e-6));
     CHECK(RoundedMulti{kernel}.derivatives(a, b).hessian.allFinite());

@@ -25,7 +25,7 @@ struct AtPoses {
   Couple at(const Points<4>& x) const {
     Eigen::Matrix<double, 12, 1> step;
     for (int k = 0; k < 4; ++k)
-      step.segment<3>(3 * k) = (x.position.col(k) + x.tail.col(k)) / (k % 2 == 1 ? unit : 1.0);
+      step.segment<3>(3 * k) = (x.position.col(k) + x.low.col(k)) / (k % 2 == 1 ? unit : 1.0);
     return moved(couple, step);
   }
   double value(const Points<4>& x) const { return law.value(at(x).a, at(x).b); }
@@ -34,7 +34,7 @@ struct AtPoses {
     PairLocal u = law.derivatives(c.a, c.b);
     Eigen::Matrix<double, 12, 12> scale = Eigen::Matrix<double, 12, 12>::Identity();
     for (const int k : {1, 3}) {
-      const Vec3 theta = (x.position.col(k) + x.tail.col(k)) / unit;
+      const Vec3 theta = (x.position.col(k) + x.low.col(k)) / unit;
       u.force_part(k) = (left_jacobian(theta).transpose() * u.force_part(k)).eval();
       scale.block<3, 3>(3 * k, 3 * k) /= unit;
     }
@@ -50,7 +50,7 @@ template <class L>
 std::vector<std::string> check_pair(const L& law, const Couple& c, double length) {
   std::vector<std::string> wrong;
   const auto demand = [&](bool holds, const std::string& what) { if (!holds) wrong.push_back(what); };
-  const double size = c.a.shape->reach() + c.b.shape->reach();
+  const double size = c.a.shape->bounding_radius() + c.b.shape->bounding_radius();
   const AtPoses<L> at{law, c, size};
   const Points<4> here;
   const PairLocal u = at.derivatives(here);

@@ -35,7 +35,7 @@ TEST_CASE("Newton's method finds a stack of two boxes on a floor and their overl
   Region floor;
   const double wall = 400, k = 100, weight_a = 3, weight_b = 2;
   const Stack stack{RoundedMulti{{k, 0, 0, RoundedKernel::Form::coded}}, {floor, true, {wall, 0, 0}}, weight_a, weight_b};
-  Couple c{placed(large, {0, 0, 0.48}, turn({0.01, -0.015, 0.3})), placed(small, {0, 0, 1.54}, turn({-0.02, 0.01, 0.9}))};
+  Couple c{placed(large, {0, 0, 0.48}, quaternion({0.01, -0.015, 0.3})), placed(small, {0, 0, 1.54}, quaternion({-0.02, 0.01, 0.9}))};
   const std::vector<int> free{2, 3, 4, 8, 9, 10};                      // nothing holds them sideways: x, y and θ_z are held
   double last = 1;
   int quadratic = 0;

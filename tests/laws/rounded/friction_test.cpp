@@ -22,8 +22,8 @@ TEST_CASE("damping and friction take energy, and leave momentum and angular mome
       CHECK((on[0].force + on[1].force).norm() == 0);
       CHECK((on[0].torque + on[1].torque + xa.cross(on[0].force) + xb.cross(on[1].force)).norm() <= 1e-12);
       double power = 0;
-      power += on[0].force.dot(va.velocity) + on[0].torque.dot(va.spin);
-      power += on[1].force.dot(vb.velocity) + on[1].torque.dot(vb.spin);
+      power += on[0].force.dot(va.velocity) + on[0].torque.dot(va.angular_velocity);
+      power += on[1].force.dot(vb.velocity) + on[1].torque.dot(vb.angular_velocity);
       if (gap > 0 && !apart) CHECK(on[0].force.norm() == 0);
       else CHECK(power < 0);
 
@@ -69,7 +69,7 @@ TEST_CASE("forces of bodies are minus the gradient, their contacts those of cont
     for (const NamedShape& b : test_shapes())
       for (int k = 0; k < 40; ++k) {
         const RoundedBody one = placed(a.shape, Vec3::Zero(), random_rotation(random));
-        const double far = std::uniform_real_distribution<double>(0.7, 1)(random) * (a.shape.reach() + b.shape.reach());
+        const double far = std::uniform_real_distribution<double>(0.7, 1)(random) * (a.shape.bounding_radius() + b.shape.bounding_radius());
         const RoundedBody two = placed(b.shape, far * random_vector(random).normalized(), random_rotation(random));
         if (cores_overlap(one, two)) continue;
         check(RoundedMulti{kernel}, one, two), check(RoundedClosest{kernel}, one, two);

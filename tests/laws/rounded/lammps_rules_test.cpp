@@ -84,9 +84,9 @@ TEST_CASE("more touching contacts than LAMMPS has room for are reported", "[laws
   REQUIRE(mistakes(drum, 0.2) == std::vector<std::string>{});
   const RoundedShape shape = rounded_shape(drum, 0.2);
   const LammpsRules rules{{100, 2, 0.3, RoundedKernel::Form::coded}};
-  const RoundedBody below = placed(shape, Vec3::Zero(), turn({0, 0, 0}));
-  CHECK(rules.pair(below, placed(shape, {0.001, 0.002, 0.95}, turn({0.001, 0.002, std::numbers::pi / n}))).overflow);
-  CHECK(!rules.pair(below, placed(shape, {0.9, 0.02, 0.95}, turn({0.001, 0.002, std::numbers::pi / n}))).overflow);
+  const RoundedBody below = placed(shape, Vec3::Zero(), quaternion({0, 0, 0}));
+  CHECK(rules.pair(below, placed(shape, {0.001, 0.002, 0.95}, quaternion({0.001, 0.002, std::numbers::pi / n}))).overflow);
+  CHECK(!rules.pair(below, placed(shape, {0.9, 0.02, 0.95}, quaternion({0.001, 0.002, std::numbers::pi / n}))).overflow);
 }
 
 TEST_CASE("what LAMMPS's rules cannot minimise is said", "[laws][rounded][lammps]") {
@@ -99,7 +99,7 @@ TEST_CASE("what LAMMPS's rules cannot minimise is said", "[laws][rounded][lammps
 
 TEST_CASE("damping acts on touching contacts only, along and across the normal", "[laws][rounded][lammps]") {
   const RoundedShape rod = rounded_shape(rod_core(2), 0.25), box = rounded_shape(box_core({2, 2, 1}), 0.25);
-  const Eigen::Quaterniond tilt = turn({0, 0, 0.3}) * turn({0, 1.1, 0});
+  const Eigen::Quaterniond tilt = quaternion({0, 0, 0.3}) * quaternion({0, 1.1, 0});
   const LammpsRules rules{{100, 2, 0.3, RoundedKernel::Form::coded}, 3, 5, 0, 1};
   for (const double gap : {-0.05, 0.05}) {
     const RoundedBody a{&rod, {{{0.1, 0.2, 0.5 + 0.5 + gap + std::sin(1.1)}, Vec3::Zero()}, tilt}}, b{&box, {}};
@@ -107,7 +107,7 @@ TEST_CASE("damping acts on touching contacts only, along and across the normal",
     std::vector<LammpsContact> contacts;
     const LammpsPair still = rules.pair(a, b), moving = rules.pair(a, b, v, {}, &contacts);
     REQUIRE(contacts.size() == 1);
-    const Vec3 arm = contacts[0].point - a.pose.position.hi, at = v.velocity + v.spin.cross(arm),
+    const Vec3 arm = contacts[0].point - a.pose.position.hi, at = v.velocity + v.angular_velocity.cross(arm),
         f = moving.on[0].force - still.on[0].force;
     const Vec3 expected = gap < 0 ? Vec3(-5 * at.x(), -5 * at.y(), -3 * at.z()) : Vec3::Zero();
     CHECK((f - expected).norm() <= 1e-12);

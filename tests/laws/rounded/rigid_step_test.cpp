@@ -65,16 +65,16 @@ TEST_CASE("rigid bodies move as LAMMPS moves them", "[laws][rounded][lammps]") {
 }
 
 TEST_CASE("a free body keeps its energy of rotation, to second order in the time step", "[laws][rounded]") {
-  const Mat3 R = turn({0.3, -1, 0.5}).toRotationMatrix();
+  const Mat3 R = quaternion({0.3, -1, 0.5}).toRotationMatrix();
   const RigidMass m(2, R * Vec3(1, 2, 3).asDiagonal() * R.transpose());
   const Vec3 L(0.3, 1.7, -0.4);
   const auto drift_of_energy = [&](double dt) {
     RigidState s;
     s.angular_momentum = L;
     double worst = 0;
-    const double start = s.motion(m).spin.dot(L) / 2;
+    const double start = s.motion(m).angular_velocity.dot(L) / 2;
     for (int k = 0; k < 2 / dt; ++k)
-      drift(s, m, dt), worst = std::max(worst, std::abs(s.motion(m).spin.dot(L) / 2 - start));
+      drift(s, m, dt), worst = std::max(worst, std::abs(s.motion(m).angular_velocity.dot(L) / 2 - start));
     return worst;
   };
   const double coarse = drift_of_energy(0.02), fine = drift_of_energy(0.01);
@@ -87,5 +87,5 @@ TEST_CASE("about an axis without inertia a body does not spin", "[laws][rounded]
   const RigidMass rod(1, Vec3(1e-9, 2, 2).asDiagonal());
   RigidState s;
   s.angular_momentum = {5, 0, 1};
-  CHECK(s.motion(rod).spin == Vec3(0, 0, 0.5));
+  CHECK(s.motion(rod).angular_velocity == Vec3(0, 0, 0.5));
 }

@@ -14,7 +14,7 @@ using Sentences = std::vector<std::string>;
 
 /// Moments of a rounded solid by counting cells of a grid.
 MassProperties counted(const RoundedShape& shape, int cells) {
-  const double h = 2 * shape.reach() / cells;
+  const double h = 2 * shape.bounding_radius() / cells;
   std::vector<double> heights(shape.faces.size());
   double volume = 0;
   Vec3 first = Vec3::Zero();
@@ -22,7 +22,7 @@ MassProperties counted(const RoundedShape& shape, int cells) {
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j)
       for (int k = 0; k < cells; ++k) {
-        const Vec3 x = h * Vec3(i + 0.5, j + 0.5, k + 0.5) - Vec3::Constant(shape.reach());
+        const Vec3 x = h * Vec3(i + 0.5, j + 0.5, k + 0.5) - Vec3::Constant(shape.bounding_radius());
         face_heights(shape, x, heights.data());
         if (core_distance(shape, x, heights.data()).value > shape.radius) continue;
         volume += h * h * h, first += h * h * h * x, second += h * h * h * x * x.transpose();
@@ -178,7 +178,7 @@ TEST_CASE("mass of spheres, rods, boxes and tetrahedra", "[laws][rounded]") {
 
 TEST_CASE("mass of a body without symmetry, against a grid; its center", "[laws][rounded]") {
   CoreMesh core = pyramid_core();
-  for (Vec3& x : core.vertices) x = turn({0.3, -0.9, 0.5}) * x;        // no face along the grid
+  for (Vec3& x : core.vertices) x = quaternion({0.3, -0.9, 0.5}) * x;        // no face along the grid
   const RoundedShape shape = rounded_shape(core, 0.25);
   const MassProperties m = mass_properties(shape), grid = counted(shape, 80);
   CHECK(m.volume == Approx(grid.volume).epsilon(3e-4));

@@ -1,4 +1,4 @@
-#include "input/state_tail.hpp"
+#include "input/state_supplement.hpp"
 
 #include "core/error.hpp"
 
@@ -64,21 +64,21 @@ class TailReader {
  public:
   TailReader(std::string file, Json json) : file_(std::move(file)), json_(std::move(json)) {}
 
-  StateTail read() const {
+  StateSupplement read() const {
     if (!json_.is_object() || !json_.contains("lambda") || !json_.contains("tail") || !number(json_["lambda"]) ||
         !json_["tail"].is_array())
       wrong("must hold {\"lambda\": number, \"tail\": [[x, y, z], …]}, as beside every stored state; without this file "
             "the state is taken from its data file alone");
-    StateTail stored{json_["lambda"].get<double>(), Field(3, static_cast<Eigen::Index>(json_["tail"].size())), {}, {}};
+    StateSupplement stored{json_["lambda"].get<double>(), Field(3, static_cast<Eigen::Index>(json_["tail"].size())), {}, {}};
     if (json_.contains("bodies")) stored.bodies = bodies(json_["bodies"]);
     for (std::size_t i = 0; i < json_["tail"].size(); ++i) {
       const Json& t = json_["tail"][i];
       if (!t.is_array() || t.size() != 3 || !number(t[0]) || !number(t[1]) || !number(t[2]))
         wrong(fmt::format("tail {} must be three finite numbers [x, y, z]", i + 1));
-      stored.tail.col(static_cast<Eigen::Index>(i)) = Vec3(t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
+      stored.low.col(static_cast<Eigen::Index>(i)) = Vec3(t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
     }
     if (json_.contains("stage")) stored.stage = stage(json_["stage"]);
-    const auto sites = stored.tail.cols() + 2 * static_cast<Eigen::Index>(stored.bodies.size());
+    const auto sites = stored.low.cols() + 2 * static_cast<Eigen::Index>(stored.bodies.size());
     if (json_.contains("path")) stored.path = path(json_["path"], static_cast<int>(sites));
     return stored;
   }
@@ -194,7 +194,7 @@ class TailReader {
 
 }  // namespace
 
-std::string tail_file(const std::string& data_file) {
+std::string supplement_file(const std::string& data_file) {
   return std::filesystem::path(data_file).replace_extension(".json").string();
 }
 
@@ -204,13 +204,13 @@ std::vector<Pose> stored_poses(const State& state) {
   return poses;
 }
 
-std::string tail_text(const StateTail& stored) {
+std::string supplement_text(const StateSupplement& stored) {
   std::string text = fmt::format("{{\"lambda\": {:.17g},\n", stored.load_factor);
   if (stored.stage) text += "\"stage\": " + stage_text(*stored.stage) + ",\n";
   if (stored.path) text += "\"path\": " + path_text(*stored.path) + ",\n";
   text += "\"tail\": [";
-  for (Eigen::Index i = 0; i < stored.tail.cols(); ++i) {
-    const Vec3 t = stored.tail.col(i).array() + 0.0;                 // no negative zeros
+  for (Eigen::Index i = 0; i < stored.low.cols(); ++i) {
+    const Vec3 t = stored.low.col(i).array() + 0.0;                 // no negative zeros
     fmt::format_to(std::back_inserter(text), "{}\n[{:.17g}, {:.17g}, {:.17g}]", i ? "," : "", t[0], t[1], t[2]);
   }
   text += "]";
@@ -223,8 +223,8 @@ std::string tail_text(const StateTail& stored) {
   return text + (stored.bodies.empty() ? "}\n" : "]}\n");
 }
 
-std::optional<StateTail> read_tail(const std::string& data_file) {
-  const std::string file = tail_file(data_file);
+std::optional<StateSupplement> read_supplement(const std::string& data_file) {
+  const std::string file = supplement_file(data_file);
   std::ifstream in(file, std::ios::binary);
   if (!in || file == data_file) return std::nullopt;
   return TailReader(file, Json::parse(in, nullptr, false)).read();

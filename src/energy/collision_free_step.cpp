@@ -1,4 +1,4 @@
-#include "energy/passage.hpp"
+#include "energy/collision_free_step.hpp"
 
 #include "core/interrupt.hpp"
 #include "core/near_pairs.hpp"
@@ -36,7 +36,7 @@ double root(const Vec3& d, const Vec3& u, double floor) {
 double among_particles(const Model& model, const ContactRules& rules, const State& from, const Field& u) {
   double fastest = 0, smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < model.particles(); ++i)
-    if (rules.reach(i) > 0) fastest = std::max(fastest, u.col(i).norm()), smallest = std::min(smallest, 2 * rules.reach(i));
+    if (rules.cutoff_radius(i) > 0) fastest = std::max(fastest, u.col(i).norm()), smallest = std::min(smallest, 2 * rules.cutoff_radius(i));
   if (fastest == 0) return 1;
   const double width = std::min(1.0, chunk * smallest / fastest), looked_at = std::min(1.0, most_pieces * width);
   std::vector<double> radii(model.particles(), 0.0);
@@ -44,7 +44,7 @@ double among_particles(const Model& model, const ContactRules& rules, const Stat
     const double begin = piece * width;
     if (begin > 0 && interrupted()) return begin;
     for (int i = 0; i < model.particles(); ++i)
-      if (rules.reach(i) > 0) radii[i] = rules.reach(i) + width / 2 * u.col(i).norm();
+      if (rules.cutoff_radius(i) > 0) radii[i] = rules.cutoff_radius(i) + width / 2 * u.col(i).norm();
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [i, j] : near_pairs(from.position + (begin + width / 2) * u, radii,
                                          [&](int p, int q) { return touching(model, rules, p, q) > 0; })) {
@@ -74,14 +74,14 @@ double distance(const Wall& wall, double load_factor, const ExactVector& x, doub
 }
 
 // The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches.
-double at_wall(const Model& model, const Wall& wall, int p, const State& from, double turn, const Vec3& u, double speed, double most) {
+double at_wall(const Model& model, const Wall& wall, int p, const State& from, double load_change, const Vec3& u, double speed, double most) {
   constexpr int most_advances = 200;
   constexpr double on_surface = 1e-9, off_surface = 1e-6;        // in radii
   const double r = model.diameter[p] / 2;
   const auto at = [&](double s) {
     ExactVector x = from.at(p);
     x.hi += s * u;
-    return distance(wall, from.load_factor + s * turn, x, r);
+    return distance(wall, from.load_factor + s * load_change, x, r);
   };
   double here = at(0), s = 0;
   if (!(speed > 0) || !std::isfinite(here)) return most;
@@ -102,16 +102,16 @@ double at_wall(const Model& model, const Wall& wall, int p, const State& from, d
 }
 
 double at_wall(const Model& model, const Wall& wall, const State& from, const State& to, const Field& u) {
-  const double turn = to.load_factor - from.load_factor;
-  const double wall_speed = std::abs(wall.scaling.rate * turn) * (wall.displacement.norm() + std::abs(wall.radius_change));
+  const double load_change = to.load_factor - from.load_factor;
+  const double wall_speed = std::abs(wall.scaling.rate * load_change) * (wall.displacement.norm() + std::abs(wall.radius_change));
   double least = 1;
-  for (const int p : wall.particles) least = at_wall(model, wall, p, from, turn, u.col(p), u.col(p).norm() + wall_speed, least);
+  for (const int p : wall.particles) least = at_wall(model, wall, p, from, load_change, u.col(p), u.col(p).norm() + wall_speed, least);
   return least;
 }
 
 }  // namespace
 
-double free_passage(const Model& model, const ContactRules& rules, const State& from, const State& to) {
+double collision_free_particle_step(const Model& model, const ContactRules& rules, const State& from, const State& to) {
   if (!rules.any() && model.walls.empty()) return 1;
   const Field u = displacement(from, to);
   if (!u.allFinite()) return 0;

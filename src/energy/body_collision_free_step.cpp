@@ -1,4 +1,4 @@
-#include "energy/body_passage.hpp"
+#include "energy/body_collision_free_step.hpp"
 
 #include "core/interrupt.hpp"
 #include "core/near_pairs.hpp"
@@ -26,7 +26,7 @@ class Way {
     for (int e = particles; e < n; ++e) {
       const Pose &a = from.bodies[e - particles], &b = to.bodies[e - particles];
       move_.col(e) = (b.position - a.position).hi;
-      turn_.col(e) = turn_between(a.rotation, b.rotation);
+      turn_.col(e) = rotation_between(a.rotation, b.rotation);
     }
   }
 
@@ -74,15 +74,15 @@ double height(const RoundedWall& wall, const RoundedBody& body) {
 }
 
 double at_walls(const Model& model, const BodyRules& rules, const Way& way, const State& from, const State& to, double part) {
-  const double turn = to.load_factor - from.load_factor;
+  const double load_change = to.load_factor - from.load_factor;
   for (const Wall& wall : model.walls)
     for (const int b : wall.bodies) {
       if (wall.lammps || wall.kernel.normal == 0) continue;
       const int e = rules.particles() + b;
       const RoundedBody body = model.body(b, from);
-      const double speed = (way.move().col(e) - wall.scaling.rate * turn * wall.displacement).norm() + way.turning(e, body);
+      const double speed = (way.move().col(e) - wall.scaling.rate * load_change * wall.displacement).norm() + way.turning(e, body);
       part = std::min(part, advance(part, speed, [&](double s) {
-        return height(rounded_wall_at(wall, from.load_factor + s * turn), way.at(e, s));
+        return height(rounded_wall_at(wall, from.load_factor + s * load_change), way.at(e, s));
       }));
     }
   return part;
@@ -90,7 +90,7 @@ double at_walls(const Model& model, const BodyRules& rules, const Way& way, cons
 
 }  // namespace
 
-double free_body_passage(const Model& model, const BodyRules& rules, const State& from, const State& to) {
+double collision_free_body_step(const Model& model, const BodyRules& rules, const State& from, const State& to) {
   if (model.bodies.empty() || (!rules.any() && model.walls.empty())) return 1;
   const Way way(rules, from, to);
   if (!way.finite()) return 0;
@@ -100,7 +100,7 @@ double free_body_passage(const Model& model, const BodyRules& rules, const State
   std::vector<double> radii(rules.entities(), 0.0);
   for (int e = 0; e < rules.entities(); ++e) {
     middle.col(e) = rules.position(e, from) + way.move().col(e) / 2;
-    if (rules.reach(e) > 0) radii[e] = rules.reach(e) + way.move().col(e).norm() / 2;
+    if (rules.cutoff_radius(e) > 0) radii[e] = rules.cutoff_radius(e) + way.move().col(e).norm() / 2;
   }
   const auto bars = [&](int i, int j) {
     const int t = rules.table(i, j);

@@ -13,9 +13,9 @@ namespace elamin {
 /// Steps that fail are halved, down to 2⁻¹² of a step. Where the branch turns unstable the branch point or limit point is located; what
 /// cannot be located, and where no step can be made, is told by a note. Under `jump` the state then snaps to the minimum that Ipopt
 /// finds a fixed part of the path beyond.
-class HeldSteps final : public Path {
+class HardContactSteps final : public Path {
  public:
-  HeldSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering = nullptr);
+  HardContactSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering = nullptr);
 
  protected:
   void advance() override;
@@ -31,7 +31,7 @@ class HeldSteps final : public Path {
   double margin(const HardForce& contact, const Equilibrium& e) const;
   [[nodiscard]] std::optional<Equilibrium> first_change(const Contacts& wrong, const Equilibrium& candidate);
   [[nodiscard]] bool turn_back(const HardForce& contact);
-  void corner(Equilibrium at, const Contacts& slack);
+  void kink(Equilibrium at, const Contacts& slack);
   void change(Equilibrium at, Contacts now, const Contacts& slack);
   void go_on(Equilibrium from);
   double direction() const { return options_.to < options_.from ? -1 : 1; }
@@ -58,7 +58,7 @@ class HeldSteps final : public Path {
   Equilibrium current_;
   Contacts closed_;                      // from current_ on; some may not bear a force yet
   Contacts slack_;                       // with neither gap nor force at current_
-  std::vector<double> side_;             // of every watch: observable − value from current_ on
+  std::vector<double> side_;             // of every user event: observable − value from current_ on
   int changes_ = 0;                      // of contacts at this load factor
   bool begun_ = false;
 };

@@ -123,7 +123,7 @@ Model springs_under_lid(const std::vector<double>& at, double size, double stiff
   for (int k = 0; k < n; ++k) {
     const double height = size - at[k] * way;
     m.start.position.col(2 * k) = Vec3(2 * k * size, 0, 0), m.start.position.col(2 * k + 1) = Vec3(2 * k * size, 0, height);
-    m.start.tail.col(2 * k).setZero(), m.start.tail.col(2 * k + 1).setZero();
+    m.start.low.col(2 * k).setZero(), m.start.low.col(2 * k + 1).setZero();
     m.diameter[2 * k] = m.diameter[2 * k + 1] = 2 * radius;
     m.bond_types.push_back({stiffness, height}), m.bonds.push_back({k, {2 * k, 2 * k + 1}});
     hold(m, 2 * k, 2 * k), hold(m, 2 * k + 1, 2 * k + 1, {true, false, false});
@@ -180,7 +180,7 @@ TEST_CASE("a free ring between two hard plates is held where nothing opposes it,
   m.angles.clear(), m.angle_types.clear();
   for (int i = 0; i < n; ++i) {
     m.start.position.col(i) = Vec3(std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0);
-    m.start.tail.col(i).setZero();
+    m.start.low.col(i).setZero();
     m.angles.push_back({0, {(i + n - 1) % n, i, (i + 1) % n}});
   }
   m.angle_types = {{1 / chord}};
@@ -232,7 +232,7 @@ TEST_CASE("a truss snaps through onto a hard stop from its limit point", "[path]
   Model m = chain(3, k, 0, whole);
   m.plane_normal = 1;
   m.angles.clear();
-  m.start.tail.setZero();
+  m.start.low.setZero();
   m.start.position.col(0) = Vec3(-b, 0, 0), m.start.position.col(1) = Vec3(0, 0, h), m.start.position.col(2) = Vec3(b, 0, 0);
   m.diameter.assign(3, 0.1 * size);
   hold(m, 0, 0), hold(m, 2, 2);

@@ -8,6 +8,6 @@ namespace elamin {
 /// centre or a wall it feels than a fifth of its distance at `from`. Cores that overlap at `from` are no bar. Conservative
 /// advancement: a distance d lasts for s = d/v, v no less than any speed of approach,
 ///   v = |Δx_A − Δx_B| + |Δφ_A| extent_A + |Δφ_B| extent_B   (Mirtich 1996). 0 where it is interrupted.
-double free_body_passage(const Model& model, const BodyRules& rules, const State& from, const State& to);
+double collision_free_body_step(const Model& model, const BodyRules& rules, const State& from, const State& to);
 
 }  // namespace elamin

@@ -24,9 +24,9 @@ struct StoredPath {
   Resume resume;
 };
 
-struct StateTail {
+struct StateSupplement {
   double load_factor = 0;
-  Field tail;                          // 3 × particles, in ascending order of their ids [length]
+  Field low;                          // 3 × particles, in ascending order of their ids [length]
   std::optional<StoredStage> stage;
   std::optional<StoredPath> path;      // where the state alone does not tell it
   std::vector<Pose> bodies = {};       // in the order of the model: of the position the tail alone (hi is 0), and the rotation
@@ -36,16 +36,16 @@ struct StateTail {
 std::vector<Pose> stored_poses(const State& state);
 
 /// LABEL.json of LABEL.data.
-std::string tail_file(const std::string& data_file);
+std::string supplement_file(const std::string& data_file);
 
 /// {"lambda": λ, "tail": [[x, y, z], …]}, a particle a line, with 17 digits; before the tail, if there is one, "stage":
 /// {"name", "from", "scaling": [[fixed, rate], …]}, and "path": {"varied", "rising", "resume": what is not empty of Resume
 /// by its names, one array for each of the modes}; behind it, if there are any, "bodies": [[x, y, z, qw, qx, qy, qz], …], tail
 /// and rotation of each.
-std::string tail_text(const StateTail& stored);
+std::string supplement_text(const StateSupplement& stored);
 
 /// What stands beside a data file; nothing if there is no such file. Throws InputError if it cannot be understood: vectors
 /// over the free coordinates must be of one size, contacts between particles that there are.
-std::optional<StateTail> read_tail(const std::string& data_file);
+std::optional<StateSupplement> read_supplement(const std::string& data_file);
 
 }  // namespace elamin

@@ -1,0 +1,35 @@
+#pragma once
+// What a direct factorisation of sparse symmetric matrices does; CHOLMOD's and MUMPS's are `cholesky` and `pivoted`.
+#include "core/types.hpp"
+
+namespace elamin {
+
+/// A factorisation of H + τI or, with borders Z (n × m), of the matrix
+///   [ H   sZ ]
+///   [ sZᵀ  0 ] ,   s = max |H|;
+/// ordering and symbolic analysis once per pattern. H is given by its lower triangle with full diagonal.
+class Factorization {
+ public:
+  Factorization() = default;
+  virtual ~Factorization() = default;
+  Factorization(const Factorization&) = delete;
+  Factorization& operator=(const Factorization&) = delete;
+
+  /// Takes the pattern, which must stay the same until the next call, and how many borders there will be.
+  virtual void analyze(const SparseMatrix& pattern, int borders = 0) = 0;
+  /// Factorises H + shift·I with the borders. False if there is no factor; negative() and solve() then mean nothing.  shift [force/length]
+  [[nodiscard]] virtual bool factorize(const SparseMatrix& hessian, double shift = 0, const Eigen::MatrixXd& borders = {}) = 0;
+  /// The number of negative eigenvalues of the matrix factorised last. With borders that are independent, m of them belong to
+  /// the borders: the others are those of H among the vectors orthogonal to Z.
+  virtual int negative() const = 0;
+  /// (H + shift·I)⁻¹ b; with borders p of H p + Z μ = b, Zᵀ p = 0.
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& b) = 0;
+  Vector solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
+  /// Time spent in all calls so far, waiting for other threads included.
+  double seconds() const { return seconds_; }
+
+ protected:
+  double seconds_ = 0;
+};
+
+}  // namespace elamin
