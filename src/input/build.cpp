@@ -30,6 +30,7 @@ class Builder {
     if (whole_) check_plane(p_, model_, model_.start, place_of(p_, model_.structures.front()), mistakes_);
 
     Groups groups(model_, whole_, mistakes_);
+    if (p_.lammps) groups.add_labels(p_.lammps->labels);
     for (const std::string& name : unknown_) groups.add_unknown(name);
     for (const GroupTable& g : p_.groups) groups.add(g);
     bool holding = add_connections(p_, groups, model_, mistakes_);

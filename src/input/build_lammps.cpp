@@ -17,9 +17,9 @@ namespace elamin {
 namespace {
 
 /// A LAMMPS data file, or nothing if it holds mistakes.
-std::optional<LammpsData> read(const std::string& file, const std::string& atom_style, Mistakes& mistakes) {
+std::optional<LammpsData> read(const std::string& file, const LammpsReading& how, Mistakes& mistakes) {
   try {
-    return read_lammps_data(file, atom_style);
+    return read_lammps_data(file, how);
   } catch (const InputError& e) {
     mistakes.add(e.mistakes());
     return std::nullopt;
@@ -35,8 +35,10 @@ void move_bodies(LammpsData& from, LammpsData& to) {
 std::optional<LammpsData> read(const LammpsTable& table, Mistakes& mistakes) {
   if (table.place.broken) return std::nullopt;
   std::optional<LammpsData> data, bodies;
-  if (!table.data.empty()) data = read(table.data, table.atom_style, mistakes);
-  if (!table.bodies.empty()) bodies = read(table.bodies, table.data.empty() ? table.atom_style : "", mistakes);
+  if (!table.data.empty()) data = read(table.data, reading_of(table), mistakes);
+  LammpsReading of_bodies = reading_of(table);
+  if (!table.data.empty()) of_bodies.atom_style.clear();
+  if (!table.bodies.empty()) bodies = read(table.bodies, of_bodies, mistakes);
   if ((!table.data.empty() && !data) || (!table.bodies.empty() && !bodies)) return std::nullopt;
   if (bodies && !bodies->id.empty()) {
     mistakes.add(table.place, "bodies", fmt::format("holds {} particles; these belong into the file of `data`", bodies->id.size()));
@@ -88,10 +90,11 @@ class Restart {
   Restart(const Problem& problem, Model& model, Mistakes& mistakes) : p_(problem), model_(model), mistakes_(mistakes) {}
 
   void add() {
-    auto data = read(p_.path.start, "", mistakes_);
+    const LammpsReading as_written;
+    auto data = read(p_.path.start, as_written, mistakes_);
     if (!data) return;
     if (!model_.bodies.empty() && model_.particles() > 0 && data->bodies.empty()) {
-      auto bodies = read(bodies_file(p_.path.start), "", mistakes_);
+      auto bodies = read(bodies_file(p_.path.start), as_written, mistakes_);
       if (!bodies) return;
       move_bodies(*bodies, *data);
     }
@@ -212,6 +215,17 @@ bool add_lammps(const Problem& problem, Model& model, Mistakes& mistakes) {
     model.start.bodies.push_back({{data->body_position.col(b), Vec3::Zero()}, Eigen::Quaterniond::Identity()});
   model.structures.push_back({"lammps", "lammps", 0, n, 0, -1, -1, 0, bodies});
   return true;
+}
+
+LammpsRemarks lammps_remarks(const Problem& problem) {
+  LammpsRemarks remarks;
+  if (!problem.lammps) return remarks;
+  Mistakes mistakes(problem.file);
+  if (const auto data = read(*problem.lammps, mistakes)) {
+    remarks.notes = data->notes;
+    if (!data->doubt.empty()) remarks.warnings.push_back(data->doubt);
+  }
+  return remarks;
 }
 
 void add_restart(const Problem& problem, Model& model, Mistakes& mistakes) { Restart(problem, model, mistakes).add(); }

@@ -10,6 +10,10 @@ namespace elamin {
 /// why was told.
 bool add_lammps(const Problem& problem, Model& model, Mistakes& mistakes);
 
+/// What the files of [lammps] hold and the model has not, in sentences, and warnings of coefficients that were rounded. Reads them again.
+struct LammpsRemarks { std::vector<std::string> notes, warnings; };
+LammpsRemarks lammps_remarks(const Problem& problem);
+
 /// Model::restart from path.start, a state of this model: positions, poses and in dynamics velocities, to the last bit where
 /// LABEL.json stands beside. Without it the bodies are turned as their vertices tell.
 void add_restart(const Problem& problem, Model& model, Mistakes& mistakes);

@@ -46,6 +46,7 @@ void check_solving(Problem& problem, Mistakes& mistakes) {
 }  // namespace
 
 void check_problem(Problem& problem, const std::vector<std::string>& other_names, Mistakes& mistakes) {
+  if (problem.lammps) check_lammps(*problem.lammps, mistakes);
   Names names(problem, other_names, mistakes);
   check_structures(problem, names, mistakes);
   check_bodies(problem, names, mistakes);

@@ -97,6 +97,15 @@ Groups::Groups(const Model& model, bool whole, Mistakes& mistakes) : model_(mode
   }
 }
 
+void Groups::add_labels(const std::vector<std::pair<std::string, int>>& labels) {
+  for (const auto& [label, type] : labels) {
+    if (sets_.count(label)) continue;
+    const auto found = sets_.find("type" + std::to_string(type));
+    if (found != sets_.end() && found->second) put(label, Members(*found->second));
+    else add_unknown(label);                                // of a file that could not be read, or a type of nothing
+  }
+}
+
 void Groups::put(const std::string& name, Members members) {
   order_.push_back(name);
   sets_[name] = std::move(members);

@@ -24,6 +24,8 @@ class Groups {
   /// `whole`: no structure is broken, so that "all" is known.
   Groups(const Model& model, bool whole, Mistakes& mistakes);
 
+  /// Labels of atom types name their groups too, where the name is not taken.
+  void add_labels(const std::vector<std::pair<std::string, int>>& labels);
   /// The members of a name that is broken.
   void add_unknown(const std::string& name) { sets_[name] = std::nullopt; }
   /// A [[group]] of what is there already; a mistake if it selects what is not there, or nothing.

@@ -37,7 +37,8 @@ struct Key {
 
 /// Where the value of a key goes to or comes from.
 using KeyValue = std::variant<bool*, int*, double*, std::string*, Vec3*, Rest*, std::array<double, 2>*, std::array<std::string, 2>*, std::vector<int>*,
-                              std::vector<double>*, std::vector<Vec3>*, std::vector<std::vector<int>>*, std::vector<std::string>*>;
+                              std::vector<double>*, std::vector<Vec3>*, std::vector<std::vector<int>>*,
+                              std::vector<std::vector<double>>*, std::vector<std::string>*>;
 
 class Keys {
  public:

@@ -17,7 +17,9 @@ std::string named(const TablePlace& place) {
 
 Names::Names(const Problem& problem, const std::vector<std::string>& others, Mistakes& mistakes)
     : problem_(problem), others_(others.begin(), others.end()), mistakes_(mistakes) {
-  if (problem.lammps) groups_["lammps"] = problem.lammps->place;
+  if (!problem.lammps) return;
+  groups_["lammps"] = problem.lammps->place;
+  for (const auto& label : problem.lammps->labels) groups_[label.first] = problem.lammps->place;
 }
 
 void Names::add(TablePlace& place, const std::string& name, Places& to) {

@@ -44,6 +44,7 @@ struct Wanted {
   }
   std::string operator()(std::vector<Vec3>*) const { return "a list of points [[x, y, z], …], at least one"; }
   std::string operator()(std::vector<std::vector<int>>*) const { return "a list of lists of integers, at least one"; }
+  std::string operator()(std::vector<std::vector<double>>*) const { return "a list of lists of numbers, at least one"; }
   std::string operator()(std::vector<std::string>*) const {
     return key.kind == Key::Kind::words    ? "a list of the words " + quoted_choice(key.words)
            : key.kind == Key::Kind::values ? "a list of values, at least one"

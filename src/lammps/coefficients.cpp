@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace elamin {
 namespace {
 
@@ -28,6 +30,17 @@ const char* available(const std::string& kind) {
   return kind == "bond" ? "harmonic is" : "cosine and cosine/shift are";
 }
 
+/// Of a number as it is written, without zeros at its ends.
+int significant_digits(std::string_view word) {
+  int digits = 0, zeros = 0;
+  for (const char c : word.substr(0, word.find_first_of("eE"))) {
+    if (c < '0' || c > '9') continue;
+    if (c == '0') zeros += digits > 0;
+    else digits += zeros + 1, zeros = 0;
+  }
+  return digits;
+}
+
 }  // namespace
 
 std::string refused_style(const std::string& kind, const std::string& comment) {
@@ -36,13 +49,14 @@ std::string refused_style(const std::string& kind, const std::string& comment) {
 }
 
 std::optional<CoefficientRow> coefficient_row(LammpsLines& lines, const DataLine& line, const std::string& kind,
-                                              const std::string& comment, int most_types) {
+                                              const std::string& comment, int most_types,
+                                              const TypeLabels& labels) {
   const std::string section = kind == "bond" ? "Bond Coeffs" : "Angle Coeffs";
   const std::size_t first = line.size() > 1 && is_word(line[1]) ? 2 : 1;
   const std::string name = first == 2 ? std::string(line[1]) : comment == "hybrid" ? "" : comment;
   const Style* style = style_of(kind, name);
   if (!style) {
-    lines.mistake(line, 1, section, fmt::format("style {} is not available; {}", in_quotes(name), available(kind)));
+    lines.mistake(line, 1, section, fmt::format("style {} is not available; {}, or {}_coefficients in [lammps]", in_quotes(name), available(kind), kind));
     return std::nullopt;
   }
   const bool two = style->second[0] != 0;
@@ -50,18 +64,19 @@ std::optional<CoefficientRow> coefficient_row(LammpsLines& lines, const DataLine
                       fmt::format("type{} {}{} of style {}, {}", two ? "," : " and", style->first,
                                   two ? std::string(" and ") + style->second : "", style->name, style->formula)))
     return std::nullopt;
-  const auto type = lines.integer(line, 0, section + ": type", 1, most_types);
+  const auto type = type_in(lines, line, 0, section + ": type", most_types, labels);
   const auto K = lines.amount(line, first, section + ": " + style->first);
   const auto rest = two ? lines.amount(line, first + 1, section + ": " + style->second) : std::optional<double>(180);
   if (!type || !K || !rest) return std::nullopt;
-  if (kind == "bond") return CoefficientRow{line.number, *type, *K, *rest};
+  const int digits = std::max(significant_digits(line[first]), two ? significant_digits(line[first + 1]) : 0);
+  if (kind == "bond") return CoefficientRow{line.number, *type, *K, *rest, digits};
   if (*rest > 180) {
     lines.mistake(line, first + 1, section + ": " + style->second,
                   fmt::format("{} is out of range; 0 to 180 degrees are allowed", line[first + 1]));
     return std::nullopt;
   }
   // −Umin/2 (1 + cos x) = Umin/2 (1 − cos x) − Umin
-  return CoefficientRow{line.number, *type, two ? *K / 2 : *K, *rest == 180 ? pi : *rest * pi / 180};
+  return CoefficientRow{line.number, *type, two ? *K / 2 : *K, *rest == 180 ? pi : *rest * pi / 180, digits};
 }
 
 }  // namespace elamin

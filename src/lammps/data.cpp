@@ -1,12 +1,18 @@
 #include "lammps/data.hpp"
 #include "lammps/rows.hpp"
 
+#include "core/suggest.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <numeric>
+#include <set>
+#include <sstream>
 
 namespace elamin {
 namespace {
@@ -139,7 +145,8 @@ void take_topology(LammpsLines& lines, const LammpsRows& rows, const std::vector
                    const std::string& kind, std::size_t types, const LammpsData& data, std::vector<Element>& to) {
   const std::string section = kind + "s", coefficients = kind + " Coeffs";
   const bool coefficients_known = rows.sound(coefficients) || !rows.sections.count(coefficients);
-  std::vector<int> missing;                         // types that were complained of
+  std::set<int> missing;                            // types
+  int first = 0;                                    // line that has one
   for (const TopologyRow& r : from) {
     Element e;
     e.type = r.type - 1;
@@ -153,22 +160,39 @@ void take_topology(LammpsLines& lines, const LammpsRows& rows, const std::vector
         if (r.id[l] == r.id[k])
           lines.mistake(r.line, r.column[k], section + ": id", fmt::format("atom {} stands twice in it", r.id[k]));
     }
-    if (coefficients_known && static_cast<std::size_t>(r.type) > types &&
-        std::find(missing.begin(), missing.end(), r.type) == missing.end()) {
-      missing.push_back(r.type);
-      lines.mistake(r.line, 1, section + ": type",
-                    fmt::format("type {} has no coefficients; the section {} gives them", r.type, coefficients));
-    }
+    if (coefficients_known && static_cast<std::size_t>(r.type) > types && missing.insert(r.type).second && missing.size() == 1) first = r.line;
     to.push_back(e);
   }
+  if (missing.empty()) return;
+  constexpr std::size_t most = 10;
+  const std::vector<int> some(missing.begin(), std::next(missing.begin(), static_cast<std::ptrdiff_t>(std::min(most, missing.size()))));
+  const std::string more = missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "";
+  lines.mistake(first, 1, section + ": type",
+                fmt::format("{} {}{} {} no coefficients; the section {} gives them, or {}_coefficients in [lammps]", missing.size() == 1 ? "type" : "types",
+                            fmt::join(some, ", "), more, missing.size() == 1 ? "has" : "have", coefficients, kind == "Bond" ? "bond" : "angle"));
+}
+
+/// What the file holds and a model has no use for, and coefficients that were rounded.
+void take_notes(const LammpsLines& lines, const LammpsRows& rows, const std::string& file, LammpsData& data) {
+  for (const std::string& section : rows.passed_over)
+    data.notes.push_back(fmt::format("{}: the section {} is passed over{}", file, in_quotes(section),
+                                     section.starts_with("Pair") ? "; contacts are given by [[contact]]" : ""));
+  if (rows.charged) data.notes.push_back(file + ": charges are dropped; nothing here depends on them");
+  if (rows.most_digits == 0 || rows.most_digits > 6 || !lines.title().starts_with("LAMMPS data file via write_data")) return;
+  data.doubt = file + ": its coefficients have six digits, as LAMMPS's write_data rounds them; a rest length that is off by 1e-6 of itself is a strain "
+                      "that matters beside a buckling strain; give those of the script as bond_coefficients and angle_coefficients in [lammps]";
 }
 
 }  // namespace
 
-LammpsData read_lammps_data(const std::string& file, const std::string& atom_style) {
+LammpsData read_lammps_data(const std::string& file, const LammpsReading& how) {
+  if (const std::string what = other_format(file); !what.empty()) throw InputError({Mistake{file, 0, 0, {}, what}});
   LammpsLines lines(file);
-  LammpsRows rows = read_lammps_rows(lines, atom_style);
+  LammpsRows rows = read_lammps_rows(lines, how);
   LammpsData data;
+  for (const auto& c : how.bond_coefficients) data.bond_types.push_back({c[0], c[1]});
+  for (const auto& c : how.angle_coefficients)
+    data.angle_types.push_back({c[0], c.size() == 1 || c[1] == 180 ? pi : c[1] * pi / 180});
   if (rows.sound("Bond Coeffs"))
     for (const int i : by_type(lines, rows.bond_coefficients, "Bond Coeffs")) {
       const CoefficientRow r = i < 0 ? CoefficientRow{} : rows.bond_coefficients[i];
@@ -196,8 +220,27 @@ LammpsData read_lammps_data(const std::string& file, const std::string& atom_sty
       if (static_cast<std::size_t>(data.type[i]) <= mass.size() && mass[data.type[i] - 1] >= 0)
         data.mass[i] = rows.masses[mass[data.type[i] - 1]].mass;
   }
+  take_notes(lines, rows, file, data);
   lines.finish();
   return data;
+}
+
+std::vector<std::pair<std::string, int>> atom_type_labels(const std::string& file) {
+  std::vector<std::pair<std::string, int>> labels;
+  std::ifstream in(file, std::ios::binary);
+  std::string line, word;
+  const auto is = [&](std::string_view name) { return line.starts_with(name) && line.find_first_not_of(" \t\r", name.size()) == std::string::npos; };
+  while (std::getline(in, line) && !line.starts_with("Atoms"))
+    if (is("Atom Type Labels")) {
+      int type = 0;
+      while (std::getline(in, line)) {
+        std::istringstream row(line);
+        if (row >> type >> word && type > 0) labels.emplace_back(word, type);
+        else if (line.find_first_not_of(" \t\r") != std::string::npos) break;
+      }
+      return labels;
+    }
+  return labels;
 }
 
 }  // namespace elamin

@@ -39,6 +39,12 @@ class LammpsLines {
   /// The next line that is not blank; the first line of the file is a title and is left out. False at the end.
   bool next(DataLine& line);
   int last_line() const { return number_; }             // of the file, as far as it has been read
+  std::string_view title() const { return std::string_view(text_).substr(0, text_.find('\n')); }
+
+  /// A place to come back to.
+  struct Bookmark { std::size_t position; int number; };
+  Bookmark here() const { return {position_, number_}; }
+  void back_to(Bookmark place) { position_ = place.position, number_ = place.number; }
 
   /// Notes a mistake; word: which word of the line it is about. Throws all of them at the twentieth.
   void mistake(const DataLine& line, std::size_t word, std::string key, std::string what);

@@ -4,6 +4,7 @@
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -15,8 +16,11 @@ namespace {
 /// The section whose number of lines is a count of the header.
 const std::map<std::string, std::string> counted{
     {"Atoms", "atoms"},           {"Velocities", "atoms"},       {"Masses", "atom types"},        {"Bonds", "bonds"},
-    {"Angles", "angles"},         {"Bond Coeffs", "bond types"}, {"Angle Coeffs", "angle types"}, {"Bodies", "bodies"}};
-const std::set<std::string> absent{"dihedrals", "impropers", "ellipsoids", "lines", "triangles"};
+    {"Angles", "angles"},         {"Bond Coeffs", "bond types"}, {"Angle Coeffs", "angle types"}, {"Bodies", "bodies"},
+    {"Atom Type Labels", "atom types"}, {"Bond Type Labels", "bond types"}, {"Angle Type Labels", "angle types"}};
+/// What is not available, and its section.
+const std::map<std::string, std::string> absent{
+    {"dihedrals", "Dihedrals"}, {"impropers", "Impropers"}, {"ellipsoids", "Ellipsoids"}, {"lines", "Lines"}, {"triangles", "Triangles"}};
 const std::set<std::string> unused{"dihedral types",        "improper types",           "extra bond per atom",
                                    "extra angle per atom",  "extra dihedral per atom",  "extra improper per atom",
                                    "extra special per atom"};
@@ -29,7 +33,7 @@ bool is_keyword(const DataLine& line) {
 
 class RowReader {
  public:
-  RowReader(LammpsLines& lines, std::string atom_style) : lines_(lines), style_(std::move(atom_style)), bodies_(lines) {}
+  RowReader(LammpsLines& lines, const LammpsReading& how) : lines_(lines), how_(how), style_(how.atom_style), bodies_(lines) {}
 
   LammpsRows read() {
     DataLine line;
@@ -40,6 +44,7 @@ class RowReader {
     }
     end_section();
     check_counts();
+    tell_unavailable();
     return std::move(rows_);
   }
 
@@ -53,10 +58,8 @@ class RowReader {
       } else {
         rows_.counts.emplace(one, -1);
       }
-    } else if (absent.count(one)) {
-      const auto n = lines_.integer(line, 0, one, 0, largest_integer);
-      if (n.value_or(0) > 0)
-        lines_.mistake(line, 0, one, fmt::format("{} are not available in this version; 0 is allowed", one));
+    } else if (const auto found = absent.find(one); found != absent.end()) {
+      if (lines_.integer(line, 0, one, 0, largest_integer).value_or(0) > 0) announced_.emplace(found->second, Announced{line, one});
     } else if (unused.count(one)) {
       lines_.integer(line, 0, one, 0, largest_integer);
     } else if (two == "xlo xhi" || two == "ylo yhi" || two == "zlo zhi") {
@@ -71,6 +74,7 @@ class RowReader {
           in_quotes(joined(line)) +
               " is not known; known are counts such as \"12 atoms\" (of "
               "atoms, bodies, bonds, angles and their types), \"xlo xhi\", \"ylo yhi\", \"zlo zhi\" and \"xy xz yz\"");
+      if (rows_.counts.empty()) lines_.finish();          // no data file at all
     }
   }
 
@@ -85,18 +89,12 @@ class RowReader {
   void begin_section(const DataLine& line) {
     end_section();
     section_ = joined(line);
-    known_ = counted.count(section_) > 0;
-    skip_ = false;
-    if (!known_) {
-      const bool pair = section_.rfind("Pair", 0) == 0;
-      lines_.mistake(
-          line, 0, in_quotes(section_),
-          std::string(pair ? "coefficients of pairs are not taken from a data file; contacts are given in the "
-                             "problem file"
-                           : "this section is not available in this version") +
-              "; supported are Atoms, Velocities, Masses, Bodies, Bonds, Angles, Bond Coeffs and Angle Coeffs");
-      return;
-    }
+    known_ = false, skip_ = false;
+    if (how_.ignores(section_)) return;
+    if (!counted.count(section_)) return begin_other(line);
+    if ((section_ == "Bond Coeffs" && !how_.bond_coefficients.empty()) || (section_ == "Angle Coeffs" && !how_.angle_coefficients.empty()))
+      return rows_.passed_over.push_back(section_);
+    known_ = true;
     const auto [it, fresh] = rows_.sections.emplace(section_, LammpsRows::Section{line.number});
     if (!fresh) {
       lines_.mistake(line, 0, section_, fmt::format("stands twice; the first is on line {}", it->second.line));
@@ -110,10 +108,66 @@ class RowReader {
     }
   }
 
+  /// A section that is not read: passed over, or a mistake that is told with all others like it.
+  void begin_other(const DataLine& line) {
+    const bool pairs = section_ == "Pair Coeffs" || section_ == "PairIJ Coeffs", labels = section_.ends_with(" Type Labels");
+    const std::string owner = owner_of(section_);
+    const bool of_none = owner != section_ && !announced_.count(owner);
+    if (pairs || labels || of_none) return rows_.passed_over.push_back(section_);
+    if (unavailable_.empty()) first_unavailable_ = line.number;
+    if (std::find(unavailable_.begin(), unavailable_.end(), section_) == unavailable_.end()) unavailable_.push_back(section_);
+  }
+
+  void tell_unavailable() {
+    for (const auto& [section, what] : announced_)
+      if (std::find(unavailable_.begin(), unavailable_.end(), section) == unavailable_.end() && !how_.ignores(section))
+        lines_.mistake(what.line.number, what.line.words[0].column, what.kind,
+                       fmt::format("{} are not available; 0 is allowed, or ignore = [\"{}\"] in [lammps]", what.kind, section));
+    if (unavailable_.empty()) return;
+    std::vector<std::string> owners;
+    for (const std::string& section : unavailable_)
+      if (const std::string owner = owner_of(section); std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+    const bool one = unavailable_.size() == 1;
+    lines_.mistake(first_unavailable_, 1, fmt::format("\"{}\"", fmt::join(unavailable_, "\", \"")),
+                   fmt::format("{} not available; available are Atoms, Velocities, Masses, Bodies, Bonds, Angles, Bond Coeffs and Angle "
+                               "Coeffs; without {}: ignore = [\"{}\"] in [lammps]",
+                               one ? "this section is" : "these sections are", one ? "it" : "them", fmt::join(owners, "\", \"")));
+  }
+
+  /// Of "hybrid" alone the order that its rows fit: diameter, density, molecule, or molecule, diameter, density; the first one
+  /// where neither fits, so that its mistakes are told. A mistake where both do.
+  void tell_order(const DataLine& section) {
+    const auto begin = lines_.here();
+    const auto integer = [](std::string_view word) {
+      return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+    };
+    bool molecule_last = true, molecule_first = true;
+    std::string example;
+    DataLine line;
+    for (bool first = true; lines_.next(line) && !is_keyword(line); first = false) {
+      if (line.size() != 8 && line.size() != 11) {
+        if (first)
+          refuse_section(section, fmt::format("\"hybrid\" alone does not say what these {} columns are; write the styles behind "
+                                              "it, as in \"Atoms # hybrid sphere angle\", or as atom_style", line.size()));
+        break;
+      }
+      if (first) example = fmt::format("{} {} {}", line[5], line[6], line[7]);
+      molecule_last = molecule_last && integer(line[7]), molecule_first = molecule_first && integer(line[5]);
+    }
+    lines_.back_to(begin);
+    if (skip_) return;
+    if (molecule_last && molecule_first && !example.empty())
+      return refuse_section(section, fmt::format("\"hybrid\" alone fits two orders of columns here: {} is diameter, density and molecule of \"hybrid sphere "
+                                                 "angle\", or molecule, diameter and density of \"hybrid angle sphere\"; say which, as atom_style or behind "
+                                                 "\"Atoms #\"", example));
+    style_ = molecule_first && !molecule_last ? "hybrid angle sphere" : "hybrid sphere angle";
+  }
+
   void begin_atoms(const DataLine& line) {
     if (style_.empty()) style_ = line.comment;
     if (style_.empty() && rows_.count("bodies") > 0) style_ = "body";
-    if (style_ == "hybrid") return;                       // the first row tells
+    if (style_ == "hybrid") tell_order(line);
+    if (skip_) return;
     std::string why = "the atom style is not given; write it behind the section's name, as in \"Atoms # hybrid sphere "
                       "angle\", or as atom_style";
     if (!style_.empty()) columns_ = atom_columns(style_, &why);
@@ -122,7 +176,8 @@ class RowReader {
 
   void begin_coefficients(const DataLine& line, const std::string& kind) {
     coefficient_style_ = std::string(line.comment);
-    if (const std::string why = refused_style(kind, coefficient_style_); !why.empty()) refuse_section(line, why);
+    if (const std::string why = refused_style(kind, coefficient_style_); !why.empty())
+      refuse_section(line, fmt::format("{}, or {}_coefficients in [lammps]", why, kind));
   }
 
   /// One mistake for the whole section: its rows are counted only.
@@ -147,6 +202,7 @@ class RowReader {
     if (section_ == "Bonds") return topology(line, 2, "bond types", rows_.bonds);
     if (section_ == "Angles") return topology(line, 3, "angle types", rows_.angles);
     if (section_ == "Bond Coeffs") return coefficients(line, "bond", rows_.bond_coefficients);
+    if (section_.ends_with(" Type Labels")) return label(line);
     return coefficients(line, "angle", rows_.angle_coefficients);
   }
 
@@ -160,7 +216,7 @@ class RowReader {
   }
 
   std::optional<int> type(const DataLine& line, std::size_t i, const std::string& count) {
-    return lines_.integer(line, i, section_ + ": type", 1, most_types(count));
+    return type_in(lines_, line, i, section_ + ": type", most_types(count), rows_.labels[count.substr(0, count.find(' '))]);
   }
 
   std::optional<double> amount(const DataLine& line, std::size_t i, const std::string& what) {
@@ -168,15 +224,6 @@ class RowReader {
   }
 
   bool atom(const DataLine& line) {
-    if (!columns_ && line.size() != 8 && line.size() != 11) {
-      refuse_section(line,
-                     fmt::format("\"hybrid\" alone does not say what these {} columns are; write the styles behind "
-                                 "it, as in \"Atoms # hybrid sphere angle\", or as atom_style",
-                                 line.size()));
-      return false;
-    }
-    std::string why;
-    if (!columns_) columns_ = atom_columns(style_ = "hybrid sphere angle", &why);
     const std::size_t n = columns_->size();
     if (!has_size(line, {n, n + 3}, fmt::format("atom style {}, with or without three image flags", style_))) {
       skip_ = rows_.sections[section_].rows == 1;         // the style is wrong rather than every row
@@ -194,8 +241,9 @@ class RowReader {
       case AtomColumn::bodyflag: take(body_flag(lines_, line, i), a.is_body); break;
       case AtomColumn::mass: take(body_mass(lines_, line, i), a.mass); break;
       case AtomColumn::charge: {
-        double unused_charge;
-        take(lines_.number(line, i, "Atoms: charge"), unused_charge);
+        double charge = 0;                                // nothing here depends on it
+        take(lines_.number(line, i, "Atoms: charge"), charge);
+        rows_.charged = rows_.charged || charge != 0;
       } break;
       case AtomColumn::x: take(lines_.number(line, i, "Atoms: x"), a.position[0]); break;
       case AtomColumn::y: take(lines_.number(line, i, "Atoms: y"), a.position[1]); break;
@@ -245,9 +293,21 @@ class RowReader {
   }
 
   bool coefficients(const DataLine& line, const std::string& kind, std::vector<CoefficientRow>& rows) {
-    const auto row = coefficient_row(lines_, line, kind, coefficient_style_, most_types(kind + " types"));
-    if (row) rows.push_back(*row);
+    const auto row = coefficient_row(lines_, line, kind, coefficient_style_, most_types(kind + " types"), rows_.labels[kind]);
+    if (row) rows.push_back(*row), rows_.most_digits = std::max(rows_.most_digits, row->digits);
+    skip_ = !row && rows_.sections[section_].rows == 1;   // another style rather than every row wrong
     return row.has_value();
+  }
+
+  bool label(const DataLine& line) {
+    if (!has_size(line, {2}, "type and label")) return false;
+    std::string kind = section_.substr(0, section_.find(' '));
+    kind[0] = static_cast<char>(kind[0] - 'A' + 'a');
+    const auto t = lines_.integer(line, 0, section_ + ": type", 1, most_types(kind + " types"));
+    if (!t) return false;
+    if (rows_.labels[kind].emplace(line[1], *t).second) return true;
+    lines_.mistake(line, 1, section_, in_quotes(std::string(line[1])) + " stands twice");
+    return false;
   }
 
   void check_counts() {
@@ -264,7 +324,7 @@ class RowReader {
           lines_.mistake(it->second.line, 1, name,
                          fmt::format("{} {}, but the header announces {} {}", it->second.rows, name == "Bodies" ? "bodies" : "lines",
                                      expected, what));
-      } else if (it == rows_.sections.end() && expected > 0 &&
+      } else if (it == rows_.sections.end() && expected > 0 && !how_.ignores(name) &&
                  (name == "Atoms" || name == "Bodies" || name == "Bonds" || name == "Angles")) {
         lines_.mistake(end, 1, name,
                        fmt::format("the file ends without this section; its header announces {} {}", expected, what));
@@ -272,8 +332,13 @@ class RowReader {
     }
   }
 
+  struct Announced { DataLine line; std::string kind; };
   LammpsLines& lines_;
+  const LammpsReading& how_;
   std::string style_, section_, coefficient_style_;
+  std::map<std::string, Announced> announced_;   // by section: what the header says there is, and is not available
+  std::vector<std::string> unavailable_;         // sections
+  int first_unavailable_ = 0;                    // the line of the first
   bool known_ = false, skip_ = false;   // a section that is read; whose rows are only counted
   std::optional<std::vector<AtomColumn>> columns_;
   LammpsBodiesSection bodies_;
@@ -282,8 +347,12 @@ class RowReader {
 
 }  // namespace
 
-LammpsRows read_lammps_rows(LammpsLines& lines, const std::string& atom_style) {
-  return RowReader(lines, atom_style).read();
+LammpsRows read_lammps_rows(LammpsLines& lines, const LammpsReading& how) { return RowReader(lines, how).read(); }
+
+std::optional<int> type_in(LammpsLines& lines, const DataLine& line, std::size_t i, const std::string& key, int most,
+                           const TypeLabels& labels) {
+  if (const auto found = labels.find(line[i]); found != labels.end()) return found->second;
+  return lines.integer(line, i, key, 1, most);
 }
 
 }  // namespace elamin

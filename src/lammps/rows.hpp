@@ -3,6 +3,7 @@
 #include "core/types.hpp"
 #include "lammps/bodies_section.hpp"
 #include "lammps/lines.hpp"
+#include "lammps/reading.hpp"
 #include "lammps/style.hpp"
 
 #include <array>
@@ -19,8 +20,9 @@ struct AtomRow {
   bool is_body = false;
   double mass = 0;                                                 // of a body
 };
-struct VelocityRow { int line, id; Vec3 velocity, angular_velocity; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
-struct CoefficientRow { int line, type; double stiffness, rest; };   // rest length, or rest angle [rad]
+struct VelocityRow { int line, id; Vec3 velocity, spin; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
+struct CoefficientRow { int line, type; double stiffness, rest; int digits = 0; };   // rest length, or rest angle [rad]; digits written
+using TypeLabels = std::map<std::string, int, std::less<>>;      // types from 1
 struct MassRow { int line, type; double mass; };
 struct TopologyRow { int line, type; std::array<int, 3> id, column; };   // of a bond the third is not used
 
@@ -37,6 +39,10 @@ struct LammpsRows {
   std::vector<MassRow> masses;
   std::vector<TopologyRow> bonds, angles;
   std::vector<BodyRow> bodies;
+  std::map<std::string, TypeLabels> labels;                        // of "atom", "bond" and "angle"
+  std::vector<std::string> passed_over;                            // sections that were not asked to be
+  int most_digits = 0;                                             // of K, r₀ and B, without zeros at the end
+  bool charged = false;                                            // a charge is not 0
 
   int count(const std::string& what) const {
     const auto it = counts.find(what);
@@ -49,6 +55,10 @@ struct LammpsRows {
 };
 
 /// Reads all lines; mistakes are noted there.
-LammpsRows read_lammps_rows(LammpsLines& lines, const std::string& atom_style);
+LammpsRows read_lammps_rows(LammpsLines& lines, const LammpsReading& how);
+
+/// Word i as a type from 1 to most, or as the label of one; else notes a mistake.
+std::optional<int> type_in(LammpsLines& lines, const DataLine& line, std::size_t i, const std::string& key, int most,
+                           const TypeLabels& labels);
 
 }  // namespace elamin

@@ -10,7 +10,7 @@ namespace {
 
 using Columns = std::vector<AtomColumn>;
 
-const char* const known = "known are atomic, sphere, bond, angle, molecular, full, body and hybrids of them, "
+const char* const known = "available are atomic, charge, sphere, bond, angle, molecular, full, body and hybrids of them, "
                           "such as \"hybrid sphere angle\"";
 
 /// What a style has between the type and the position, in the order of the file.
@@ -19,6 +19,7 @@ std::optional<Columns> own_columns(const std::string& style) {
   if (style == "atomic") return Columns{};
   if (style == "sphere") return Columns{diameter, density};
   if (style == "bond" || style == "angle" || style == "molecular") return Columns{molecule};
+  if (style == "charge") return Columns{charge};
   if (style == "full") return Columns{molecule, charge};
   if (style == "body") return Columns{bodyflag, mass};
   return std::nullopt;
@@ -38,7 +39,7 @@ std::optional<Columns> atom_columns(const std::string& style, std::string* why) 
   if (word != "hybrid") {
     const auto own = own_columns(word);
     std::string rest;
-    if (!own || words >> rest) return refuse(in_quotes(style) + " is not a known atom style; " + known);
+    if (!own || words >> rest) return refuse("the atom style " + in_quotes(style) + " is not available; " + known);
     Columns columns{id};                                    // the molecule stands before the type
     if (!own->empty() && own->front() == molecule) columns.push_back(molecule);
     columns.push_back(type);
@@ -52,7 +53,7 @@ std::optional<Columns> atom_columns(const std::string& style, std::string* why) 
   while (words >> word) {
     any = true;
     const auto own = own_columns(word);
-    if (!own) return refuse(in_quotes(word) + " in " + in_quotes(style) + " is not a known atom style; " + known);
+    if (!own) return refuse("the atom style " + in_quotes(word) + " in " + in_quotes(style) + " is not available; " + known);
     for (const AtomColumn c : *own) {
       if (std::find(columns.begin(), columns.end(), c) != columns.end())
         return refuse("two of the styles in " + in_quotes(style) + " have the same column; one of them is enough");

@@ -1,5 +1,6 @@
 #include "study/check_command.hpp"
 
+#include "input/build_lammps.hpp"
 #include "study/prepare.hpp"
 #include "study/describe.hpp"
 #include "study/trace.hpp"
@@ -39,6 +40,7 @@ std::string describe(const Problem& problem, const Model& model) {
                                  model.bodies.empty() ? "" : fmt::format("{} bodies, ", model.bodies.size()), model.bonds.size(),
                                  model.angles.size(), energy.dofs(), problem.plane.empty() ? "" : ", plane " + problem.plane);
   text += describe_structures(problem, model, energy.kinematics());
+  for (const std::string& note : lammps_remarks(problem).notes) text += "note: " + note + "\n";
   text += describe_conditions(problem, model);
   // An equilibrium is sought from the state as built; supports and walls move from there.
   const bool built = problem.study == StudyType::equilibrium && !model.restart;

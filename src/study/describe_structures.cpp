@@ -1,5 +1,6 @@
 #include "study/describe.hpp"
 
+#include "input/build_lammps.hpp"
 #include "laws/section.hpp"
 #include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
@@ -208,6 +209,7 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
 
 std::vector<std::string> doubts(const Problem& problem, const Model& model) {
   std::vector<std::string> lines = idle_at_rest(problem);
+  for (const std::string& warning : lammps_remarks(problem).warnings) lines.push_back(warning);
   const auto remedy = [&](const Structure& s) {
     const auto x = model.start.position.middleCols(s.first, s.count);
     const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
