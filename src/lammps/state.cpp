@@ -42,8 +42,18 @@ void put_box(Text& put, const Box& box) {
   for (int c = 0; c < 3; ++c) put("{:.17g} {:.17g} {}lo {}hi\n", box.lo[c], box.hi[c], "xyz"[c], "xyz"[c]);
 }
 
-bool all_straight(const Model& model) {
-  return std::all_of(model.angle_types.begin(), model.angle_types.end(), [](const AngleType& a) { return a.rest == pi; });
+/// Types from 0 that some bond or angle has, and the numbers that they are written with, from 1.
+struct InUse {
+  std::vector<int> types, number;
+  std::size_t left_out() const { return number.size() - types.size(); }
+};
+
+template <class Element> InUse in_use(const std::vector<Element>& elements, std::size_t types) {
+  InUse use{{}, std::vector<int>(types, 0)};
+  for (const Element& e : elements) use.number[e.type] = 1;
+  for (std::size_t t = 0; t < types; ++t)
+    if (use.number[t]) use.types.push_back(static_cast<int>(t)), use.number[t] = static_cast<int>(use.types.size());
+  return use;
 }
 
 /// In degrees, exactly 180 for π, and so that degrees · (π/180) gives the same angle back where one of the doubles does.
@@ -156,24 +166,23 @@ void write_particles(const std::string& file, const Model& model, const State& s
   const int n = model.particles();
   const Field& x = state.position;
   const bool some_density = std::all_of(model.density.begin(), model.density.end(), [](double d) { return d > 0; });
+  const InUse bonds = in_use(model.bonds, model.bond_types.size()), angles = in_use(model.angles, model.angle_types.size());
+  const bool counted_anew = bonds.left_out() + angles.left_out() > 0;
   Text put;
-  put("{}{}\n\n", one_line(title), some_density ? "" : style == Written::full ? "; a mass that is not known is written as 1" : "; a density that is not given is written as 1");
+  put("{}{}{}\n\n", one_line(title), some_density ? "" : style == Written::full ? "; a mass that is not known is written as 1" : "; a density that is not given is written as 1",
+      counted_anew ? "; types that no bond or angle has are left out" : "");
   put("{} atoms\n{} bonds\n{} angles\n", n, model.bonds.size(), model.angles.size());
-  put("{} atom types\n{} bond types\n{} angle types\n\n", largest(model.type), model.bond_types.size(),
-      model.angle_types.size());
+  put("{} atom types\n{} bond types\n{} angle types\n\n", largest(model.type), bonds.types.size(), angles.types.size());
   put_box(put, box_around(x, model.diameter));
-  if (!model.bond_types.empty()) {
-    put("\nBond Coeffs # harmonic\n\n");
-    for (std::size_t k = 0; k < model.bond_types.size(); ++k)
-      put("{} {:.17g} {:.17g}\n", k + 1, model.bond_types[k].stiffness, model.bond_types[k].rest_length);
-  }
-  if (!model.angle_types.empty()) {
-    const bool straight = all_straight(model);
+  if (!bonds.types.empty()) put("\nBond Coeffs # harmonic\n\n");
+  for (const int t : bonds.types) put("{} {:.17g} {:.17g}\n", bonds.number[t], model.bond_types[t].stiffness, model.bond_types[t].rest_length);
+  if (!angles.types.empty()) {
+    const bool straight = straight_at_rest(model);
     put("\nAngle Coeffs # {}\n\n", straight ? "cosine" : "cosine/shift");
-    for (std::size_t k = 0; k < model.angle_types.size(); ++k) {
-      const AngleType& a = model.angle_types[k];
-      if (straight) put("{} {:.17g}\n", k + 1, a.stiffness);
-      else put("{} {:.17g} {:.17g}\n", k + 1, 2 * a.stiffness, degrees(a.rest));   // U_min = 2B, θ₀
+    for (const int t : angles.types) {
+      const AngleType& a = model.angle_types[t];
+      if (straight) put("{} {:.17g}\n", angles.number[t], a.stiffness);
+      else put("{} {:.17g} {:.17g}\n", angles.number[t], 2 * a.stiffness, degrees(a.rest));   // U_min = 2B, θ₀
     }
   }
   if (style == Written::full) {
@@ -196,18 +205,22 @@ void write_particles(const std::string& file, const Model& model, const State& s
   if (!model.bonds.empty()) put("\nBonds\n\n");
   for (std::size_t k = 0; k < model.bonds.size(); ++k) {
     const Bond& b = model.bonds[k];
-    put("{} {} {} {}\n", k + 1, b.type + 1, model.id[b.particles[0]], model.id[b.particles[1]]);
+    put("{} {} {} {}\n", k + 1, bonds.number[b.type], model.id[b.particles[0]], model.id[b.particles[1]]);
   }
   if (!model.angles.empty()) put("\nAngles\n\n");
   for (std::size_t k = 0; k < model.angles.size(); ++k) {
     const Angle& a = model.angles[k];
-    put("{} {} {} {} {}\n", k + 1, a.type + 1, model.id[a.particles[0]], model.id[a.particles[1]],
+    put("{} {} {} {} {}\n", k + 1, angles.number[a.type], model.id[a.particles[0]], model.id[a.particles[1]],
         model.id[a.particles[2]]);
   }
   put.write(file);
 }
 
 }  // namespace
+
+bool straight_at_rest(const Model& model) {
+  return std::all_of(model.angles.begin(), model.angles.end(), [&](const Angle& a) { return model.angle_types[a.type].rest == pi; });
+}
 
 Box box_around(const Field& x, const std::vector<double>& diameter) {
   Box box{x.col(0), x.col(0)};

@@ -13,6 +13,7 @@ std::string bodies_file(const std::string& data_file);
 /// Writes the state as a LAMMPS data file, atom style "hybrid sphere angle": positions with 17 digits (their tails are
 /// left out), bonds and angles with coefficients (angles as cosine; where one is not straight at rest all of them as
 /// cosine/shift, 2B and the rest angle in degrees), velocities if the model has them, a box around everything.
+/// Types that no bond or angle has are left out, the others counted anew; the title says so.
 /// read_lammps_data reads the same positions back to the last bit; LAMMPS and OVITO open it. LAMMPS wants densities
 /// above zero: a density or mass that is not given is written as 1, and the title says so.
 ///
@@ -24,6 +25,9 @@ void write_state(const std::string& file, const Model& model, const State& state
 /// The particles of the state with their bonds and angles in atom style "full" (charge 0; of each type the mass of its first particle,
 /// or 1 where that is not known), which more programs read: MDAnalysis and ASE among them. Throws InputError if it cannot be written.
 void write_topology(const std::string& file, const Model& model, const State& state, const std::string& title);
+
+/// Whether all angles are straight at rest: then they are written as LAMMPS's cosine.
+bool straight_at_rest(const Model& model);
 
 struct Box { Vec3 lo, hi; };
 /// All of these with room: a tenth of the largest extent, at least the largest diameter, and not lost in rounding.
