@@ -10,6 +10,7 @@
 #include "study/check_command.hpp"
 #include "study/compare.hpp"
 #include "study/energy_command.hpp"
+#include "study/export_command.hpp"
 #include "study/run.hpp"
 #include "study/verify_command.hpp"
 
@@ -52,6 +53,7 @@ const char* const description =
     "  elamin check problem.toml      every mistake in the file, or what was understood of it\n"
     "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
     "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n"
+    "  elamin export problem.toml     the model and its stages as a LAMMPS script and data file\n"
     "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
     "  elamin plot DIR                a figure of what a run has left in its directory\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
@@ -150,6 +152,12 @@ int main(int argc, char** argv) {
   compare_app->add_option("--threads", comparison.threads, "threads to use (default: all cores)")->check(positive("integer"));
   compare_app->add_flag("--json", comparison.json, "print JSON");
   common(compare_app);
+  ExportOptions exported;
+  CLI::App* export_app = app.add_subcommand("export", "the model and its stages as a LAMMPS script and data file");
+  export_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
+  export_app->add_option("-o,--output", exported.script, "the script, with its data file beside it (default: the file's name with .lmp)")->type_name("FILE");
+  export_app->add_flag("--skip", exported.skip, "leave out what LAMMPS cannot have, instead of refusing");
+  common(export_app);
   ReportOptions report;
   CLI::App* report_app = app.add_subcommand("report", "one self-contained HTML page of the results of runs and sweeps");
   report_app->add_option("directories", report.directories, "directories of results")->type_name("DIR")->required();
@@ -173,11 +181,12 @@ int main(int argc, char** argv) {
     if (const std::string wrong = not_understood(app, file); !wrong.empty()) throw InputError(wrong);
     std::vector<Setting> settings;
     for (const std::string& s : set) settings.push_back(parse_setting(s));
-    options.settings = energy.settings = comparison.settings = settings;
-    options.file = energy.file = comparison.file = file;
+    options.settings = energy.settings = comparison.settings = exported.settings = settings;
+    options.file = energy.file = comparison.file = exported.file = file;
     if (*energy_app) return energy_command(energy);
     if (*schema_app) return fmt::print("{}", markdown ? key_reference() : json_schema()), exit_done;
     if (*check_app) return check_command(file, settings), exit_done;
+    if (*export_app) return export_command(exported), exit_done;
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);
     if (*report_app) return report_command(report), exit_done;
