@@ -1,10 +1,14 @@
 #pragma once
 // Ctrl-C asks; long loops look here between iterations, finish what they hold and say so.
 #include <atomic>
+#include <functional>
 
 namespace elamin {
 
 inline std::atomic<bool> interrupt_requested{false};
-inline bool interrupted() { return interrupt_requested.load(std::memory_order_relaxed); }
+/// A program's own question, whether work on this thread is to end; null: it has none. What it points to must outlive the work.
+inline thread_local const std::function<bool()>* stop_asked = nullptr;
+
+inline bool interrupted() { return interrupt_requested.load(std::memory_order_relaxed) || (stop_asked && (*stop_asked)()); }
 
 }  // namespace elamin

@@ -130,6 +130,7 @@ Energy::Energy(const Model& model)
   const State& first = model.restart ? *model.restart : model.start;
   neighbours_.refresh(first), body_neighbours_.refresh(first);
   assemble_groups();
+  for (const OwnLaw& law : model.own) this->add(law.term, law.group(*this));
 }
 
 void Energy::add(const std::string& term, std::unique_ptr<ElementGroup> group) {

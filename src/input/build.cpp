@@ -10,6 +10,8 @@
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
 
+#include <fmt/format.h>
+
 namespace elamin {
 namespace {
 
@@ -17,7 +19,7 @@ class Builder {
  public:
   Builder(const Problem& problem, bool whole, Mistakes& mistakes) : p_(problem), mistakes_(mistakes), whole_(whole) {}
 
-  Model build() {
+  Model build(const std::vector<OwnLaw>& own) {
     if (p_.plane == "yz") model_.plane_normal = 0;
     if (p_.plane == "xz") model_.plane_normal = 1;
     if (p_.plane == "xy") model_.plane_normal = 2;
@@ -28,6 +30,8 @@ class Builder {
     model_.start.load_factor = p_.path.from;
     if (whole_) check_distinct(p_, model_, mistakes_);
     if (whole_) check_plane(p_, model_, model_.start, place_of(p_, model_.structures.front()), mistakes_);
+
+    if (whole_) add_own(own);
 
     Groups groups(model_, whole_, mistakes_);
     if (p_.lammps) groups.add_labels(p_.lammps->labels);
@@ -52,6 +56,20 @@ class Builder {
   }
 
  private:
+  void add_own(const std::vector<OwnLaw>& own) {
+    for (const OwnLaw& law : own) {
+      int wrong = -1;
+      for (const std::vector<int>& element : law.elements)
+        for (const int p : element)
+          if (p < 0 || p >= model_.particles()) wrong = p;
+      if (wrong >= 0)
+        mistakes_.add(fmt::format("the law \"{}\" is of a particle number {}; the problem has {}, which count from 0", law.term, wrong,
+                                  model_.particles()));
+      else
+        model_.own.push_back(law);
+    }
+  }
+
   /// Held in every stage.
   void check_all_held() {
     if (p_.stages.empty()) return check_held(p_, model_, mistakes_);
@@ -77,13 +95,13 @@ class Builder {
 
 }  // namespace
 
-Model build_model(const Problem& problem) {
+Model build_model(const Problem& problem, const std::vector<OwnLaw>& own) {
   Mistakes mistakes(problem.file);
-  Model model = Builder(problem, true, mistakes).build();
+  Model model = Builder(problem, true, mistakes).build(own);
   mistakes.raise();
   return model;
 }
 
-void check_model(const Problem& problem, bool whole, Mistakes& mistakes) { Builder(problem, whole, mistakes).build(); }
+void check_model(const Problem& problem, bool whole, Mistakes& mistakes) { Builder(problem, whole, mistakes).build({}); }
 
 }  // namespace elamin

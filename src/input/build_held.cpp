@@ -62,12 +62,16 @@ class HeldParts {
           const int part = part_[model.particles() + b];
           touched_[part] = walled[part] = true;
         }
+    for (const OwnLaw& law : model.own)
+      for (const std::vector<int>& element : law.elements)
+        if (law.anchored)
+          for (const int i : element) touched_[part_[i]] = walled[part_[i]] = true;
     for (int p = 0; p < count; ++p)
       if (held_[p] || walled[p]) kept_[find(p)] = true;
   }
 
   bool held(int entity) const { return held_[part_[entity]]; }          // a support holds it
-  bool touched(int entity) const { return touched_[part_[entity]]; }    // a wall or another part may hold it
+  bool touched(int entity) const { return touched_[part_[entity]]; }    // a wall, another part or a law of a program's own may hold it
   bool alone(int entity) const { return size_[part_[entity]] == 1; }
   /// All that may touch each other, by number, and whether a support or a wall may hold it.
   int cluster(int entity) const { return find(part_[entity]); }

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
+#include "input/reader.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -100,8 +101,9 @@ void set_place(Node& node, Place place) {
 
 }  // namespace
 
-Document read_document(const std::string& file) {
-  const std::string text = read_text(file);
+Document read_document(const std::string& file) { return parse_document(read_text(file), file); }
+
+Document parse_document(const std::string& text, const std::string& file) {
   return {file, sha256(text), parse(std::string(without_mark(text)), file)};
 }
 
@@ -160,6 +162,26 @@ std::string to_toml(const std::string& value) {
       text += c;
   }
   return text + '"';
+}
+
+std::string to_toml(const Document& document) {
+  const auto key = [](const Entry& e) { return is_name(e.key) ? e.key : to_toml(e.key); };
+  const auto lines = [&](const Entries& entries) {
+    std::string text;
+    for (const Entry& e : entries) text += key(e) + " = " + to_toml(e.node) + "\n";
+    return text;
+  };
+  Entries top;
+  std::string tables;
+  for (const Entry& e : document.root) {
+    if (const auto* entries = std::get_if<Entries>(&e.node.value))
+      tables += "\n[" + key(e) + "]\n" + lines(*entries);
+    else if (is_tables(e.node) && !std::get<List>(e.node.value).empty())
+      for (const Node& n : std::get<List>(e.node.value)) tables += "\n[[" + key(e) + "]]\n" + lines(std::get<Entries>(n.value));
+    else
+      top.push_back(e);
+  }
+  return lines(top) + tables;
 }
 
 std::string to_toml(const Node& node) {

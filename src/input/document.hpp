@@ -34,6 +34,9 @@ struct Document {
 /// Reads a TOML file. Throws InputError if it is not there, not a text in UTF-8, or not TOML.
 Document read_document(const std::string& file);
 
+/// The same of a text; `file`: what mistakes call it, and from whose folder the files that it names are sought.
+Document parse_document(const std::string& text, const std::string& file);
+
 /// One TOML value, such as `[0, 0, 1e-3]`; what is no TOML value is taken as a string of these letters.
 Node parse_value(const std::string& text, Place place);
 
@@ -47,6 +50,8 @@ bool is_tables(const Node& node);
 /// What a node is, for messages: `3.5`, `the string "abc"`, `a list of 2`, `a table`.
 std::string shown(const Node& node);
 
+/// The whole as TOML, which reads back to the same, but for places.
+std::string to_toml(const Document& document);
 /// The node as TOML on one line.
 std::string to_toml(const Node& node);
 std::string to_toml(double value);               // 17 digits: reads back to the same bits

@@ -93,9 +93,14 @@ ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
   return file;
 }
 
-Problem read_problem(const std::string& file, const std::vector<Setting>& settings) {
-  Document document = read_document(file);
-  Mistakes mistakes(file);
+Problem read_problem(const std::string& file, const std::vector<Setting>& settings) { return read_problem(read_document(file), settings); }
+
+Problem read_problem_text(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
+  return read_problem(parse_document(text, file), settings);
+}
+
+Problem read_problem(Document document, const std::vector<Setting>& settings) {
+  Mistakes mistakes(document.file);
   for (const Setting& setting : settings) apply(setting, document, mistakes);
   Problem problem = read_tables(document, mistakes).problem;
   if (mistakes.any()) {

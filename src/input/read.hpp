@@ -12,5 +12,9 @@ namespace elamin {
 /// its geometry is by build_model. Throws InputError with all mistakes, each with its place, and those that build_model
 /// finds in what is whole.
 Problem read_problem(const std::string& file, const std::vector<Setting>& settings = {});
+/// The same of what has been read, or put together by a program.
+Problem read_problem(Document document, const std::vector<Setting>& settings = {});
+/// The same of a text; `file`: what mistakes call it, and from whose folder the files that it names are sought.
+Problem read_problem_text(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});
 
 }  // namespace elamin

@@ -7,11 +7,16 @@
 #include "model/state.hpp"
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace elamin {
+
+class ElementGroup;
+class Energy;
 
 struct BondType { double stiffness, rest_length; };   // U = K (r − r₀)²: K [energy/length²], r₀ [length]
 /// U = B (1 − cos(θ − θ₀)): B [energy], θ₀ [rad]; θ₀ = π, straight, is LAMMPS's cosine, others its cosine/shift.
@@ -196,6 +201,14 @@ struct Structure {
   Vec3 up = Vec3::Zero();                       // of a sheet the second of its axes, of length 1: see Sheet
 };
 
+/// A law that a program brings along: every Energy of the model adds its elements, as Energy::add does.
+struct OwnLaw {
+  std::string term;                             // name of its energy
+  std::vector<std::vector<int>> elements;       // of each element the particles, which it holds together as a bond does
+  bool anchored = false;                        // it holds them in space, too: the energy is another one where an element is moved as a whole
+  std::function<std::unique_ptr<ElementGroup>(const Energy&)> group;   // its sites are particles
+};
+
 struct Model {
   State start;                                  // the reference configuration X
   std::optional<State> restart;                 // where to start from instead, with its load factor
@@ -224,6 +237,7 @@ struct Model {
   std::vector<Change> changes;
   std::vector<Viscosity> viscosity;
   std::optional<int> plane_normal;              // 0, 1, 2: the coordinate that every particle keeps
+  std::vector<OwnLaw> own;
 
   int particles() const { return static_cast<int>(start.particles()); }
   RoundedBody body(int b, const State& state) const { return {&shapes[bodies[b].shape], state.bodies[b]}; }

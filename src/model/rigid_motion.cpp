@@ -186,6 +186,9 @@ std::vector<int> connected_parts(const Model& model, const Pairs& also) {
   for (const auto& [p, q] : also) join(p, q);
   for (const Angle& a : model.angles) join(a.particles[0], a.particles[1]), join(a.particles[1], a.particles[2]);
   for (const Glued& g : model.glued) join(g.particle, model.particles() + g.body);
+  for (const OwnLaw& law : model.own)
+    for (const std::vector<int>& element : law.elements)
+      for (std::size_t k = 1; k < element.size(); ++k) join(element[k - 1], element[k]);
   std::vector<int> part(root.size()), number(root.size(), -1);
   int parts = 0;
   for (int p = 0; p < static_cast<int>(root.size()); ++p) {

@@ -28,7 +28,7 @@ const char* name_of(Side side) {
 class Halving {
  public:
   Halving(const PreparedRuns& prepared, const RunOptions& options)
-      : b_(*prepared.bisection), first_(prepared.runs.front()), options_(options),
+      : prepared_(prepared), b_(*prepared.bisection), first_(prepared.runs.front()), options_(options),
         directory_(options.directory, options.force, inputs_in(options.directory, first_.problem)) {}
 
   Side run(const PreparedRun& prepared, double value) {
@@ -54,7 +54,7 @@ class Halving {
                  observed ? fmt::format("is {:.10g}, {} {:.10g}", *observed, name_of(outcome), b_.level) : "is missing: " + why);
     return outcome;
   }
-  Side run(double value) { return run(prepare_run(options_.file, options_.settings, b_.settings(value)), value); }
+  Side run(double value) { return run(prepare_run(prepared_.document, options_.settings, b_.settings(value), prepared_.own), value); }
 
   int count() const { return count_; }
   int status() const { return status_; }
@@ -68,6 +68,7 @@ class Halving {
     for (const auto& [value, row] : rows_) table.add(row);
   }
 
+  const PreparedRuns& prepared_;
   const Bisection& b_;
   const PreparedRun& first_;
   const RunOptions& options_;

@@ -55,9 +55,9 @@ struct Bundle {
 /// What a file and the settings ask for.
 class SweepReader {
  public:
-  SweepReader(const std::string& file, const std::vector<Setting>& settings)
-      : document_(read_document(file)), settings_(settings), mistakes_(file) {
-    Mistakes ignored(file);              // those of the settings and the problem are told by read_problem
+  SweepReader(const Document& document, const std::vector<Setting>& settings)
+      : document_(document), settings_(settings), mistakes_(document.file) {
+    Mistakes ignored(document.file);              // those of the settings and the problem are told by read_problem
     for (const Setting& setting : settings) apply(setting, document_, ignored);
     tables_ = read_tables(document_, ignored);
     for (Sweep& s : tables_.sweeps)
@@ -171,12 +171,12 @@ class SweepReader {
 };
 
 /// The sweeps of a file, once nothing is wrong with them; else throws what is wrong with the problem beside it.
-SweepReader whole_sweeps(const std::string& file, const std::vector<Setting>& settings) {
-  SweepReader reader(file, settings);
+SweepReader whole_sweeps(const Document& document, const std::vector<Setting>& settings) {
+  SweepReader reader(document, settings);
   if (!reader.mistakes().any()) return reader;
   Mistakes all = reader.mistakes();
   try {
-    read_problem(file, settings);
+    read_problem(document, settings);
   } catch (const InputError& e) {
     all.add(e.mistakes());
   }
@@ -212,22 +212,25 @@ void check_together(const std::vector<ExpectTable>& together, std::size_t runs, 
 }  // namespace
 
 std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std::vector<Setting>& settings) {
-  return whole_sweeps(file, settings).runs();
+  return whole_sweeps(read_document(file), settings).runs();
 }
 
-PreparedRun prepare_run(const std::string& file, const std::vector<Setting>& settings, const std::vector<Setting>& swept) {
+PreparedRun prepare_run(const Document& document, const std::vector<Setting>& settings, const std::vector<Setting>& swept,
+                        const std::vector<OwnLaw>& own) {
   std::vector<Setting> all = settings;
   all.insert(all.end(), swept.begin(), swept.end());
-  PreparedRun run{swept, read_problem(file, all), {}, {}};
+  PreparedRun run{swept, read_problem(document, all), {}, {}};
   run.together = of_all_runs(run.problem);
-  run.model = build_model(run.problem);
+  run.model = build_model(run.problem, own);
   return run;
 }
 
-PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings) {
-  const SweepReader reader = whole_sweeps(file, settings);
+PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings) { return prepare_runs(read_document(file), settings); }
+
+PreparedRuns prepare_runs(const Document& document, const std::vector<Setting>& settings, const std::vector<OwnLaw>& own) {
+  const SweepReader reader = whole_sweeps(document, settings);
   const std::vector<std::vector<Setting>> runs = reader.runs();
-  PreparedRuns prepared{{}, reader.bisection()};
+  PreparedRuns prepared{document, own, {}, reader.bisection()};
   // Mistakes of two runs are the same if place and key are, and they come in the same turn there.
   struct Told {
     Mistake mistake;
@@ -237,8 +240,8 @@ PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& s
   std::map<std::string, Told> told;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     try {
-      prepared.runs.push_back(prepare_run(file, settings, runs[r]));
-      Mistakes of_together(file);
+      prepared.runs.push_back(prepare_run(document, settings, runs[r], own));
+      Mistakes of_together(document.file);
       check_together(prepared.runs.back().together, runs.size(), reader.bisection().has_value(), of_together);
       of_together.raise();
     } catch (const InputError& e) {

@@ -24,10 +24,13 @@ struct PreparedRun {
   std::vector<ExpectTable> together;   // expectations about all runs together
 };
 
-/// One run of a file. Throws InputError.
-PreparedRun prepare_run(const std::string& file, const std::vector<Setting>& settings, const std::vector<Setting>& swept);
+/// One run of a document. Throws InputError.
+PreparedRun prepare_run(const Document& document, const std::vector<Setting>& settings, const std::vector<Setting>& swept,
+                        const std::vector<OwnLaw>& own = {});
 
 struct PreparedRuns {
+  Document document;
+  std::vector<OwnLaw> own;             // laws that the program brings along
   std::vector<PreparedRun> runs;
   std::optional<Bisection> bisection;  // then `runs` are its two ends
 };
@@ -35,5 +38,6 @@ struct PreparedRuns {
 /// Every run of a file read and built, so that nothing runs before everything is right: one if there is no sweep.
 /// Throws InputError: a mistake of all runs is told once, one of some names the first of them.
 PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings = {});
+PreparedRuns prepare_runs(const Document& document, const std::vector<Setting>& settings, const std::vector<OwnLaw>& own = {});
 
 }  // namespace elamin

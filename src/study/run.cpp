@@ -48,12 +48,16 @@ void keep_frames(Problem& problem) {
 
 }  // namespace
 
-RunResult run(const RunOptions& given) {
+RunResult run(const RunOptions& options) {
+  PreparedRuns prepared = prepare_runs(options.file, options.settings);
+  return run(prepared, options);
+}
+
+RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   RunOptions options = given;
   if (options.threads <= 0) options.threads = cores();
   set_threads(options.threads);
   if (options.directory.empty()) options.directory = default_directory(options.file);
-  PreparedRuns prepared = prepare_runs(options.file, options.settings);
   if (options.report)
     for (PreparedRun& run : prepared.runs) keep_frames(run.problem);
   if (prepared.bisection) return run_bisection(prepared, options);

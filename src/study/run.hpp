@@ -29,8 +29,13 @@ struct [[nodiscard]] RunResult {
   std::vector<Verdict> verdicts;       // of its [[expect]]
 };
 
+struct PreparedRuns;
+
 /// Reads, checks, runs and writes a problem file; with [[sweep]] one run for each combination, in parallel.
 /// Throws InputError before anything is written if the file is wrong.
 RunResult run(const RunOptions& options);
+
+/// The same of what has been read and built; options.settings: those it was read with.
+RunResult run(PreparedRuns& prepared, const RunOptions& options);
 
 }  // namespace elamin

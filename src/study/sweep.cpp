@@ -67,8 +67,8 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
     const std::lock_guard lock(printing);
     progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), runs.size(), watch.seconds()));
   });
-  const auto work = [&] {
-    set_threads(1);
+  const auto work = [&, asked = stop_asked] {
+    set_threads(1), stop_asked = asked;
     for (std::size_t k; (k = next++) < runs.size() && !interrupted();) {
       const std::string name = name_of(k);
       try {
