@@ -113,6 +113,10 @@ void add_documents(py::module_& module) {
       .def("append", &append, py::arg("table"), py::arg("values"))
       .def("update", &update, py::arg("table"), py::arg("values"))
       .def("set", &set, py::arg("key"), py::arg("value"))
+      .def("erase", [](Document& d, const std::string& key) {
+        std::erase_if(d.root, [&](const Entry& e) { return e.key == key; });
+        d.sha256 = sha256(to_toml(d));
+      }, py::arg("key"))
       .def("has", [](const Document& d, const std::string& key) { return find(d.root, key) != nullptr; }, py::arg("key"))
       .def("tables", [](const Document& d) { return python_of(Node{{}, d.root}); })
       .def("toml", [](const Document& d) { return to_toml(d); })

@@ -66,7 +66,7 @@ class Curvature {
 }  // namespace
 
 // The eigenvectors to eigenvalues within ± bound, near enough to span them, by block inverse iteration with a factor near zero; none if
-// there are too many.
+// there are too many, or nothing is known of them yet.
 std::optional<Eigen::MatrixXd> Factors::soft_modes(double bound, const Solve& solve) {
   const int n = energy_.dofs();
   for (int block = std::min(n, 6);; block = std::min(n, 2 * block)) {
@@ -79,6 +79,7 @@ std::optional<Eigen::MatrixXd> Factors::soft_modes(double bound, const Solve& so
       inside = (values.array().abs() <= bound).count();
       if (std::exchange(before, inside) == inside && k >= limits::least_rounds) break;
     }
+    if (values.size() == 0) return {};                            // interrupted
     if (inside < block || block == n) {
       Eigen::MatrixXd soft(n, inside);
       for (Eigen::Index j = 0, k = 0; j < block; ++j)

@@ -180,6 +180,12 @@ class Problem(Tables):
         self._built = None
         return self
 
+    def clear(self, name: str) -> "Problem":
+        """Takes all tables of that name away, as "expect"."""
+        self._document.erase(name)
+        self._built = None
+        return self
+
     def particles(self, x: ArrayLike, diameter: ArrayLike, *, density: Optional[ArrayLike] = None, name: Optional[str] = None) -> NDArray[np.int64]:
         """Adds particles.
 

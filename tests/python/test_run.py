@@ -1,0 +1,133 @@
+"""Runs and what they leave: the files of the program, as tables."""
+import json
+import pathlib
+
+import numpy as np
+import pytest
+
+import elamin
+from conftest import buckling_load, column, torn
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    return column().run(tmp_path_factory.mktemp("here") / "run")
+
+
+def test_tables_have_the_bits_of_the_files(run, program, tmp_path):
+    file = tmp_path / "column.toml"
+    file.write_text(column().toml())
+    program(file, "-o", tmp_path / "run", "--quiet")
+    there = elamin.Run(tmp_path / "run")
+    for name in ("path.csv", "events.csv", "contacts.csv", "states/branch-1.data"):
+        assert (run.directory / name).read_bytes() == (there.directory / name).read_bytes(), name
+    lines = (run.directory / "path.csv").read_text().splitlines()
+    columns = lines[0].split(",")
+    assert list(run.path.columns) == columns and len(run.path) == len(lines) - 1
+    cells = [line.split(",") for line in lines[1:]]
+    for k, column_name in enumerate(columns):
+        values = run.path[column_name]
+        for cell, v in zip((c[k] for c in cells), values):
+            assert (v == cell) if isinstance(v, str) else (cell == ("true" if v else "false")) if isinstance(v, (bool, np.bool_)) else float(cell or "nan") == v or cell == ""
+    assert run.path["step"].dtype == int and run.path["stable"].dtype == bool and run.path["lambda"].dtype == float
+    assert run.status == "done" and run.exit_status == 0 and run.summary == json.loads((run.directory / "summary.json").read_text())
+
+
+def test_states(run):
+    event = run.state("branch:1")
+    assert event.load_factor == pytest.approx(buckling_load(), rel=1e-9) == run.events["lambda"][0]
+    assert event.x.shape == (14, 3) and len(event.bonds) == 13 and len(event.angles) == 12
+    [mode] = event.modes
+    assert mode.shape == (14, 3) and np.abs(mode[:, 0]).max() > 0.1
+    p = column()
+    steps = {s.label: s for s in p.path() if s.label}
+    assert (steps["branch:1"].x == event.x).all()
+    assert p.energy(event) == pytest.approx(steps["branch:1"].energy, rel=1e-12)
+    assert run.state("initial").load_factor == 0 and "branch-1" in run.labels
+    with pytest.raises(elamin.InputError, match="there is no state 'limit:7'; there are"):
+        run.state("limit:7")
+
+
+def test_figures_and_pages(run, tmp_path):
+    figure = run.plot(y="energy", shapes=["initial", "branch:1"])
+    assert "energy" in figure.svg and figure._repr_svg_() == figure.svg
+    figure.save(tmp_path / "figure.svg")
+    assert (tmp_path / "figure.svg").read_text() == figure.svg
+    with pytest.raises(elamin.InputError, match="svg or .pdf"):
+        figure.save(tmp_path / "figure.png")
+    with pytest.raises(elamin.InputError, match="enrgy"):
+        run.plot(y="enrgy")
+    page = run.report()
+    assert page == run.directory / "report.html" and "<html" in page.read_text()[:300]
+    assert "svg" in run._repr_html_() and "done" in repr(run)
+
+
+def test_temporary_results_live_as_long_as_the_run():
+    run = column().run()
+    folder = run.directory
+    assert folder.exists() and len(run.path) > 50
+    del run
+    assert not folder.exists()
+
+
+def test_directories_of_others_are_safe(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine/thesis.tex").write_text("all of it")
+    with pytest.raises(elamin.InputError, match="is not empty and not the results of a run"):
+        column().run(tmp_path / "mine")
+    p = elamin.Problem(plane="xz")
+    p.particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], 1.0, name="all_of_it")
+    p.bonds([[0, 1], [1, 2]], 1.0).angles([[0, 1, 2]], 1.0).group(name="first", ids=[1, 2]).support(group="first")
+    p.path(steps=2)
+    with pytest.raises(elamin.InputError, match="is not empty and not the results of a run"):
+        p.run(tmp_path / "mine")
+    assert sorted(f.name for f in (tmp_path / "mine").iterdir()) == ["thesis.tex"]
+    run = p.run(tmp_path / "own")
+    assert (tmp_path / "own/particles.data").exists()
+    assert "no_shape" not in (run.report()).read_text() or run.summary["status"] == "done"
+    again = p.run(tmp_path / "own")
+    assert again.status == "done" and (tmp_path / "own/particles.data").exists()
+    column().run(tmp_path / "own")
+    assert not (tmp_path / "own/particles.data").exists()
+    assert pathlib.Path(tmp_path / "own/path.csv").exists()
+
+
+def test_expectations(tmp_path):
+    p = column()
+    p.expect(observable="lambda", at="branch:1", value=buckling_load(), rtol=1e-9).expect(observable="lambda", at="branch:1", value=1.0, rtol=1e-9)
+    run = p.run(tmp_path / "run")
+    assert [met for met, _ in run.verdicts] == [True, False]
+    assert "expected" in run.verdicts[1][1] or "1" in run.verdicts[1][1]
+
+
+def test_a_run_that_does_not_converge_warns(tmp_path):
+    p = torn()
+    with pytest.warns(elamin.NotConverged, match="the run ended"):
+        run = p.run(tmp_path / "run")
+    assert run.exit_status == 2 and run.status == "not_converged"
+
+
+def test_sweeps_of_a_problem(tmp_path):
+    p = column()
+    p.clear("group").group(name="bottom", of="column", first=2).group(name="top", of="column", last=2).group(name="tip", of="column", last=2)
+    p.clear("load").load(group="tip", total_force=[0, 0, -1])
+    p.sweep(key="beam.column.particles", values=[14, 16])
+    run = p.run(tmp_path / "run")
+    assert list(run.sweep["beam.column.particles"]) == [14, 16]
+    assert len(run.runs) == 2 and run.runs[0].events["lambda"][0] == run.sweep["branch:1"][0]
+
+
+def test_modes_and_motions(tmp_path, root):
+    p = column().study(type="modes").table("modes", count=3).clear("path").clear("load")
+    run = p.run(tmp_path / "modes")
+    assert len(run.modes) == 3
+    swing = elamin.Problem(root / "problems/grain_bounces.toml").run(tmp_path / "motion")
+    assert "time" in swing.trajectory.columns
+
+
+def test_progress_is_told(capfd):
+    column().run(progress=True)
+    out = capfd.readouterr().out
+    assert "branch:1" in out and "written:" in out
+    column().run()
+    assert capfd.readouterr().out == ""
