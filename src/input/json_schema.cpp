@@ -26,7 +26,7 @@ Json of_value(const KeyTree& k) {
     case Type::list: j["type"] = "array"; break;
     case Type::integer:
     case Type::number:
-      j["type"] = k.type == Type::integer ? "integer" : "number";
+      j["type"] = {k.type == Type::integer ? "integer" : "number", "string"};   // or an expression
       if (k.range.lo != range::any.lo) j[k.range.above ? "exclusiveMinimum" : "minimum"] = k.range.lo;
       if (k.range.hi != range::any.hi) j["maximum"] = k.range.hi;
       break;
@@ -39,6 +39,7 @@ Json of_value(const KeyTree& k) {
 /// A table's keys, and what goes together as conditions on which of them are there.
 Json of_table(const KeyTree& t) {
   Json j{{"type", "object"}, {"description", t.means}, {"additionalProperties", false}, {"properties", Json::object()}};
+  if (t.names_numbers) j["additionalProperties"] = {{"type", {"number", "string"}}};
   std::vector<std::string> needed;
   for (const KeyTree& k : t.keys) {
     j["properties"][k.name] = schema_of(k);

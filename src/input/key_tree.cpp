@@ -41,6 +41,7 @@ class TreeMaker : public Keys {
       only_ = outer, case_ = outer_case;
     }
   }
+  void numbers(NamedNumbers&) override { tree_.names_numbers = true; }
   void at_most_one(const Names& keys) override { rule(KeyTree::Rule::Kind::at_most_one, keys, {}); }
   void one_at_least(const Names& keys, const char*) override { rule(KeyTree::Rule::Kind::one_at_least, keys, {}); }
   void with(const Names& keys, const Names& needed, const char*) override { rule(KeyTree::Rule::Kind::with, keys, needed); }
@@ -101,7 +102,8 @@ class TreeMaker : public Keys {
 void append_table(std::string& text, const KeyTree& t, const std::string& path) {
   const bool many = t.level == KeyTree::Level::tables;
   const std::string name = path.empty() ? "The file" : fmt::format("`{}{}{}`", many ? "[[" : "[", path, many ? "]]" : "]");
-  text += fmt::format("\n## {}\n\n{}\n\n| key | is | default | what it means |\n|---|---|---|---|\n", name, t.means);
+  text += fmt::format("\n## {}\n\n{}\n", name, t.means);
+  if (!t.names_numbers) text += "\n| key | is | default | what it means |\n|---|---|---|---|\n";
   for (const KeyTree& k : t.keys) {
     if (k.level != KeyTree::Level::value) continue;
     const std::string is = k.type == Type::word ? fmt::format("`\"{}\"`", fmt::join(k.words, "\"`, `\"")) : k.may_be;
@@ -147,7 +149,7 @@ const KeyTree& key_tree() {
 
 std::string key_reference() {
   std::string text = "# The keys of a problem file\n\nWritten by `elamin schema --markdown`. Lengths, forces and times are in any consistent "
-                     "units.\n";
+                     "units. Where a number stands, an expression of `[constants]` may: `\"t/2\"`.\n";
   append_table(text, key_tree(), "");
   return text;
 }

@@ -17,6 +17,7 @@ struct KeyTree {
   Range range;
   std::vector<std::string> only;                 // "shape = \"circle\"": where it belongs to a choice, in any of these
   std::vector<KeyTree> keys;                     // of a table, in its order
+  bool names_numbers = false;                    // instead of keys it has numbers with names of the file's own
   /// Choices of a word among the keys: with these words those of its keys that are needed, and those that must not be there.
   struct Case { std::string by; std::vector<std::string> words, needed, own; };
   std::vector<Case> cases;

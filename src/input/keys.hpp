@@ -25,6 +25,9 @@ struct Rest {
   bool operator==(const Rest&) const = default;
 };
 
+/// Numbers with names of the file's own.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
 struct Key {
   enum class Kind { plain, name, file, one_or_more, one_or_two, values, words, center };
   const char *name, *means;
@@ -89,6 +92,9 @@ class Keys {
     std::vector<std::string> held = list.value_or(std::vector<std::string>{});
     if (value({key, means, false, {}, Kind::words, texts(known)}, &held, list.has_value())) list = std::move(held);
   }
+
+  /// Any names that the file likes, each with a number.
+  virtual void numbers(NamedNumbers& list) = 0;
 
   /// [key], may be absent; [[key]], any number.
   template <class T> void table(const char* key, T& t) {

@@ -12,6 +12,7 @@ void describe(Keys& keys, ProblemFile& file) {
   keys.about("What stands before the first table.");
   keys.may("title", p.title, "of the problem");
   keys.word("plane", p.plane, plane_words, "that every particle stays in; by default none");
+  keys.table("constants", p.constants);   // before all that may use them
   keys.table("lammps", p.lammps);
   keys.tables("beam", p.beams);
   keys.tables("loop", p.loops);

@@ -3,6 +3,7 @@
 #include "input/beam.hpp"
 #include "input/body.hpp"
 #include "input/connect.hpp"
+#include "input/constants.hpp"
 #include "input/contact.hpp"
 #include "input/grains.hpp"
 #include "input/group.hpp"
@@ -26,6 +27,7 @@ struct Problem {
   std::string sha256;                           // of its bytes, 64 hexadecimal digits
   std::string title;
   std::string plane;                            // "", "xy", "xz", "yz"
+  std::optional<ConstantsTable> constants;
   std::optional<LammpsTable> lammps;
   std::vector<BeamTable> beams;
   std::vector<LoopTable> loops;

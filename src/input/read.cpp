@@ -78,7 +78,8 @@ bool structure_refused(const Document& document) {
 ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
   ProblemFile file;
   const std::string folder = std::filesystem::path(document.file).parent_path().string();
-  Reader reader(document.root, {}, "", "", folder, mistakes);
+  Constants constants;
+  Reader reader(document.root, {}, "", "", folder, constants, mistakes);
   describe(reader, file);
   reader.finish();
   file.problem.file = document.file;
@@ -91,6 +92,17 @@ ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
     mistakes.add("holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
   check_problem(file.problem, names_in_unknown_tables(document), mistakes);
   return file;
+}
+
+Constants constants_of(const Document& document) {
+  Constants constants;
+  Mistakes ignored(document.file);
+  const Node* node = find(document.root, "constants");
+  if (const auto* entries = node ? std::get_if<Entries>(&node->value) : nullptr) {
+    NamedNumbers numbers;
+    Reader(*entries, node->place, "constants", "constants", "", constants, ignored).numbers(numbers);
+  }
+  return constants;
 }
 
 Problem read_problem(const std::string& file, const std::vector<Setting>& settings) { return read_problem(read_document(file), settings); }

@@ -71,8 +71,9 @@ bool is_name(const std::string& word) {
   return std::all_of(word.begin(), word.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
-Reader::Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder, Mistakes& mistakes)
-    : entries_(entries), key_(std::move(key)), kind_(std::move(kind)), folder_(folder), mistakes_(mistakes) {
+Reader::Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder, Constants& constants,
+               Mistakes& mistakes)
+    : entries_(entries), key_(std::move(key)), kind_(std::move(kind)), folder_(folder), constants_(constants), mistakes_(mistakes) {
   static_cast<Place&>(place_) = place;
   place_.key = key_;
 }
@@ -102,8 +103,8 @@ void Reader::mistake(Place at, const std::string& key, const std::string& what) 
   mistakes_.add(at, key, what);
 }
 void Reader::missing(const char* key, const std::string& what) { mistake(place_, inside(key), "is missing; it must be " + what); }
-bool Reader::wrong(const Key& key, const Node& node, const std::string& what) {
-  mistake(node.place, inside(key.name), "must be " + what + ", is " + shown(node));
+bool Reader::wrong(const Key& key, const Node& node, const std::string& what, const std::string& is) {
+  mistake(node.place, inside(key.name), "must be " + what + ", is " + is);
   return false;
 }
 
@@ -175,7 +176,7 @@ void Reader::below(const char* key, const Below& tables) {
 }
 
 void Reader::read_table(const Entries& entries, Place place, const std::string& key, const std::string& kind, const Below& tables, std::size_t i) {
-  Reader reader(entries, place, key, kind, folder_, mistakes_);
+  Reader reader(entries, place, key, kind, folder_, constants_, mistakes_);
   TablePlace& where = tables.each(i, reader);
   where = reader.finish();
   if (where.broken) place_.broken = true;
@@ -227,22 +228,58 @@ bool Reader::read(const Key& key, const Node& node, bool& value) {
   return true;
 }
 
+std::optional<double> Reader::number(const Key& key, const Node& node, const std::string& what, std::string& is) {
+  is = shown(node);
+  if (const auto* integer = std::get_if<std::int64_t>(&node.value)) return static_cast<double>(*integer);
+  if (const auto* real = std::get_if<double>(&node.value)) return *real;
+  const auto* text = std::get_if<std::string>(&node.value);
+  if (!text) return wrong(key, node, what), std::nullopt;
+  const Constants::Result result = constants_.value(*text);
+  if (result.value) is = fmt::format("{}, of {}", *result.value, in_quotes(*text));
+  else if (result.why.empty()) place_.broken = true;
+  else wrong(key, node, what, constants_.empty() && is_name(*text) ? is : is + ", " + result.why);   // a word is not meant as an expression
+  return result.value;
+}
+
+void Reader::numbers(NamedNumbers& list) {
+  for (const Entry& e : entries_)
+    if (is_constant_name(e.key)) constants_.announce(e.key);
+  for (const Entry& e : entries_) {
+    known_.push_back(e.key);
+    place_.keys[e.key] = e.node.place;
+    if (!is_constant_name(e.key)) {
+      mistake(e.place, inside(in_quotes(e.key)), "is no name for a constant: letters, digits and '_', a letter first, and not that of a function");
+      continue;
+    }
+    double x = 0;
+    const bool good = read({e.key.c_str(), ""}, e.node, x);
+    constants_.set(e.key, good ? std::optional(x) : std::nullopt);
+    if (good) list.emplace_back(e.key, x);
+  }
+}
+
 bool Reader::read(const Key& key, const Node& node, int& value) {
-  const auto* integer = std::get_if<std::int64_t>(&node.value);
-  const bool inside_range = integer && static_cast<double>(*integer) >= std::max<double>(key.range.lo, std::numeric_limits<int>::min()) &&
-                            static_cast<double>(*integer) <= std::min<double>(key.range.hi, std::numeric_limits<int>::max());
-  if (!inside_range) return wrong(key, node, wanted(key, &value));
-  value = static_cast<int>(*integer);
+  const std::string what = wanted(key, &value);
+  const bool literal = std::holds_alternative<std::int64_t>(node.value), expression = std::holds_alternative<std::string>(node.value);
+  if (!literal && !expression) return wrong(key, node, what);
+  std::string is;
+  std::optional<double> x = number(key, node, what, is);
+  if (!x) return false;
+  if (expression) x = nearly_integer(*x);
+  const bool inside_range = x && *x >= std::max<double>(key.range.lo, std::numeric_limits<int>::min()) &&
+                            *x <= std::min<double>(key.range.hi, std::numeric_limits<int>::max());
+  if (!inside_range) return wrong(key, node, what, is);
+  value = static_cast<int>(*x);
   return true;
 }
 
 bool Reader::read(const Key& key, const Node& node, double& value) {
-  const auto* integer = std::get_if<std::int64_t>(&node.value);
-  const auto* real = std::get_if<double>(&node.value);
-  const double x = integer ? static_cast<double>(*integer) : real ? *real : std::nan("");
-  const bool inside_range = (key.range.above ? x > key.range.lo : x >= key.range.lo) && x <= key.range.hi;   // false for nan
-  if (!inside_range) return wrong(key, node, wanted_number(key.range));
-  value = x;
+  std::string is;
+  const std::optional<double> x = number(key, node, wanted_number(key.range), is);
+  if (!x) return false;
+  const bool inside_range = (key.range.above ? *x > key.range.lo : *x >= key.range.lo) && *x <= key.range.hi;   // false for nan
+  if (!inside_range) return wrong(key, node, wanted_number(key.range), is);
+  value = *x;
   return true;
 }
 
@@ -282,13 +319,14 @@ template <class T> bool Reader::read(const Key& key, const Node& node, std::arra
 
 bool Reader::read(const Key& key, const Node& node, Rest& value) {
   const auto* text = std::get_if<std::string>(&node.value);
-  if (std::holds_alternative<double>(node.value) || std::holds_alternative<std::int64_t>(node.value)) {
-    value.as_built = false;
-    return read(key, node, value.degrees);
+  if (text && (*text == "straight" || *text == "as_built")) {
+    value = {*text == "as_built", 180};
+    return true;
   }
-  if (!text || (*text != "straight" && *text != "as_built")) return wrong(key, node, wanted(key, &value));
-  value = {*text == "as_built", 180};
-  return true;
+  std::string is;
+  const std::optional<double> degrees = number(key, node, wanted(key, &value), is);
+  value.as_built = false;
+  return degrees && read(key, node, value.degrees);
 }
 
 bool Reader::read(const Key& key, const Node& node, std::vector<std::string>& values) {

@@ -1,5 +1,6 @@
 #pragma once
 // Reads the tables of a document into structs, as they describe themselves. Nothing is thrown: every mistake is collected.
+#include "input/constants.hpp"
 #include "input/document.hpp"
 #include "input/keys.hpp"
 #include "input/mistakes.hpp"
@@ -9,12 +10,15 @@
 
 namespace elamin {
 
-/// One table of the document. `key` is what --set calls it ("beam.column"), `kind` what the schema does ("beam").
+/// One table of the document. `key` is what --set calls it ("beam.column"), `kind` what the schema does ("beam"). Numbers are those of the
+/// file or expressions of the constants, to which the table [constants] adds.
 class Reader : public Keys {
  public:
-  Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder, Mistakes& mistakes);
+  Reader(const Entries& entries, Place place, std::string key, std::string kind, const std::string& folder, Constants& constants,
+         Mistakes& mistakes);
 
   void either(const char* by, const std::vector<Choice>& choices) override;
+  void numbers(NamedNumbers& list) override;
   void skip_the_rest() override { skip_ = true; }
   void at_most_one(const Names& keys) override;
   void one_at_least(const Names& keys, const char* wanted) override;
@@ -33,6 +37,9 @@ class Reader : public Keys {
   const Node* find(const char* key);
   bool has(const char* key) const { return elamin::find(entries_, key) != nullptr; }
 
+  /// A number, or the value of an expression; none after a mistake. `is`: what it is, for messages; `wanted`: what it must be.
+  std::optional<double> number(const Key&, const Node&, const std::string& wanted, std::string& is);
+
   bool read(const Key&, const Node&, bool&);
   bool read(const Key&, const Node&, int&);
   bool read(const Key&, const Node&, double&);
@@ -49,13 +56,15 @@ class Reader : public Keys {
   int one_of(const Key&, const Node&);
 
   void missing(const char* key, const std::string& wanted);
-  bool wrong(const Key& key, const Node& node, const std::string& wanted);
+  bool wrong(const Key& key, const Node& node, const std::string& wanted) { return wrong(key, node, wanted, shown(node)); }
+  bool wrong(const Key& key, const Node& node, const std::string& wanted, const std::string& is);
   void mistake(Place at, const std::string& key, const std::string& what);
   std::string inside(const std::string& key) const { return key_.empty() ? key : key_ + "." + key; }
 
   const Entries& entries_;
   std::string key_, kind_;
   const std::string& folder_;
+  Constants& constants_;
   Mistakes& mistakes_;
   TablePlace place_;
   std::vector<std::string> known_;            // keys asked for

@@ -32,6 +32,9 @@ class Writer : public Keys {
     for (const Choice& c : choices)
       if (c.chosen) c.keys();
   }
+  void numbers(NamedNumbers& list) override {
+    for (const auto& [name, value] : list) line(name.c_str(), text_of(value));
+  }
 
  private:
   bool value(const Key& key, KeyValue value, bool there) override {

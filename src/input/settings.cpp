@@ -45,11 +45,13 @@ class Walk {
   Node* end() {
     while (true) {
       const std::string part = parts_[at_];
+      if (tree_->names_numbers) return constant(part);
       const KeyTree* child = tree_->find(part);
       if (!child) return unknown(part);
       canonical_ += fmt::format("{}{}", at_ ? "." : "", part);
       ++at_;
-      if (child->level == KeyTree::Level::value) return value(part);
+      if (child->level == KeyTree::Level::value) return value(*child, part);
+      if (at_ == parts_.size() && child->names_numbers) return refuse("is a table; name one of its numbers");
       if (at_ == parts_.size()) return refuse("is a table; name one of its keys: " + listed(child->names()));
       tree_ = child;
       if (!(child->level == KeyTree::Level::table ? table(part) : element(part))) return nullptr;
@@ -58,6 +60,9 @@ class Walk {
   }
   const std::string& why() const { return why_; }
   const std::string& canonical() const { return canonical_; }
+  /// Whether what is there is a number, so that an expression may be.
+  bool is_number() const { return is_number_; }
+  bool is_integer() const { return is_integer_; }
 
  private:
   Node* refuse(const std::string& why) {
@@ -68,7 +73,22 @@ class Walk {
     return refuse(fmt::format("{} is no key; allowed: {}{}", in_quotes(part), listed(tree_->names()),
                               did_you_mean(part, tree_->names())));
   }
-  Node* value(const std::string& part) {
+  /// One of [constants], which must be there: nothing would use another.
+  Node* constant(const std::string& part) {
+    std::vector<std::string> names;
+    for (const Entry& e : *entries_) names.push_back(e.key);
+    Node* node = find(*entries_, part);
+    if (!node || at_ + 1 < parts_.size())
+      return refuse(fmt::format("{} is no constant of this file; {}{}", in_quotes(part), names.empty() ? "there is none" : "there are: " + listed(names),
+                                did_you_mean(part, names)));
+    canonical_ += "." + part;
+    is_number_ = true;
+    return node;
+  }
+  Node* value(const KeyTree& key, const std::string& part) {
+    using Type = KeyTree::Type;
+    is_number_ = key.type == Type::number || key.type == Type::integer || key.type == Type::list;
+    is_integer_ = key.type == Type::integer;
     Node* node = find(*entries_, part);
     if (at_ == parts_.size()) {
       return node ? node : &entries_->emplace_back(Entry{part, {}, {}}).node;
@@ -114,6 +134,7 @@ class Walk {
   Entries* entries_;
   const KeyTree* tree_ = &key_tree();
   std::string why_, canonical_;
+  bool is_number_ = false, is_integer_ = false;
 };
 
 }  // namespace
@@ -133,6 +154,19 @@ void apply(const Setting& setting, Document& document, Mistakes& mistakes) {
     *node = parse_value(setting.value, setting.place);
   else
     mistakes.add(setting.place, in_quotes(setting.key), walk.why());
+}
+
+std::string computed(const Setting& setting, const Document& document, const Constants& constants) {
+  const Node node = parse_value(setting.value, setting.place);
+  const auto* text = std::get_if<std::string>(&node.value);
+  if (!text) return setting.value;
+  Entries root = document.root;
+  Walk walk(setting.key, root);
+  if (!walk.end() || !walk.is_number()) return setting.value;
+  const std::optional<double> x = constants.value(*text).value;
+  if (!x) return setting.value;
+  const std::optional<double> integer = walk.is_integer() ? nearly_integer(*x) : std::nullopt;
+  return integer ? fmt::format("{:.0f}", *integer) : to_toml(*x);
 }
 
 bool has_table(const std::string& key) {

@@ -1,5 +1,6 @@
 #pragma once
 // Changes of a problem file from outside: `--set path.steps=50`, and the values of a sweep.
+#include "input/constants.hpp"
 #include "input/document.hpp"
 #include "input/mistakes.hpp"
 
@@ -22,6 +23,9 @@ Setting parse_setting(const std::string& text);
 
 /// Changes the document; a key that is allowed but not there is made. What addresses nothing goes to the mistakes.
 void apply(const Setting& setting, Document& document, Mistakes& mistakes);
+
+/// The value of a setting as a number, where it is an expression in place of one; else as it is.
+std::string computed(const Setting& setting, const Document& document, const Constants& constants);
 
 /// Whether a problem file may hold [key] or [[key]].
 bool has_table(const std::string& key);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -88,6 +89,7 @@ class SweepReader {
         }
       runs = std::move(longer);
     }
+    for (std::vector<Setting>& run : runs) compute(run);
     return runs;
   }
 
@@ -96,6 +98,21 @@ class SweepReader {
     for (const char* key : {"values", "range", "between"})
       if (const auto found = s.place.keys.find(key); found != s.place.keys.end()) return found->second;
     return s.place;
+  }
+
+  /// Expressions among the values of a run become numbers: those of constants by the constants of the file, others by those of the run.
+  void compute(std::vector<Setting>& run) const {
+    const auto quoted = [](const Setting& s) { return s.value.find_first_of("\"'") == 0; };
+    if (std::none_of(run.begin(), run.end(), quoted)) return;
+    Document changed = document_;
+    Mistakes ignored(document_.file);    // told where the run is read
+    const Constants of_file = constants_of(document_);
+    for (Setting& s : run) {
+      if (s.key.compare(0, 10, "constants.") == 0) s.value = computed(s, document_, of_file);
+      apply(s, changed, ignored);
+    }
+    const Constants of_run = constants_of(changed);
+    for (Setting& s : run) s.value = computed(s, changed, of_run);
   }
 
   void add(Sweep& s) {
@@ -127,6 +144,8 @@ class SweepReader {
     }
     if (range) s.values = values_of_range(s, mistakes_);
     if (halves) {
+      for (std::string& value : s.between)
+        if (!s.keys.empty()) value = computed({s.keys.front(), value}, document_, constants_of(document_));
       bisection_ = read_bisection(s, tables_.problem, mistakes_);
       s.values = s.between;
     } else {

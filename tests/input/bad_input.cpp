@@ -172,7 +172,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
   CHECK(
       said("", "1") ==
-      "--set: \"\": \"\" is no key; allowed: title, plane, lammps, beam, loop, sheet, grains, body, group, connect, remove, glue, support, "
+      "--set: \"\": \"\" is no key; allowed: title, plane, constants, lammps, beam, loop, sheet, grains, body, group, connect, remove, glue, support, "
       "load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, observe, event, "
       "expect, sweep");
   CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");
@@ -182,9 +182,19 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(said("path.steps", "many") ==
         "--set: path.steps: must be an integer from 1 to 1000000, is the string \"many\"");
   CHECK(said("path.steps", "1\nto = 2") ==
-        "--set: path.steps: must be an integer from 1 to 1000000, is the string \"1?to = 2\"");
+        "--set: path.steps: must be an integer from 1 to 1000000, is the string \"1?to = 2\", which is no expression: "
+        "behind \"1\" there must be +, -, *, / or ^");
   CHECK(said("beam.column.diameter", "nan") == "--set: beam.column.diameter: must be a positive number, is nan");
   CHECK(said("title", "\xff") == "--set: title: is not a text in UTF-8");
+  const std::string constants = ELAMIN_ROOT "/tests/input/good/constants.toml";
+  CHECK(mistakes_of(constants) == "");
+  CHECK(mistakes_of(constants, {{"constants.n", "38"}}) == "");
+  CHECK(mistakes_of(constants, {{"constants.N", "38"}}) ==
+        "--set: \"constants.N\": \"N\" is no constant of this file; there are: t, n, L, slender, I, small");
+  CHECK(mistakes_of(constants, {{"constants.n", "'L'"}}) ==
+        "--set: constants.n: must be a finite number, is the string \"L\", where \"L\" stands further down; a constant uses those above it");
+  CHECK(mistakes_of(constants, {{"constants", "38"}}) == "--set: \"constants\": is a table; name one of its numbers");
+  CHECK(said("constants.t", "1") == "--set: \"constants.t\": \"t\" is no constant of this file; there is none");
   CHECK(said("path.from", "1") ==
         file + ":23:6: path.to: is the same load factor as from, 1; a path leads from one to another");
   CHECK_THROWS_WITH(elamin::parse_setting("path.steps"),

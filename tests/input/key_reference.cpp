@@ -25,10 +25,17 @@ int said(const KeyTree& tree, const std::string& path) {
 
 /// Whether a node may stand where the schema says: what is wrong with types, words, ranges and keys, or "".
 std::string against(const Node& node, const nlohmann::json& schema) {
-  const std::string type = schema.value("type", "");
+  // A number may be written as an expression, a string.
+  const auto types = schema.contains("type") && schema["type"].is_array() ? schema["type"].get<std::vector<std::string>>()
+                                                                           : std::vector<std::string>{schema.value("type", "")};
+  const std::string& type = types.front();
   if (const auto* entries = std::get_if<Entries>(&node.value)) {
     if (type != "object") return "is a table";
     for (const Entry& e : *entries) {
+      if (!schema["properties"].contains(e.key) && schema["additionalProperties"].is_object()) {
+        if (const std::string wrong = against(e.node, schema["additionalProperties"]); !wrong.empty()) return e.key + ": " + wrong;
+        continue;
+      }
       if (!schema["properties"].contains(e.key)) return e.key + " is unknown";
       if (const std::string wrong = against(e.node, schema["properties"][e.key]); !wrong.empty()) return e.key + ": " + wrong;
     }
@@ -44,7 +51,7 @@ std::string against(const Node& node, const nlohmann::json& schema) {
   }
   if (const auto* text = std::get_if<std::string>(&node.value)) {
     if (schema.contains("enum")) return std::count(schema["enum"].begin(), schema["enum"].end(), *text) == 1 ? "" : "is no such word";
-    return type.empty() || type == "string" ? "" : "is a string";
+    return type.empty() || types.back() == "string" ? "" : "is a string";
   }
   if (std::holds_alternative<bool>(node.value)) return type.empty() || type == "boolean" ? "" : "is true or false";
   const auto* integer = std::get_if<std::int64_t>(&node.value);

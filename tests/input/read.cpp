@@ -97,7 +97,7 @@ TEST_CASE("The hash is SHA-256 of the bytes") {
 
 TEST_CASE("The resolved problem reads back to the same problem") {
   for (const char* name : {"column.toml", "everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "staged.toml", "dynamics.toml", "bodies.toml",
-                           "falling.toml", "observed.toml"}) {
+                           "falling.toml", "observed.toml", "constants.toml"}) {
     const Problem p = read_problem(good + name);
     INFO(resolved_toml(p));
     CHECK(again(p) == p);
@@ -109,13 +109,42 @@ TEST_CASE("The resolved problem reads back to the same problem") {
   CHECK(again(other) == other);
 }
 
+TEST_CASE("Expressions have the values that they say") {
+  const ScratchDirectory scratch;
+  const auto column = [&](const std::vector<Setting>& settings) { return read_problem(good + "constants.toml", settings); };
+  const Problem p = column({});
+  CHECK(p.beams[0].particles == 41);
+  CHECK(p.beams[0].from->z() == -0.02);
+  CHECK(p.beams[0].to->z() == 0.02);
+  CHECK(p.beams[0].diameter == 1e-3);
+  CHECK(p.beams[0].rest.degrees == 180);
+  CHECK(p.groups[0].ids == std::vector<int>{1, 2, 40, 41});
+  CHECK(p.expect[0].value == 0);                      // ^ binds before the sign
+  CHECK(resolved_toml(p).find("t = 0.001\nn = 40.0\nL = 0.04") != std::string::npos);
+  // One constant moves all that follows from it.
+  const Problem thick = column({{"constants.t", "2e-3"}});
+  CHECK(thick.beams[0].diameter == 2e-3);
+  CHECK(thick.beams[0].to->z() == 0.04);
+  CHECK(column({{"constants.n", "'20*4'"}}).beams[0].particles == 81);
+  const auto value = [](const std::string& expression) { return Constants().value(expression).value.value(); };
+  CHECK(value("2^3^2") == 512);
+  CHECK(value("-2^2") == -4);
+  CHECK(value("2^-1") == 0.5);
+  CHECK(value("8/2/2*3-1-1") == 4);
+  CHECK(value("-(1 + .5)*1e1") == -15);
+  CHECK(value("min(3, 2, 5) + max(1, 4) + abs(-1)") == 7);
+  CHECK(value("acos(-1)") == pi);
+  CHECK(value("atan(tan(0.5)) - asin(sin(0.5))") == 0);
+  CHECK(std::abs(value("log(exp(2)) - sqrt(4)*cos(0)")) < 1e-15);
+}
+
 TEST_CASE("The resolved problems hold every key") {
   std::vector<std::string> all;
   all_keys(key_tree(), "", all);
   const ScratchDirectory scratch;
   std::vector<Node> roots;
   for (const char* name : {"everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "staged.toml", "dynamics.toml", "bodies.toml",
-                           "falling.toml", "observed.toml"})
+                           "falling.toml", "observed.toml", "constants.toml"})
     roots.push_back({{}, read_document(scratch.file("r.toml", resolved_toml(read_problem(good + name)))).root});
   // A key is there if one of the tables of its name has it.
   const auto has = [](const auto& self, const Node& node, const std::string& key) -> bool {

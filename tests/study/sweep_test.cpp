@@ -56,6 +56,18 @@ TEST_CASE("Values and ranges") {
         Texts{"support.1.displacement = [0, 0, 1]", "support.1.displacement = [0, 0, 2.5]"});
 }
 
+TEST_CASE("Values may be expressions, of the constants that their run has") {
+  const std::string constants = "[constants]\nt = 3\nL = \"2*t\"\n";
+  CHECK(runs_of(constants + "[[sweep]]\nkey = \"beam.column.diameter\"\nvalues = [1, \"t/2\"]") ==
+        Texts{"beam.column.diameter = 1", "beam.column.diameter = 1.5"});
+  CHECK(runs_of(constants + "[[sweep]]\nkey = \"beam.column.particles\"\nrange = [4, \"L\", \"2\"]") ==
+        Texts{"beam.column.particles = 4", "beam.column.particles = 6"});
+  CHECK(runs_of(constants + "[[sweep]]\nkey = \"constants.t\"\nvalues = [4, \"t/2\"]\n"
+                            "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [\"L+1\"]") ==
+        Texts{"constants.t = 4, beam.column.particles = 9", "constants.t = 1.5, beam.column.particles = 4"});
+  CHECK_THROWS_WITH(runs_of("[[sweep]]\nkey = \"constants.t\"\nvalues = [1, 2]"), Catch::Contains("\"t\" is no constant of this file; there is none"));
+}
+
 TEST_CASE("Several sweeps: all combinations, or in step") {
   const std::string a = "[[sweep]]\nkey = \"path.to\"\nvalues = [1, 2]\n",
                     b = "[[sweep]]\nkey = \"path.steps\"\nvalues = [10, 20, 30]\n",
