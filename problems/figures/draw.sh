@@ -26,10 +26,14 @@ cantilever_tip_load 1 --x lambda --y w --shapes final
 greenhill_mast 1 --no-diagram --shapes initial,branch:1+mode
 column_self_contact . --x deflection --y force --shapes initial,final
 column_between_walls . --y force --shapes initial,final
+column_imperfect 1 --x deflection --y lambda --shapes final
 beam_in_tube . --y tube_force --shapes initial,final
 truss_low . --x height --y lambda --shapes initial,limit:1,final
 truss_tall . --x height --y lambda --shapes initial,branch:1+mode,final
 truss_spring 1 --x height --y force --shapes initial,final
+truss_three_bars . --no-diagram --shapes final
+chain_hanging . --no-diagram --shapes initial,final
+spiral_spring . --no-diagram --shapes final
 lee_frame 1 --x v --y lambda --shapes initial,limit:1,limit:2,final
 williams_toggle 1 --x w --y lambda --shapes initial,limit:1,final
 arch_low . --x w --y lambda --shapes initial,limit:1,final
@@ -49,6 +53,7 @@ plate_growing 1 --no-diagram --shapes branch:1+mode
 plate_post_buckling 1 --y force --shapes final
 disc_clamped . --no-diagram --shapes branch:1+mode
 disc_hinged . --no-diagram --shapes branch:1+mode
+plate_pressure 1 --no-diagram --shapes final
 sheet_indented . --x deflection --y force --shapes final
 confined_d_cone . --y push --shapes final
 two_beams . --y gap --shapes initial,branch:1,contact:1,limit:1,final

@@ -16,6 +16,7 @@ OtherForces::OtherForces(const Model& model, const EdgeOrder& order, double load
   groups_.push_back(bond_group(part_, kinematics).free);
   groups_.push_back(angle_group(part_, kinematics).free);
   groups_.push_back(pressure_group(part_));
+  groups_.push_back(sheet_pressure_group(part_));
   for (const auto& g : groups_) {
     value_.resize(std::max<std::size_t>(value_.size(), g->elements()));
     gradient_.resize(std::max<std::size_t>(gradient_.size(), std::size_t(g->elements()) * g->gradient_size()));

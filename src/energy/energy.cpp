@@ -16,13 +16,13 @@ namespace {
 
 // In the list of groups; each with glued particles, and then the same without.
 enum Place { bonds, angles = 2, contacts = 4, cohesion = 6, walls = 8, body_particles = 10, body_pairs = 12, body_walls, body_loads,
-             pressures, hard_pairs, hard_walls, places };
+             pressures, sheet_pressures, hard_pairs, hard_walls, places };
 
 // The term of each place.
 constexpr double EnergyTerms::*term_at[places]{
     &EnergyTerms::bond,     &EnergyTerms::bond,     &EnergyTerms::angle, &EnergyTerms::angle, &EnergyTerms::contact, &EnergyTerms::contact,
     &EnergyTerms::cohesion, &EnergyTerms::cohesion, &EnergyTerms::wall,  &EnergyTerms::wall,  &EnergyTerms::body,    &EnergyTerms::body,
-    &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external};
+    &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external};
 
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, rotation or overlap of order one.
 double stiffest(const Model& model) {
@@ -119,6 +119,9 @@ Energy::Energy(const Model& model)
     for (const int p : g.particles) add(p, model.mass(p) * g.acceleration, g.scaling);
     for (const int b : g.bodies) add(kinematics_.place_of(b), model.bodies[b].mass * g.acceleration, g.scaling);
   }
+  for (const Pressure& p : model.pressures)
+    for (std::size_t k = 0; p.rim.size() && k < p.particles.size(); ++k)
+      add(p.particles[k], p.pressure * p.rim.col(static_cast<Eigen::Index>(k)), p.scaling);
   for (const Glued& g : model.glued) constant_load_.col(g.particle).setZero(), scaled_load_.col(g.particle).setZero();
   force_floor_ = std::max(epsilon * stiffest(model), floor_of_bodies(model));
   unbonded_dofs_ = unbonded_dofs_of(model, kinematics_);
@@ -126,7 +129,8 @@ Energy::Energy(const Model& model)
   groups_.resize(places);
   put(bonds, bond_group(model, kinematics_)), put(angles, angle_group(model, kinematics_)), put(walls, wall_group(model, kinematics_));
   groups_[body_walls] = body_wall_group(model, kinematics_), groups_[body_loads] = body_load_group(model, kinematics_);
-  groups_[pressures] = pressure_group(model), groups_[hard_walls] = hard_wall_group(model);
+  groups_[pressures] = pressure_group(model), groups_[sheet_pressures] = sheet_pressure_group(model);
+  groups_[hard_walls] = hard_wall_group(model);
   const State& first = model.restart ? *model.restart : model.start;
   neighbours_.refresh(first), body_neighbours_.refresh(first);
   assemble_groups();
@@ -268,7 +272,7 @@ Vector Energy::load_derivative() const {
 
 Vector Energy::load_force() const {
   Vector pressed = Vector::Zero(dofs());
-  for (const Place given : {pressures, body_loads}) assembler_->add_load_derivative(*groups_[given], evaluated_, pressed);
+  for (const Place given : {pressures, sheet_pressures, body_loads}) assembler_->add_load_derivative(*groups_[given], evaluated_, pressed);
   return kinematics_.restrict(scaled_load_) - pressed;
 }
 

@@ -10,6 +10,7 @@
 #include "laws/edge_pressure.hpp"
 #include "laws/harmonic_bond.hpp"
 #include "laws/hertz_contact.hpp"
+#include "laws/triangle_pressure.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -132,6 +133,7 @@ std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
   std::vector<std::array<int, 2>> stencils;
   for (std::size_t k = 0; k < model.pressures.size(); ++k) {
     const std::vector<int>& row = model.pressures[k].particles;
+    if (!model.pressures[k].triangles.empty()) continue;
     for (std::size_t i = 0; i < row.size(); ++i)
       kind.push_back(static_cast<int>(k)), stencils.push_back({row[i], row[i + 1 < row.size() ? i + 1 : 0]});
   }
@@ -148,6 +150,23 @@ std::unique_ptr<ElementGroup> pressure_group(const Model& model) {
     return now;
   };
   return std::make_unique<LawGroup<EdgePressure>>(schedule, std::move(kind), std::move(stencils));
+}
+
+std::unique_ptr<ElementGroup> sheet_pressure_group(const Model& model) {
+  std::vector<int> kind;
+  std::vector<std::array<int, 3>> stencils;
+  for (std::size_t k = 0; k < model.pressures.size(); ++k)
+    for (const auto& triangle : model.pressures[k].triangles) kind.push_back(static_cast<int>(k)), stencils.push_back(triangle);
+  if (kind.empty()) return std::make_unique<LawGroup<TrianglePressure>>(std::vector<TrianglePressure>{}, kind, stencils);
+  const auto course = [&model](const State& state) {
+    Course<TrianglePressure> now;
+    for (const Pressure& p : model.pressures) {
+      now.laws.push_back({p.scaling.at(state.load_factor) * p.pressure, p.tip});
+      now.rates.push_back({p.scaling.rate * p.pressure, p.tip});
+    }
+    return now;
+  };
+  return std::make_unique<LawGroup<TrianglePressure>>(course, std::move(kind), std::move(stencils));
 }
 
 HertzContact hertz_contact(const Model& model, int table, int i, int j) {

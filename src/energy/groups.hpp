@@ -28,6 +28,8 @@ std::vector<CosineAngle> angle_laws(const Model& model, double load_factor);
 std::array<int, 3> angle_sites(const Model& model, const Angle& angle);
 /// Edges of the loops under pressure, one kind a loop.
 std::unique_ptr<ElementGroup> pressure_group(const Model& model);
+/// Triangles of the sheets under pressure, one kind a sheet.
+std::unique_ptr<ElementGroup> sheet_pressure_group(const Model& model);
 /// Hertz contacts of the candidate pairs, one law a pair: E_eff of its table, radii of its particles.
 Parts contact_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours);
 Parts cohesion_group(const Model& model, const Kinematics& kinematics, const Neighbours& neighbours);

@@ -1,5 +1,6 @@
 #include "input/beam.hpp"
 
+#include "input/csv.hpp"
 #include "input/mistakes.hpp"
 #include "model/centerline.hpp"
 #include "model/geometry.hpp"
@@ -17,14 +18,38 @@ namespace {
 constexpr Word<Profile> profile_words[]{{"circle", Profile::circle}, {"sine", Profile::sine}};
 constexpr Word<ClampedEnds> clamped_words[]{{"from", ClampedEnds::from}, {"to", ClampedEnds::to}, {"both", ClampedEnds::both}};
 
-void check_corners(TablePlace& place, const std::vector<Vec3>& through, Mistakes& mistakes) {
-  if (through.size() < 2)
-    mistakes.add(place, "through", "must be a list of two points at least, [[x, y, z], [x, y, z]]");
-  for (std::size_t i = 1; i < through.size(); ++i)
-    if (through[i] == through[i - 1]) {
-      mistakes.add(place, "through", fmt::format("has points {} and {} in the same place", i, i + 1));
+void check_corners(TablePlace& place, const char* key, const std::vector<Vec3>& points, Mistakes& mistakes) {
+  if (points.size() < 2)
+    mistakes.add(place, key, "must be a list of two points at least, [[x, y, z], [x, y, z]]");
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (points[i] == points[i - 1]) {
+      mistakes.add(place, key, fmt::format("has points {} and {} in the same place", i, i + 1));
       break;
     }
+}
+
+/// The points of a beam's file; none, and said why, if they make no curve.
+std::optional<std::vector<Vec3>> curve_of(const BeamTable& table, Mistakes& mistakes) {
+  NumberTable rows;
+  try {
+    rows = read_numbers(table.file, {"x", "y", "z"});
+  } catch (const InputError& e) {
+    mistakes.add(e.mistakes());
+    return std::nullopt;
+  }
+  const int x = rows.column("x"), y = rows.column("y"), z = rows.column("z");
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const std::vector<double>& row = rows.rows[i];
+    points.push_back({row[x], row[y], row[z]});
+    if (i > 0 && points[i] == points[i - 1]) {
+      mistakes.add({Mistake{table.file, rows.lines[i], 1, {}, "is the same point as the one before"}});
+      return std::nullopt;
+    }
+  }
+  if (points.size() >= 2) return points;
+  mistakes.add({Mistake{table.file, rows.lines[0], 1, {}, "is one point alone; a curve has two at least"}});
+  return std::nullopt;
 }
 
 void check_arch(BeamTable& b, bool in_plane, Mistakes& mistakes) {
@@ -51,7 +76,7 @@ void check_arch(BeamTable& b, bool in_plane, Mistakes& mistakes) {
 
 void describe(Keys& keys, BeamTable& t) {
   keys.about("A row of particles with bonds between neighbours and angles between triplets. Its place is from and to, or center, axis and "
-             "spacing, or through.");
+             "spacing, or through, or a curve: points or file.");
   keys.name("name", t.name, "its name, which is a group too");
   keys.may("from_stage", t.from_stage, "the stage it is there from; by default from the start");
   keys.word("section", t.section, section_words, "the section that the stiffnesses follow from");
@@ -62,13 +87,18 @@ void describe(Keys& keys, BeamTable& t) {
   keys.may("angle", t.angle, "opening of the arc of an arch [degrees]", Range{0, 359, true});
   keys.may("toward", t.toward, "the side that an arch rises to; by default in the plane, to the left");
   keys.word("profile", t.profile, profile_words, "shape of an arch; by default a circle");
-  keys.may("through", t.through, "the corners that the row goes through; some particle must be on each");
+  keys.may("through", t.through, "the corners that the row goes through; some particle must be on each, and neighbours are equally far from each other everywhere");
+  keys.may("points", t.points, "points of a curve, two at least; the particles are evenly by length along it, on its points or not, and bonds "
+                               "over its bends are shorter");
+  keys.may_file("file", t.file, "the same from a table of commas: x,y,z");
   keys.word("clamped", t.clamped, clamped_words, "ends with one particle beyond, to be held");
   keys.may("center", t.center, "middle of the row");
   keys.may("axis", t.axis, "its direction");
   keys.may("spacing", t.spacing, "distance of neighbours [length]; by default the diameter", range::positive);
   keys.must("diameter", t.diameter, "of the particles, for contact and mass [length]", range::positive);
   describe_row_stiffness(keys, t);
+  describe_own_values(keys, t.values, true);
+  keys.at_most_one({"through", "points", "file"});
   keys.at_most_one({"rise", "angle"});
   keys.with({"toward", "profile"}, {"rise", "angle"}, "which make it an arch");
 }
@@ -76,13 +106,15 @@ void describe(Keys& keys, BeamTable& t) {
 void check(BeamTable& b, bool in_plane, Mistakes& mistakes) {
   const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
   const bool ends = written("from") || written("to"), middle = written("center") || written("axis");
-  if (written("through") && (ends || middle)) {
-    mistakes.add(b.place, "through", "gives the place; leave out from, to, center and axis");
+  const char* const line = written("through") ? "through" : written("points") ? "points" : written("file") ? "file" : nullptr;
+  if (line && (ends || middle)) {
+    mistakes.add(b.place, line, "gives the place; leave out from, to, center and axis");
   } else if (ends && middle) {
     mistakes.add(b.place, "has from or to as well as center or axis; give from and to, or center, axis and spacing");
-  } else if (written("through")) {
-    if (written("spacing")) mistakes.add(b.place, "spacing", "follows from through and particles; leave it out");
-    if (b.through) check_corners(b.place, *b.through, mistakes);
+  } else if (line) {
+    if (written("spacing")) mistakes.add(b.place, "spacing", fmt::format("follows from {} and particles; leave it out", line));
+    if (b.through) check_corners(b.place, "through", *b.through, mistakes);
+    if (b.points) check_corners(b.place, "points", *b.points, mistakes);
   } else if (ends) {
     if (!written("from"))
       mistakes.add(b.place, "from", "is missing beside to; it must be a list of three numbers [x, y, z]");
@@ -98,13 +130,13 @@ void check(BeamTable& b, bool in_plane, Mistakes& mistakes) {
       mistakes.add(b.place, "axis", "is missing beside center; it must be a list of three numbers [x, y, z]");
     if (b.axis) check_direction(b.place, "axis", *b.axis, mistakes);
   } else {
-    mistakes.add(b.place, "its place is missing; give from and to, or center, axis and spacing, or through");
+    mistakes.add(b.place, "its place is missing; give from and to, or center, axis and spacing, or through, points or file");
   }
   check_arch(b, in_plane, mistakes);
   if (b.clamped) {
     const int least = 2 + (*b.clamped == ClampedEnds::both ? 2 : 1);
     if (middle)
-      mistakes.add(b.place, "clamped", "needs ends; give from and to, or through");
+      mistakes.add(b.place, "clamped", "needs ends; give from and to, or through, points or file");
     else if (b.particles > 0 && b.particles < least)
       mistakes.add(b.place, "particles",
                     fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
@@ -186,7 +218,12 @@ void not_on_corners(const BeamTable& table, Mistakes& mistakes) {
 
 /// Where the particles of a beam are; none, and said why, if they cannot be there.
 std::optional<Centerline> centerline_of(const BeamTable& table, const std::string& plane, Mistakes& mistakes) {
-  const std::vector<ExactVector> corners = corners_of(table);
+  std::optional<std::vector<Vec3>> curve = table.points;
+  if (!table.file.empty() && !(curve = curve_of(table, mistakes))) return std::nullopt;
+  std::vector<ExactVector> corners;
+  if (!curve) corners = corners_of(table);
+  else
+    for (const Vec3& x : *curve) corners.push_back(exact(x));
   double length = 0, farthest = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     farthest = std::max(farthest, largest(corners[i].hi));
@@ -199,6 +236,7 @@ std::optional<Centerline> centerline_of(const BeamTable& table, const std::strin
   }
   if (lost(table.place, "spacing", length / (table.particles - 1), farthest, mistakes)) return std::nullopt;
   if (table.rise || table.angle) return arch_of(table, plane, length, mistakes);
+  if (curve) return along_curve(*curve, table.particles, clamped_ends(table));
   if (!table.through) return row(corners.front(), corners.back(), table.particles, clamped_ends(table));
   std::optional<Centerline> line = polyline(*table.through, table.particles, clamped_ends(table));
   if (!line) not_on_corners(table, mistakes);
@@ -218,6 +256,19 @@ std::optional<Beam> built(const BeamTable& table, const std::string& plane, Mist
   b.angle.rest = rest_angle(table.rest, pi);
   b.as_built = table.rest.as_built, b.clamped = clamped;
   if (!stiff(table.place, b.bond.stiffness, b.angle.stiffness, mistakes)) return std::nullopt;
+  if ((table.points || !table.file.empty()) && !table.rest_length) {
+    for (std::size_t i = 1; i < b.centers.size(); ++i) {   // over a bend they are shorter
+      BondType own{0, distance(b.centers[i - 1], b.centers[i]).value()};
+      AngleType ignored{};
+      if (!(own.rest_length > 1e-12 * line->spacing)) {
+        mistakes.add(table.place, table.points ? "points" : "file",
+                     fmt::format("turns back between particles {} and {}, which are in the same place; take another number of particles", i, i + 1));
+        return std::nullopt;
+      }
+      row_stiffness(table, table.diameter, own, ignored);
+      b.bonds.push_back(own);
+    }
+  }
   return b;
 }
 

@@ -11,12 +11,14 @@ enum class ClampedEnds { from, to, both };
 
 struct BeamTable : RowStiffnessKeys {
   TablePlace place;
-  std::string name, from_stage;
+  std::string name, from_stage, values;
   int particles = 0;
   std::optional<Vec3> from, to;                 // either these …
   std::optional<Vec3> center, axis;             // … or these, with spacing …
   std::optional<double> spacing;
-  std::optional<std::vector<Vec3>> through;     // … or the corners
+  std::optional<std::vector<Vec3>> through;     // … or the corners …
+  std::optional<std::vector<Vec3>> points;      // … or a curve …
+  std::string file;                             // … from a table
   std::optional<double> rise, angle;            // of an arch between from and to
   std::optional<Vec3> toward;
   std::optional<Profile> profile;

@@ -311,7 +311,7 @@ void check_glued(const Problem& problem, const Model& model, Mistakes& mistakes)
   for (const Support& s : model.supports)
     refuse(problem.supports, s.group, s.particles, "group", "which moves it; hold the body instead");
   for (const Pressure& p : model.pressures)
-    refuse(problem.pressures, p.loop, p.particles, "loop", "where a pressure does not act; leave out the glue or the pressure");
+    refuse(problem.pressures, p.of, p.particles, p.triangles.empty() ? "loop" : "sheet", "where a pressure does not act; leave out the glue or the pressure");
   for (const PairContact& c : model.contacts)
     for (int side = 0; c.hard && side < (c.between[0] == c.between[1] ? 1 : 2); ++side)
       refuse(problem.contacts, c.between[side], c.particles[side], "hard", "and hard contacts are of free particles; give it a modulus");

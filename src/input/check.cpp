@@ -51,6 +51,10 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
   check_structures(problem, names, mistakes);
   check_bodies(problem, names, mistakes);
   check_groups(problem, names, mistakes);
+  if (problem.imperfection) {
+    names.refer(problem.imperfection->place, "group", problem.imperfection->group);
+    check(*problem.imperfection, mistakes);
+  }
   for (SupportTable& s : problem.supports) {
     names.refer(s.place, "group", s.group);
     check_support(problem, s, mistakes);

@@ -1,14 +1,12 @@
 #include "input/grains_file.hpp"
 
 #include "core/error.hpp"
-#include "core/suggest.hpp"
 #include "core/text.hpp"
+#include "input/csv.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -16,29 +14,6 @@ namespace elamin {
 namespace {
 
 constexpr const char* const columns[]{"x", "y", "z", "diameter"};
-
-struct Cell {
-  std::string_view text;
-  int column;                          // in bytes from 1
-};
-
-/// The cells of a line without the blanks around them; none if the line is blank.
-std::vector<Cell> cells_of(std::string_view line) {
-  line = line.substr(0, line.find('#'));
-  const char* const blanks = " \t\r\f\v";
-  std::vector<Cell> cells;
-  if (line.find_first_not_of(blanks) == std::string_view::npos) return cells;
-  for (std::size_t at = 0;;) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    const std::string_view cell = line.substr(at, end - at);
-    const std::size_t first = std::min(cell.find_first_not_of(blanks), cell.size());
-    const std::size_t last = cell.find_last_not_of(blanks);
-    cells.push_back({first < cell.size() ? cell.substr(first, last + 1 - first) : std::string_view{},
-                     static_cast<int>(at + (first < cell.size() ? first : 0)) + 1});
-    if (end == line.size()) return cells;
-    at = end + 1;
-  }
-}
 
 class GrainReader {
  public:
@@ -49,7 +24,7 @@ class GrainReader {
     for (std::size_t at = 0; at < text_.size() && mistakes_.size() < most_mistakes;) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
       ++line_;
-      if (const auto cells = cells_of(std::string_view(text_).substr(at, end - at)); !cells.empty()) row(cells);
+      if (const auto cells = csv_cells(std::string_view(text_).substr(at, end - at)); !cells.empty()) row(cells);
       at = end + 1;
     }
     if (rows_.position.empty() && mistakes_.empty())
@@ -63,7 +38,7 @@ class GrainReader {
     mistakes_.push_back({file_, line_, column, key, what});
   }
 
-  void row(const std::vector<Cell>& cells) {
+  void row(const std::vector<CsvCell>& cells) {
     if (first_) {
       first_ = false;
       if (names(cells)) return;
@@ -91,28 +66,18 @@ class GrainReader {
   }
 
   /// Whether these are the names of the columns rather than a grain.
-  bool names(const std::vector<Cell>& cells) {
+  bool names(const std::vector<CsvCell>& cells) {
     if (cells.size() > 4) return false;
     for (std::size_t i = 0; i < cells.size(); ++i)
       if (cells[i].text != columns[i]) return false;
     return cells.size() >= 3;
   }
 
-  std::optional<double> number(const Cell& cell, const char* key) {
-    std::string_view word = cell.text;
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const std::string shown = in_quotes(std::string(cell.text));
-    if (error == std::errc::result_out_of_range)
-      mistake(cell.column, key, shown + " is too large or too small for a floating-point number");
-    else if (error != std::errc{} || end != word.data() + word.size())
-      mistake(cell.column, key, shown + " is not a number");
-    else if (!std::isfinite(value))
-      mistake(cell.column, key, shown + " is not finite");
-    else
-      return value;
-    return std::nullopt;
+  std::optional<double> number(const CsvCell& cell, const char* key) {
+    std::string why;
+    const std::optional<double> value = csv_number(cell, why);
+    if (!value) mistake(cell.column, key, why);
+    return value;
   }
 
   const std::string& file_;

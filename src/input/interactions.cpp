@@ -5,6 +5,7 @@
 #include "model/entities.hpp"
 #include "input/check_parts.hpp"
 #include "input/conditions.hpp"
+#include "input/listed.hpp"
 #include "input/staged_structure.hpp"
 #include "core/suggest.hpp"
 
@@ -92,13 +93,34 @@ class ContactBuilder {
     c.first = std::move(particles[0]), c.second = std::move(particles[1]);
     const int bonds = connect(model_, c);
     if (bonds > 0) return true;
-    mistakes_.add(t.place, "within",
-                  bonds < 0
-                      ? fmt::format("makes more bonds than can be handled, {}; make it smaller", t.within)
-                      : fmt::format("makes no bond: no particle of \"{}\" is within {} of one of \"{}\" that it is "
-                                    "not bonded to already",
-                                    t.between[1], t.within, t.between[0]));
+    const std::string which = fmt::format("no particle of \"{}\" is within {} of one of \"{}\" that it is not bonded to already", t.between[1],
+                                          t.within.value_or(0), t.between[0]);
+    if (!t.within) mistakes_.add(t.place, "rule", bonds < 0 ? "has more pairs to look at than can be; give within" : "makes no bond: there is none to bond");
+    else mistakes_.add(t.place, "within", bonds < 0 ? fmt::format("makes more bonds than can be handled, {}; make it smaller", *t.within) : "makes no bond: " + which);
     return false;
+  }
+
+  /// `now`: else it is only looked whether it can be made.
+  bool add(const BondsTable& t, bool now) {
+    if (t.place.broken) return false;
+    if (t.rule) return !now || add(by_rule(t));
+    std::array<Members, 2> members;
+    std::array<std::vector<int>, 2> sides;
+    if (t.between && (!both(t.place, *t.between, members) || !take_particles(by_rule(t), members, sides))) return false;
+    const std::size_t before = mistakes_.list().size();
+    const std::vector<NewBond> bonds = listed_bonds(t, t.between ? &sides : nullptr, model_, mistakes_);
+    if (now) add_bonds(model_, bonds);
+    return mistakes_.list().size() == before;
+  }
+
+  bool add(const AnglesTable& t, bool now) {
+    const Members* over = t.place.broken || t.over.empty() ? nullptr : groups_.find(t.place, "over", t.over);
+    if (t.place.broken || (!over && !t.over.empty())) return false;
+    const std::size_t before = mistakes_.list().size();
+    if (!now && over) return true;                      // of bonds that are not there yet
+    const std::vector<NewAngle> angles = listed_angles(t, over ? over->particles : std::vector<int>{}, model_, mistakes_);
+    if (now) add_angles(model_, angles);
+    return mistakes_.list().size() == before;
   }
 
  private:
@@ -207,6 +229,15 @@ class CheckInteractions {
       mistakes_.add(c.place, "rest", "is of no use without angle_stiffness; without it there are no angles");
   }
 
+  void check(BondsTable& t) {
+    if (t.between) names_.refer(t.place, "between", *t.between);
+    check_listed(t, mistakes_);
+  }
+  void check(AnglesTable& t) {
+    if (!t.over.empty()) names_.refer(t.place, "over", t.over);
+    check_listed(t, mistakes_);
+  }
+
   void check(ContactTable& c) {
     const bool whole = !c.place.broken;
     names_.refer(c.place, "between", c.between);
@@ -308,8 +339,8 @@ class CheckInteractions {
 
 Connection connection_of(const ConnectTable& t) {
   Connection c;
-  c.within = t.within, c.bonds_per_particle = t.bonds_per_particle.value_or(0);
-  c.bond_stiffness = t.bond_stiffness, c.rest_length = t.rest_length.value_or(0);
+  c.within = t.within.value_or(0), c.bonds_per_particle = t.bonds_per_particle.value_or(0);
+  c.bond_stiffness = t.bond_stiffness.value_or(0), c.axial_stiffness = t.axial_stiffness.value_or(0), c.rest_length = t.rest_length.value_or(0);
   c.angle_stiffness = t.angle_stiffness.value_or(0);
   c.as_built = t.rest.as_built, c.rest = rest_angle(t.rest, pi);
   return c;
@@ -320,6 +351,8 @@ bool add_connections(const Problem& problem, Groups& groups, Model& model, Mista
   bool whole = true;
   for (const ConnectTable& t : problem.connections)
     if (stage_number(problem, t.from_stage) == 0) whole = builder.add(t) && whole;
+  for (const BondsTable& t : problem.bonds) whole = builder.add(t, stage_number(problem, t.from_stage) == 0) && whole;
+  for (const AnglesTable& t : problem.angles) whole = builder.add(t, stage_number(problem, t.from_stage) == 0) && whole;
   return whole;
 }
 
@@ -336,6 +369,8 @@ void check_interactions(Problem& problem, Names& names, Mistakes& mistakes) {
   for (WallTable& w : problem.walls) names.add_wall(w.place, w.name);
   CheckInteractions interactions(problem, names, mistakes);
   for (ConnectTable& c : problem.connections) interactions.check(c);
+  for (BondsTable& t : problem.bonds) interactions.check(t);
+  for (AnglesTable& t : problem.angles) interactions.check(t);
   for (ContactTable& c : problem.contacts) interactions.check(c);
   for (std::size_t k = 0; k < problem.walls.size(); ++k)
     interactions.check(problem.walls[k], scaling_of(problem, condition_of("wall", problem.walls, k)));

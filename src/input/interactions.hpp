@@ -8,7 +8,8 @@ namespace elamin {
 /// What a table says, without the particles of its groups.
 Connection connection_of(const ConnectTable& table);
 
-/// Adds the bonds and angles of the connections that are made before the first stage. A mistake: one that makes no bond. Returns whether all could be built.
+/// Adds the bonds and angles of the connections, and of the tables of bonds and of angles, that are made before the first stage. A mistake: one
+/// that makes no bond. Returns whether all could be built.
 bool add_connections(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
 /// Adds contacts, of rounded bodies too, and walls. A mistake: groups without what a law is between; particles without diameter

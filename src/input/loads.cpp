@@ -5,6 +5,7 @@
 #include "input/conditions.hpp"
 #include "input/structures.hpp"
 #include "model/entities.hpp"
+#include "model/triangles.hpp"
 
 #include <fmt/format.h>
 
@@ -51,10 +52,14 @@ void describe(Keys& keys, GravityTable& t) {
 }
 
 void describe(Keys& keys, PressureTable& t) {
-  keys.about("A pressure from outside on a [[loop]], in its plane.");
+  keys.about("A pressure that stays normal to what it acts on: from outside on a [[loop]], in its plane; or on a [[sheet]] whose rim is held, from the "
+             "side of its normal, on a cylinder from outside.");
   keys.may_name("name", t.name, "for path.parameter, stages and --set");
-  keys.must("loop", t.loop, "the name of the loop");
-  keys.must("pressure", t.pressure, "[force/length]");
+  keys.may("loop", t.loop, "the name of the loop");
+  keys.may("sheet", t.sheet, "or of the sheet; each particle of its rim must be held in all directions");
+  keys.must("pressure", t.pressure, "[force/length], on a sheet [force/length²]");
+  keys.at_most_one({"loop", "sheet"});
+  keys.one_at_least({"loop", "sheet"}, "give the name of a [[loop]] or of a [[sheet]]");
   describe_scaling(keys, t);
 }
 
@@ -81,13 +86,16 @@ void check_load(const Problem& problem, LoadTable& l, Mistakes& mistakes) {
 }
 
 void check_pressure(const Problem& problem, PressureTable& p, Mistakes& mistakes) {
-  if (p.loop.empty() && p.place.broken) return;
-  std::vector<std::string> loops;
-  for (const LoopTable& l : problem.loops) loops.push_back(l.name);
-  if (std::find(loops.begin(), loops.end(), p.loop) == loops.end())
-    mistakes.add(p.place, "loop",
-                 in_quotes(p.loop) + " is no [[loop]]; " + (loops.empty() ? "there is none" : "there are: " + listed(loops)) +
-                     did_you_mean(p.loop, loops));
+  const auto is_one = [&](const char* key, const std::string& name, const auto& tables) {
+    if (!p.place.written(key) || (name.empty() && p.place.broken)) return;
+    std::vector<std::string> names;
+    for (const auto& t : tables) names.push_back(t.name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      mistakes.add(p.place, key, in_quotes(name) + " is no [[" + key + "]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
+                                     did_you_mean(name, names));
+  };
+  is_one("loop", p.loop, problem.loops);
+  is_one("sheet", p.sheet, problem.sheets);
 }
 
 /// Names of conditions are unique among their kind; walls have theirs among the groups.
@@ -218,18 +226,47 @@ void set_velocity(const Problem& problem, const VelocityTable& table, const Memb
   }
 }
 
-void add_pressures(const Problem& problem, Model& model) {
+/// Triangles of a sheet, the forces on its rim, and whether all of that is held; else it is told who is not.
+void press_sheet(const PressureTable& table, const SheetTable& sheet, const Structure& s, Model& model, const Scaling& scaling, Mistakes& mistakes) {
+  const bool round = sheet.shape == SheetShape::cylinder;
+  Pressure p{table.sheet, {}, unit(sheet.normal), table.pressure, scaling, lattice_triangles(model, s, sheet.center, unit(sheet.normal), round),
+             sheet.center, {}};
+  p.particles.resize(s.count);
+  std::iota(p.particles.begin(), p.particles.end(), s.first);
+  p.rim = Field::Zero(3, s.count);
+  std::vector<bool> held(model.particles());
+  for (const Support& support : model.supports)
+    for (const int i : support.particles) held[i] = held[i] || (support.held[0] && support.held[1] && support.held[2]);
+  for (const auto& [i, j] : rim_edges(p.triangles)) {
+    const Vec3 force = (model.start.position.col(i) - p.tip).cross(Vec3(model.start.position.col(j) - model.start.position.col(i))) / -6;
+    p.rim.col(i - s.first) += force, p.rim.col(j - s.first) += force;
+    if (held[i]) continue;
+    mistakes.add(table.place, "sheet", fmt::format("the rim of \"{}\" must be held in all directions, and {} is not: a pressure on an edge that moves "
+                                                   "has no energy", table.sheet, called(model, i)));
+    return;
+  }
+  if (p.triangles.empty()) return mistakes.add(table.place, "sheet", in_quotes(table.sheet) + " has no triangles to press on");
+  model.pressures.push_back(std::move(p));
+}
+
+void add_pressures(const Problem& problem, Model& model, Mistakes& mistakes) {
   for (std::size_t t = 0; t < problem.pressures.size(); ++t) {
     const PressureTable& table = problem.pressures[t];
-    const auto loop = std::find_if(problem.loops.begin(), problem.loops.end(),
-                                   [&](const LoopTable& l) { return l.name == table.loop; });
-    const auto built = std::find_if(model.structures.begin(), model.structures.end(),
-                                    [&](const Structure& s) { return s.kind == "loop" && s.name == table.loop; });
-    if (table.place.broken || loop == problem.loops.end() || built == model.structures.end()) continue;
-    Pressure p{table.loop, {}, unit(loop->normal), table.pressure,
-               scaling_of(problem, condition_of("pressure", problem.pressures, t))};
-    for (int i = 0; i < built->count; ++i) p.particles.push_back(built->first + i);
-    model.pressures.push_back(std::move(p));
+    const Scaling scaling = scaling_of(problem, condition_of("pressure", problem.pressures, t));
+    const auto named = [](const std::string& name) { return [&name](const auto& one) { return one.name == name; }; };
+    const auto built = [&](const char* kind, const std::string& name) {
+      return std::find_if(model.structures.begin(), model.structures.end(), [&](const Structure& s) { return s.kind == kind && s.name == name; });
+    };
+    const auto loop = std::find_if(problem.loops.begin(), problem.loops.end(), named(table.loop));
+    const auto sheet = std::find_if(problem.sheets.begin(), problem.sheets.end(), named(table.sheet));
+    if (table.place.broken) continue;
+    if (const auto s = built("loop", table.loop); loop != problem.loops.end() && s != model.structures.end()) {
+      Pressure p{table.loop, {}, unit(loop->normal), table.pressure, scaling};
+      for (int i = 0; i < s->count; ++i) p.particles.push_back(s->first + i);
+      model.pressures.push_back(std::move(p));
+    }
+    if (const auto s = built("sheet", table.sheet); sheet != problem.sheets.end() && s != model.structures.end())
+      press_sheet(table, *sheet, *s, model, scaling, mistakes);
   }
 }
 
@@ -337,7 +374,7 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
   for (const VelocityTable& table : problem.velocities)
     if (const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
       set_velocity(problem, table, *members, model, mistakes);
-  add_pressures(problem, model);
+  add_pressures(problem, model, mistakes);
   add_changes(problem, groups, model, mistakes);
 }
 

@@ -28,7 +28,7 @@ struct GravityTable {
 
 struct PressureTable {
   TablePlace place;
-  std::string name, loop;
+  std::string name, loop, sheet;                // on one of these
   double pressure = 0;
   bool constant = false;
   std::string from_stage;

@@ -15,6 +15,7 @@ void describe(Keys& keys, LoopTable& t) {
   keys.must("radius", t.radius, "of the circle through the centres [length]", range::positive);
   keys.must("diameter", t.diameter, "of the particles, for contact and mass [length]", range::positive);
   describe_row_stiffness(keys, t);
+  describe_own_values(keys, t.values, true);
 }
 
 void check(LoopTable& t, Mistakes& mistakes) {

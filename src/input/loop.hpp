@@ -8,7 +8,7 @@ namespace elamin {
 
 struct LoopTable : RowStiffnessKeys {
   TablePlace place;
-  std::string name, from_stage;
+  std::string name, from_stage, values;
   int particles = 0;
   Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
   double radius = 0, diameter = 0;

@@ -258,8 +258,10 @@ void check_results(Problem& problem, Names& names, Mistakes& mistakes) {
 void check_observed(const Problem& problem, Groups& groups, const Model& model, Mistakes& mistakes) {
   if (problem.observe.empty()) return;
   const auto may_touch = touching(model);
-  const auto& connections = problem.connections;
-  const bool bonds_known = std::all_of(connections.begin(), connections.end(), [](const ConnectTable& c) { return c.from_stage.empty(); });
+  const auto from_start = [](const auto& tables) {
+    return std::all_of(tables.begin(), tables.end(), [](const auto& t) { return t.from_stage.empty(); });
+  };
+  const bool bonds_known = from_start(problem.connections) && from_start(problem.bonds) && from_start(problem.angles);
   for (const ObserveTable& o : problem.observe) {
     const bool wall = std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& w) { return w.name == o.group; });
     if (o.place.broken || wall || of_observables(o.quantity)) continue;

@@ -21,8 +21,11 @@ void describe(Keys& keys, ProblemFile& file) {
   keys.tables("body", p.bodies);
   keys.tables("group", p.groups);
   keys.tables("connect", p.connections);
+  keys.tables("bonds", p.bonds);
+  keys.tables("angles", p.angles);
   keys.tables("remove", p.removals);
   keys.tables("glue", p.glue);
+  keys.table("imperfection", p.imperfection);
   keys.tables("support", p.supports);
   keys.tables("load", p.loads);
   keys.tables("gravity", p.gravity);

@@ -7,6 +7,7 @@
 #include "input/contact.hpp"
 #include "input/grains.hpp"
 #include "input/group.hpp"
+#include "input/imperfection.hpp"
 #include "input/lammps_table.hpp"
 #include "input/loads.hpp"
 #include "input/loop.hpp"
@@ -36,7 +37,10 @@ struct Problem {
   std::vector<BodyTable> bodies;
   std::vector<GlueTable> glue;
   std::vector<ConnectTable> connections;
+  std::vector<BondsTable> bonds;
+  std::vector<AnglesTable> angles;
   std::vector<RemoveTable> removals;
+  std::optional<ImperfectionTable> imperfection;
   std::vector<GroupTable> groups;
   std::vector<SupportTable> supports;
   std::vector<LoadTable> loads;

@@ -45,6 +45,7 @@ void describe(Keys& keys, SheetTable& t) {
   keys.must("spacing", t.spacing, "distance of neighbours [length]", range::positive);
   keys.may("diameter", t.diameter, "of the particles, for contact and mass [length]; by default the spacing", range::positive);
   describe_stiffness(keys, t, "t in the stiffnesses [length]; by default the spacing");
+  describe_own_values(keys, t.values, false);
 }
 
 void check(SheetTable& t, Mistakes& mistakes) {

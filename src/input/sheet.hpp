@@ -10,7 +10,7 @@ enum class SheetShape { rectangle, circle, cylinder };
 
 struct SheetTable : StiffnessKeys {
   TablePlace place;
-  std::string name, from_stage;
+  std::string name, from_stage, values;
   SheetShape shape = SheetShape::rectangle;
   std::optional<std::array<double, 2>> size;
   std::optional<double> radius, height;

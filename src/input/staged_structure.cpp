@@ -2,6 +2,7 @@
 
 #include "model/connect.hpp"
 #include "input/interactions.hpp"
+#include "input/listed.hpp"
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>
@@ -109,27 +110,56 @@ std::vector<bool> absent_in(const Problem& problem, int stage, const Model& mode
 }
 
 bool connects_before(const Problem& problem, int stage) {
-  return std::any_of(problem.connections.begin(), problem.connections.end(), [&](const ConnectTable& c) {
-    const int from = stage_number(problem, c.from_stage);
-    return from > 0 && from <= stage;
-  });
+  const auto any = [&](const auto& tables) {
+    return std::any_of(tables.begin(), tables.end(), [&](const auto& t) {
+      const int from = stage_number(problem, t.from_stage);
+      return from > 0 && from <= stage;
+    });
+  };
+  return any(problem.connections) || any(problem.bonds) || any(problem.angles);
 }
 
 std::string connect_in(const Problem& problem, int stage, Model& all, const State& now) {
   std::string none;
   if (stage == 0) return none;                           // made as the model was built
   const State built = std::exchange(all.start, now);
-  for (std::size_t k = 0; k < problem.connections.size(); ++k) {
-    const ConnectTable& t = problem.connections[k];
-    if (stage_number(problem, t.from_stage) != stage) continue;
+  const std::vector<bool> absent = absent_in(problem, stage, all);
+  const auto begins = [&](const auto& t) { return stage_number(problem, t.from_stage) == stage; };
+  const auto members = [&](const std::string& name, bool those_there) {
+    std::vector<int> particles;
+    if (const Group* group = group_named(all, name))
+      std::copy_if(group->particles.begin(), group->particles.end(), std::back_inserter(particles), [&](int p) { return !those_there || !absent[p]; });
+    return particles;
+  };
+  const auto join = [&](const ConnectTable& t, const std::string& what) {
     Connection c = connection_of(t);
-    const std::vector<bool> absent = absent_in(problem, stage, all);
-    for (const auto& [side, name] : {std::pair(&c.first, t.between[0]), {&c.second, t.between[1]}})
-      if (const Group* group = group_named(all, name))
-        std::copy_if(group->particles.begin(), group->particles.end(), std::back_inserter(*side), [&](int p) { return !absent[p]; });
+    c.first = members(t.between[0], true), c.second = members(t.between[1], true);
     if (connect(all, c) <= 0 && none.empty())
-      none = fmt::format("connect.{} makes no bond: no particle of \"{}\" is within {} of one of \"{}\" that it is not bonded to already", k + 1,
-                         t.between[1], t.within, t.between[0]);
+      none = fmt::format("{} makes no bond: no particle of \"{}\" is within {} of one of \"{}\" that it is not bonded to already", what, t.between[1],
+                         t.within.value_or(0), t.between[0]);
+  };
+  const auto gone = [&](const auto& element) { return any_of(element, absent); };
+  Mistakes told(problem.file);                           // as the model was built
+  for (std::size_t k = 0; k < problem.connections.size(); ++k)
+    if (begins(problem.connections[k])) join(problem.connections[k], fmt::format("connect.{}", k + 1));
+  for (std::size_t k = 0; k < problem.bonds.size(); ++k) {
+    const BondsTable& t = problem.bonds[k];
+    if (!begins(t)) continue;
+    if (t.rule) {
+      join(by_rule(t), fmt::format("bonds.{}", k + 1));
+      continue;
+    }
+    std::array<std::vector<int>, 2> sides;
+    for (int side = 0; t.between && side < 2; ++side) sides[side] = members((*t.between)[side], false);
+    std::vector<NewBond> bonds = listed_bonds(t, t.between ? &sides : nullptr, all, told);
+    std::erase_if(bonds, gone);
+    add_bonds(all, bonds);
+  }
+  for (const AnglesTable& t : problem.angles) {
+    if (!begins(t)) continue;
+    std::vector<NewAngle> angles = listed_angles(t, members(t.over, true), all, told);
+    std::erase_if(angles, gone);
+    add_angles(all, angles);
   }
   all.start = built;
   return none;
@@ -154,6 +184,8 @@ void check_staged_structure(Problem& problem, Mistakes& mistakes) {
   const auto check = [&](TablePlace& place, const std::string& from) { check_from_stage(problem, place, from, mistakes); };
   for_structures(problem, [&](auto& t) { check(t.place, t.from_stage); });
   for (ConnectTable& c : problem.connections) check(c.place, c.from_stage);
+  for (BondsTable& t : problem.bonds) check(t.place, t.from_stage);
+  for (AnglesTable& t : problem.angles) check(t.place, t.from_stage);
   for (RemoveTable& r : problem.removals) {
     check(r.place, r.from_stage);
     if (!problem.stages.empty() && r.from_stage == problem.stages.front().name)

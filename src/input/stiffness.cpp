@@ -13,7 +13,7 @@ void describe_stiffness(Keys& keys, StiffnessKeys& s, const char* thickness) {
   keys.may("youngs_modulus", s.youngs_modulus, "E [force/length²], from which the stiffnesses follow that are not given", range::positive);
   keys.may("density", s.density, "of the particles, which are spheres [mass/length³]; gravity and dynamics need it", range::positive);
   keys.may("bond_stiffness", s.bond_stiffness, "K of the bonds, U = K (r − r₀)² [force/length]", range::positive);
-  keys.may("angle_stiffness", s.angle_stiffness, "B of the angles, U = B (1 − cos(θ − θ₀)) [energy]", range::positive);
+  keys.may("angle_stiffness", s.angle_stiffness, "B of the angles, U = B (1 − cos(θ − θ₀)) [energy]; 0: there are none, a chain", range::not_negative);
   keys.may("rest_length", s.rest_length, "r₀ of the bonds [length]; by default their length as built", range::positive);
   keys.may("rest", s.rest, "θ₀ of the angles", range::degrees);
 }
@@ -21,9 +21,16 @@ void describe_stiffness(Keys& keys, StiffnessKeys& s, const char* thickness) {
 void describe_row_stiffness(Keys& keys, RowStiffnessKeys& s) {
   describe_stiffness(keys, s, "t of the section in the stiffnesses [length]; by default the diameter");
   keys.may("axial_stiffness", s.axial_stiffness, "EA [force] instead of a bond stiffness: K = EA/(2 r₀)", range::positive);
-  keys.may("bending_stiffness", s.bending_stiffness, "EI [force·length²] instead of an angle stiffness: B = EI/r₀", range::positive);
+  keys.may("bending_stiffness", s.bending_stiffness, "EI [force·length²] instead of an angle stiffness: B = EI/r₀", range::not_negative);
   keys.at_most_one({"bond_stiffness", "axial_stiffness"});
   keys.at_most_one({"angle_stiffness", "bending_stiffness"});
+}
+
+void describe_own_values(Keys& keys, std::string& file, bool row) {
+  keys.may_file("values", file,
+                row ? "a table of commas, a row a particle, whose first line names columns of diameter, density, bond_stiffness and rest_length (of the "
+                      "bond to the next particle), angle_stiffness (of the angle over it); an empty cell: as by the other keys"
+                    : "a table of commas, a row a particle, whose first line names columns of diameter and density; an empty cell: as by the other keys");
 }
 
 void check_row_stiffness(TablePlace& place, Mistakes& mistakes) {
@@ -51,9 +58,18 @@ double rest_angle(const Rest& rest, double as_built) {
   return rest.degrees == 180 ? pi : rest.degrees * pi / 180;
 }
 
+namespace {
+
+/// An angle stiffness of zero that is written means that there are no angles; one that came out is lost.
+bool no_angles(const TablePlace& place, const std::string& what) {
+  return what == "angle" && (place.written("angle_stiffness") || place.written("bending_stiffness"));
+}
+
+}  // namespace
+
 bool stiff(const TablePlace& place, double bond, double angle, Mistakes& mistakes) {
   for (const auto& [name, value] : {std::pair("bond", bond), {"angle", angle}})
-    if (!std::isnormal(value)) {
+    if (!std::isnormal(value) && !(value == 0 && no_angles(place, name))) {
       mistakes.add(place, fmt::format("its {} stiffness, {}, is beyond what numbers can hold", name, value));
       return false;
     }

@@ -27,6 +27,9 @@ inline constexpr Word<Section> section_words[]{{"cylinder", Section::cylinder}, 
 void describe_stiffness(Keys& keys, StiffnessKeys& s, const char* thickness);
 void describe_row_stiffness(Keys& keys, RowStiffnessKeys& s);
 
+/// The key `values`, of a row of particles or another structure; see input/own_values.hpp.
+void describe_own_values(Keys& keys, std::string& file, bool row);
+
 /// Stiffnesses that follow from nothing are a mistake.
 void check_stiffness(TablePlace& place, Mistakes& mistakes);
 void check_row_stiffness(TablePlace& place, Mistakes& mistakes);

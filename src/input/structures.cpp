@@ -5,6 +5,7 @@
 #include "model/loop.hpp"
 #include "model/sheet.hpp"
 #include "input/check_parts.hpp"
+#include "input/own_values.hpp"
 
 #include <fmt/format.h>
 
@@ -96,6 +97,12 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
   if (!loops.empty()) add_loops(model, loops);
   if (!sheets.empty()) add_sheets(model, sheets);
   if (!grains.empty()) add_grains(model, grains);
+  const auto own = [&](const char* kind, const auto& tables) {
+    for (const auto& table : tables)
+      for (const Structure& s : model.structures)
+        if (!table.values.empty() && s.kind == kind && s.name == table.name) add_own_values(table.place, table.values, s, model, mistakes);
+  };
+  own("beam", problem.beams), own("loop", problem.loops), own("sheet", problem.sheets);
   return true;
 }
 

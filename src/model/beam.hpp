@@ -16,11 +16,12 @@ struct Beam {
   BondType bond{};
   AngleType angle{};
   bool as_built = false;            // every angle is at rest as it is built, instead of angle.rest
+  std::vector<BondType> bonds{};    // of each bond, where they are not all `bond`: those of one rest length have one stiffness
   Clamped clamped{};                // ends whose outermost angle is twice as stiff: half a bond's length bends there
 };
 
 /// Appends the beams: of each its particles with the next ids, a new type and molecule, a bond type and an angle type
-/// of its own (one for each angle that is different), n − 1 bonds, n − 2 angles, and its Structure.
+/// of its own (one for each bond or angle that is different), n − 1 bonds, n − 2 angles, none of zero stiffness, and its Structure.
 void add_beams(Model& model, const std::vector<Beam>& beams);
 
 }  // namespace elamin

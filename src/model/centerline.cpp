@@ -194,6 +194,31 @@ std::optional<Centerline> polyline(const std::vector<Vec3>& corners, int particl
   return line;
 }
 
+Centerline along_curve(const std::vector<Vec3>& points, int particles, Clamped clamped) {
+  const Places places(particles, clamped);
+  std::vector<Exact> along{Exact{}};
+  for (std::size_t s = 1; s < points.size(); ++s) along.push_back(along.back() + distance(exact(points[s - 1]), exact(points[s])));
+  Centerline line;
+  line.spacing = (along.back() / exact(places.length)).value();
+  line.centers.reserve(particles);
+  std::size_t s = 0;
+  for (int i = 0; i < particles; ++i) {
+    if (places.of(i) == places.length) {
+      line.centers.push_back(exact(points.back()));
+      continue;
+    }
+    // Beyond its ends the line goes on straight.
+    const Exact at = along.back() * (exact(places.of(i)) / exact(places.length));
+    while (s + 2 < points.size() && (at - along[s + 1]).value() >= 0) ++s;
+    const Exact part = (at - along[s]) / (along[s + 1] - along[s]);
+    const ExactVector from = exact(points[s]), whole = exact(points[s + 1]) - from;
+    ExactVector x;
+    for (int c = 0; c < 3; ++c) x.set(c, from[c] + whole[c] * part);
+    line.centers.push_back(x);
+  }
+  return line;
+}
+
 std::array<int, 2> fitting(const std::vector<Vec3>& corners, int particles, Clamped clamped) {
   constexpr int farthest = 10'000;
   const std::vector<double> along = lengths(corners);

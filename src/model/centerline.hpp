@@ -1,6 +1,6 @@
 #pragma once
-// Where the particles of a beam are: on a straight row, on straight pieces, on an arc, on half a sine wave. Neighbours
-// are equally far from each other everywhere on it.
+// Where the particles of a beam are: on a straight row, on straight pieces, on an arc, on half a sine wave: there neighbours are
+// equally far from each other everywhere. Or along any curve, where they are so along the curve.
 #include "core/exact.hpp"
 
 #include <array>
@@ -36,6 +36,10 @@ Centerline row(const ExactVector& from, const ExactVector& to, int particles, Cl
 /// Evenly along straight pieces from corner to corner, at least two corners, a particle on every one between the ends.
 /// None if that number of particles puts none there (to 1e-12 of the whole length), or less than one bond between two.
 [[nodiscard]] std::optional<Centerline> polyline(const std::vector<Vec3>& corners, int particles, Clamped clamped = {});
+
+/// Evenly by length along the straight pieces through two points or more, no two that follow in one place; `spacing` is that length.
+/// Neighbours between which the line bends are nearer to each other.
+Centerline along_curve(const std::vector<Vec3>& points, int particles, Clamped clamped = {});
 
 /// The nearest numbers of particles below and above that `polyline` takes; 0: none as far as 10⁴ particles away.
 std::array<int, 2> fitting(const std::vector<Vec3>& corners, int particles, Clamped clamped = {});

@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
 
 namespace elamin {
 namespace {
@@ -89,56 +92,137 @@ std::vector<std::vector<int>> bonded(const Model& model) {
   return to;
 }
 
+/// Values of any kind, numbered as they come; one number for each distinct pair.
+std::vector<int> numbered(const std::vector<int>& a, const std::vector<double>& b, std::vector<std::size_t>& first) {
+  std::map<std::pair<int, double>, int> numbers;
+  std::vector<int> of;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const auto [found, is_new] = numbers.try_emplace({a[k], b[k]}, static_cast<int>(first.size()));
+    if (is_new) first.push_back(k);
+    of.push_back(found->second);
+  }
+  return of;
+}
+
+/// Pairs of a particle of `first` and one of `second`, ascending, each once; none if they are too many.
+class NearPairs {
+ public:
+  NearPairs(const Model& model, const std::vector<std::vector<int>>& before, const Connection& connection)
+      : start_(model.start), before_(before), c_(connection) {}
+
+  std::optional<std::vector<Pair>> find() {
+    if (c_.within > 0) return within(c_.within * (1 + even), true);
+    // The nearest, however far: a cutoff that grows until everyone has enough.
+    Vec3 low = start_.position.col(c_.second.front()), high = low;
+    for (const auto* side : {&c_.first, &c_.second})
+      for (const int p : *side) low = low.cwiseMin(start_.position.col(p)), high = high.cwiseMax(start_.position.col(p));
+    const double extent = (high - low).norm() * (1 + even);
+    for (double cutoff = extent / std::max<double>(1, static_cast<double>(c_.second.size())); extent > 0; cutoff *= 2) {
+      const bool all = cutoff >= extent;
+      std::optional<std::vector<Pair>> pairs = within(std::min(cutoff, extent), all);
+      if (!pairs || enough_) return pairs;
+    }
+    return std::vector<Pair>{};
+  }
+
+ private:
+  std::optional<std::vector<Pair>> within(double cutoff, bool farthest) {
+    const Cells cells(start_.position, c_.second, cutoff);
+    std::vector<Pair> pairs;
+    std::vector<Near> near;
+    enough_ = true;
+    for (const int i : c_.first) {
+      near.clear();
+      const Vec3 x = start_.position.col(i);
+      const bool few = cells.for_each_near(x, [&](int j) {
+        if (j == i || (start_.position.col(j) - x).norm() > 2 * cutoff) return ++tries_ < most_tries;
+        const double distance = norm(start_.at(j) - start_.at(i)).value();
+        const bool apart = !std::binary_search(before_[i].begin(), before_[i].end(), j);
+        if (apart && distance <= cutoff) near.push_back({distance, j});
+        return ++tries_ < most_tries;
+      });
+      if (static_cast<int>(near.size()) < c_.bonds_per_particle && !farthest) return enough_ = false, std::vector<Pair>{};
+      if (c_.bonds_per_particle > 0) keep_nearest(near, c_.bonds_per_particle);
+      if (!few || pairs.size() + near.size() > most_bonds) return std::nullopt;
+      for (const Near& n : near) pairs.push_back({std::min(i, n.particle), std::max(i, n.particle)});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  }
+
+  const State& start_;
+  const std::vector<std::vector<int>>& before_;
+  const Connection& c_;
+  bool enough_ = true;
+  std::int64_t tries_ = 0;
+};
+
 }  // namespace
 
-int connect(Model& model, const Connection& connection) {
-  if (connection.first.empty() || connection.second.empty() || !(connection.within > 0)) return 0;
-  const double cutoff = connection.within * (1 + even);
-  const std::vector<std::vector<int>> before = bonded(model);
-  const Cells cells(model.start.position, connection.second, cutoff);
-  std::vector<Pair> pairs;
-  std::int64_t tries = 0;
-  std::vector<Near> near;
-  for (const int i : connection.first) {
-    near.clear();
-    const Vec3 x = model.start.position.col(i);
-    const bool few = cells.for_each_near(x, [&](int j) {
-      if (j == i || (model.start.position.col(j) - x).norm() > 2 * cutoff) return ++tries < most_tries;
-      const double distance = norm(model.start.at(j) - model.start.at(i)).value();
-      const bool apart = !std::binary_search(before[i].begin(), before[i].end(), j);
-      if (apart && distance <= cutoff) near.push_back({distance, j});
-      return ++tries < most_tries;
-    });
-    if (connection.bonds_per_particle > 0) keep_nearest(near, connection.bonds_per_particle);
-    if (!few || pairs.size() + near.size() > most_bonds) return -1;
-    for (const Near& n : near) pairs.push_back({std::min(i, n.particle), std::max(i, n.particle)});
+void add_bonds(Model& model, const std::vector<NewBond>& bonds) {
+  std::vector<double> lengths, stiffness;
+  for (const NewBond& b : bonds)
+    lengths.push_back(b.rest_length > 0 ? b.rest_length : norm(model.start.at(b.particles[1]) - model.start.at(b.particles[0])).value());
+  const Distinct alike = distinct(lengths, 0, 0, 16 * epsilon);
+  for (std::size_t b = 0; b < bonds.size(); ++b)
+    stiffness.push_back(bonds[b].axial_stiffness > 0 ? bonds[b].axial_stiffness / (2 * alike.value[alike.type[b]]) : bonds[b].stiffness);
+  std::vector<std::size_t> first;
+  const std::vector<int> type = numbered(alike.type, stiffness, first);
+  const int types = static_cast<int>(model.bond_types.size());
+  for (const std::size_t b : first) add_type(model, BondType{stiffness[b], alike.value[alike.type[b]]});
+  for (std::size_t b = 0; b < bonds.size(); ++b) model.bonds.push_back({types + type[b], bonds[b].particles});
+}
+
+void add_angles(Model& model, const std::vector<NewAngle>& angles) {
+  std::vector<double> rests, stiffness;
+  for (const NewAngle& a : angles) {
+    const auto at = [&](int k) { return model.start.at(a.particles[k]); };
+    rests.push_back(a.rest >= 0 ? a.rest : angle_at(at(1), at(0), at(2)));
+    stiffness.push_back(a.stiffness);
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  if (pairs.empty()) return 0;
+  const Distinct alike = distinct(rests, 0, 1e-12, 0);
+  std::vector<std::size_t> first;
+  const std::vector<int> type = numbered(alike.type, stiffness, first);
+  const int types = static_cast<int>(model.angle_types.size());
+  for (const std::size_t a : first) add_type(model, AngleType{stiffness[a], alike.value[alike.type[a]]});
+  for (std::size_t a = 0; a < angles.size(); ++a) model.angles.push_back({types + type[a], angles[a].particles});
+}
 
-  std::vector<double> lengths(pairs.size(), connection.rest_length);
-  if (connection.rest_length == 0)
-    for (std::size_t b = 0; b < pairs.size(); ++b)
-      lengths[b] = norm(model.start.at(pairs[b][1]) - model.start.at(pairs[b][0])).value();
-  const Distinct bond_types = distinct(lengths, static_cast<int>(model.bond_types.size()), 0, 16 * epsilon);
-  for (const double length : bond_types.value) add_type(model, BondType{connection.bond_stiffness, length});
-  for (std::size_t b = 0; b < pairs.size(); ++b) model.bonds.push_back({bond_types.type[b], pairs[b]});
-  if (connection.angle_stiffness == 0) return static_cast<int>(pairs.size());
-
+std::vector<std::array<int, 3>> meeting_bonds(const Model& model, const std::vector<int>& particles, double least) {
+  std::vector<bool> in(model.particles());
+  for (const int p : particles) in[p] = true;
+  const std::vector<std::vector<int>> to = bonded(model);
   std::vector<std::array<int, 3>> triples;
-  for (const auto& [i, j] : pairs) {
-    for (const int k : before[j]) triples.push_back({i, j, k});
-    for (const int m : before[i]) triples.push_back({j, i, m});
+  for (const int p : particles)
+    for (std::size_t a = 0; a < to[p].size(); ++a)
+      for (std::size_t b = a + 1; b < to[p].size(); ++b) {
+        const int i = to[p][a], k = to[p][b];
+        if (!in[i] || !in[k]) continue;
+        if (least <= 0 || angle_at(model.start.at(p), model.start.at(i), model.start.at(k)) >= least - 1e-9) triples.push_back({i, p, k});
+      }
+  return triples;
+}
+
+int connect(Model& model, const Connection& connection) {
+  if (connection.first.empty() || connection.second.empty() || !(connection.within > 0 || connection.bonds_per_particle > 0)) return 0;
+  const std::vector<std::vector<int>> before = bonded(model);
+  const std::optional<std::vector<Pair>> pairs = NearPairs(model, before, connection).find();
+  if (!pairs) return -1;
+  std::vector<NewBond> bonds;
+  for (const Pair& pair : *pairs) bonds.push_back({pair, connection.bond_stiffness, connection.axial_stiffness, connection.rest_length});
+  add_bonds(model, bonds);
+  std::vector<NewAngle> angles;
+  const auto over = [&](int i, int j, int k) {
+    angles.push_back({{i, j, k}, connection.angle_stiffness, connection.as_built ? -1 : connection.rest});
+  };
+  for (const auto& [i, j] : *pairs) {
+    if (connection.angle_stiffness == 0) break;
+    for (const int k : before[j]) over(i, j, k);
+    for (const int m : before[i]) over(j, i, m);
   }
-  std::vector<double> rests(triples.size(), connection.rest);
-  if (connection.as_built)
-    for (std::size_t a = 0; a < triples.size(); ++a)
-      rests[a] = angle_at(model.start.at(triples[a][1]), model.start.at(triples[a][0]), model.start.at(triples[a][2]));
-  const Distinct angle_types = distinct(rests, static_cast<int>(model.angle_types.size()), 1e-12, 0);
-  for (const double rest : angle_types.value) add_type(model, AngleType{connection.angle_stiffness, rest});
-  for (std::size_t a = 0; a < triples.size(); ++a) model.angles.push_back({angle_types.type[a], triples[a]});
-  return static_cast<int>(pairs.size());
+  add_angles(model, angles);
+  return static_cast<int>(pairs->size());
 }
 
 }  // namespace elamin

@@ -98,12 +98,17 @@ struct Gravity {
 /// Pressure from outside on a closed row of particles, in a plane: energy s(λ) p A with the area inside, projected along
 /// the plane's normal n, A = ½ Σ n·(xᵢ × xᵢ₊₁), positive for a row that runs counterclockwise about n. It stays normal
 /// to the row: hydrostatic.
+/// Or on a sheet, whose rim is held: energy s(λ) p V, V = Σ (x₀ − tip)·((x₁ − tip) × (x₂ − tip))/6 of its triangles, the volume
+/// between it and the tip. On the particles of the rim, where the sides of that cone end, dead forces take back what is theirs.
 struct Pressure {
-  std::string loop;
+  std::string of;                               // the loop or the sheet
   std::vector<int> particles;                   // in the order of the row
-  Vec3 normal = Vec3::UnitZ();                  // of length 1
-  double pressure = 0;                          // p [force/length]
+  Vec3 normal = Vec3::UnitZ();                  // of a loop, of length 1
+  double pressure = 0;                          // p [force/length], on a sheet [force/length²]
   Scaling scaling;
+  std::vector<std::array<int, 3>> triangles = {};   // of a sheet, counterclockwise as seen from where the pressure comes
+  Vec3 tip = Vec3::Zero();
+  Field rim = {};                               // of a sheet: forces on the particles at p = 1, 3 × particles [length²]
 };
 
 /// Growth and stiffening: r₀, K and B times 1 + s(λ) c, each with its c, of the bonds and angles whose particles are all
@@ -236,6 +241,7 @@ struct Model {
   std::vector<Pressure> pressures;
   std::vector<Change> changes;
   std::vector<Viscosity> viscosity;
+  double imperfection = 0;                      // how far a particle was moved at most from the perfect shape [length]
   std::optional<int> plane_normal;              // 0, 1, 2: the coordinate that every particle keeps
   std::vector<OwnLaw> own;
 

@@ -65,7 +65,7 @@ Types add_types(Model& model, const Sheet& s, const Outline& outline) {
   for (int d = 0; d < 3; ++d) {
     const Chord built = round ? chord_along(s, outline, lattice_directions[d]) : Chord{s.spacing, exact_pi.hi};
     if (d < t.bonds) add_type(model, BondType{s.bond_stiffness, s.rest_length > 0 ? s.rest_length : built.length});
-    if (d < t.angles) add_type(model, AngleType{s.angle_stiffness, s.as_built ? built.angle : s.rest});
+    if (s.angle_stiffness > 0 && d < t.angles) add_type(model, AngleType{s.angle_stiffness, s.as_built ? built.angle : s.rest});
   }
   return t;
 }
@@ -142,11 +142,11 @@ void add_sheets(Model& model, const std::vector<Sheet>& sheets) {
         if (ahead < 0) continue;
         model.bonds.push_back({types.bond + d % types.bonds, {first + here, first + ahead}});
         const int behind = patch.find({p.i - di, p.j - dj});
-        if (behind < 0) continue;
+        if (behind < 0 || s.angle_stiffness == 0) continue;
         model.angles.push_back({types.angle + d % types.angles, {first + behind, first + here, first + ahead}});
       }
     });
-    model.structures.push_back({s.name, "sheet", first, patch.size(), s.youngs_modulus, types.bond, types.angle});
+    model.structures.push_back({s.name, "sheet", first, patch.size(), s.youngs_modulus, types.bond, s.angle_stiffness > 0 ? types.angle : -1});
     const Frame frame = frame_of(s.normal);
     model.structures.back().up = s.shape == Sheet::Shape::cylinder ? frame.n.hi : frame.e2.hi;
   }

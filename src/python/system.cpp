@@ -1,7 +1,7 @@
 #include "python/system.hpp"
 
 #include "core/suggest.hpp"
-#include "input/build.hpp"
+#include "study/imperfection.hpp"
 #include "input/key_tree.hpp"
 #include "input/read.hpp"
 #include "python/states.hpp"
@@ -36,7 +36,7 @@ std::shared_ptr<System> build(const Document& document, const std::vector<Python
     std::vector<OwnLaw> own;
     for (const PythonLaw& law : laws) own.push_back(own_law(law));
     Problem problem = read_problem(document);
-    Model model = build_model(problem, own);
+    Model model = model_of(problem, own);
     return std::make_shared<System>(std::move(problem), std::move(model));
   });
 }

@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "input/build.hpp"
+#include "study/imperfection.hpp"
 #include "input/read.hpp"
 #include "report/shape_data.hpp"
 #include "results/expectations.hpp"
@@ -80,7 +80,7 @@ Json run_data(const std::string& directory, std::size_t most_bytes) {
     const Problem problem = read_problem(resolved);
     if (j["title"] == "") j["title"] = problem.title;
     j["expected"] = expected_data(problem, run);
-    Model model = build_model(problem);
+    Model model = model_of(problem);
     j["described"] = describe(problem, model);
     const std::vector<RunStage> stages = stages_of(run, problem, model);
     j["structure"] = structure_data(model, stages);

@@ -47,6 +47,7 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["input"] = summary.input;
   all["input_sha256"] = summary.input_sha256;
   all["tolerances"] = object(summary.tolerances);
+  if (summary.imperfection > 0) all["imperfection"] = {{"max_displacement", json_of(summary.imperfection)}};
   write_text(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");   // replace: text that is not UTF-8
 }
 

@@ -15,6 +15,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> times;           // what and seconds
   std::vector<std::pair<std::string, double>> tolerances;
   std::vector<std::string> zero_modes;                         // of the last equilibrium, by name: rattlers, rigid motions
+  double imperfection = 0;                                     // how far a particle was moved at most before all [length]; 0: none was
   std::vector<std::string> warnings = {};                      // what is doubtful about the model or the result, a sentence each
 };
 
@@ -25,7 +26,7 @@ std::string status_name(Status status);
 std::string version();
 
 /// Writes status, message, warnings, points, events (rows as objects), final (all columns of the last row, or null), times,
-/// version, input_sha256, tolerances. Numbers that are not finite become null. Throws InputError if it cannot be
+/// version, input_sha256, tolerances, and where there is one the imperfection. Numbers that are not finite become null. Throws InputError if it cannot be
 /// written.
 void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events);
 

@@ -41,6 +41,9 @@ std::string describe(const Problem& problem, const Model& model) {
                                  model.angles.size(), energy.dofs(), problem.plane.empty() ? "" : ", plane " + problem.plane);
   text += describe_structures(problem, model, energy.kinematics());
   for (const std::string& note : lammps_remarks(problem).notes) text += "note: " + note + "\n";
+  if (problem.imperfection)
+    text += fmt::format("imperfection: particles are moved by {:.10g} at most, {}\n", model.imperfection,
+                        problem.imperfection->stress_free ? "and at rest so" : "and strained so");
   text += describe_conditions(problem, model);
   // An equilibrium is sought from the state as built; supports and walls move from there.
   const bool built = problem.study == StudyType::equilibrium && !model.restart;

@@ -1,5 +1,6 @@
 #include "study/compare.hpp"
 
+#include "study/imperfection.hpp"
 #include "core/error.hpp"
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
@@ -7,7 +8,6 @@
 #include "core/timing.hpp"
 #include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
-#include "input/build.hpp"
 #include "input/read.hpp"
 #include "results/progress.hpp"
 #include "results/summary.hpp"
@@ -152,7 +152,7 @@ std::vector<std::string> compared_methods() {
 }
 
 std::vector<Compared> compare(const Problem& problem, const std::vector<std::string>& methods, double limit) {
-  const Model model = build_model(problem);
+  const Model model = model_of(problem);
   std::optional<StateSupplement> stored;
   if (!problem.path.start.empty()) stored = read_supplement(problem.path.start);
   std::vector<Compared> rows;

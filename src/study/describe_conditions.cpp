@@ -24,10 +24,11 @@ std::string describe_radial(const Load& l, const LoadTable& t) {
 
 // Critical pressures of the inextensible ring, (m² − 1) EI/R³ with m = 2.
 std::string describe_pressure(const Problem& problem, const Model& model, const Pressure& p) {
-  std::string text = fmt::format("pressure on '{}': p = {:.10g}, {}", p.loop, p.pressure, word(p.scaling));
+  std::string text = fmt::format("pressure on '{}': p = {:.10g}, {}", p.of, p.pressure, word(p.scaling));
+  if (!p.triangles.empty()) return text + fmt::format(", on {} triangles\n", p.triangles.size());
   for (const Structure& s : model.structures)
     for (const LoopTable& t : problem.loops)
-      if (s.kind == "loop" && s.name == p.loop && t.name == p.loop && s.angle_type >= 0) {
+      if (s.kind == "loop" && s.name == p.of && t.name == p.of && s.angle_type >= 0) {
         const double EI = model.angle_types[s.angle_type].stiffness * model.bond_types[s.bond_type].rest_length;
         text += fmt::format("; 3 EI/R^3 = {:.10g}", 3 * EI / (t.radius * t.radius * t.radius));
       }

@@ -65,14 +65,16 @@ std::string rest_of(const Model& model, const Structure& s) {
 std::string stiffnesses(const Model& model, const Structure& s) {
   const BondType& bond = model.bond_types[s.bond_type];
   const double K = bond.stiffness, q0 = bond.rest_length, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
-  return fmt::format("  bond stiffness K = {:.10g}, rest length q0 = {:.10g}, EA = 2 K q0 = {:.10g}\n"
-                     "  angle stiffness B = {:.10g}, {}, EI = B q0 = {:.10g}\n",
-                     K, q0, 2 * K * q0, B, rest_of(model, s), B * q0);
+  const std::string bonds = fmt::format("  bond stiffness K = {:.10g}, rest length q0 = {:.10g}, EA = 2 K q0 = {:.10g}\n", K, q0, 2 * K * q0);
+  if (s.angle_type < 0) return bonds + "  no angles: a chain that does not resist bending\n";
+  return bonds + fmt::format("  angle stiffness B = {:.10g}, {}, EI = B q0 = {:.10g}\n", B, rest_of(model, s), B * q0);
 }
 
 // The line that a beam follows, "" for a straight one.
 std::string line_of(const BeamTable& t) {
   if (t.through && t.through->size() > 2) return fmt::format("  through {} points, with {} corners\n", t.through->size(), t.through->size() - 2);
+  if (t.points) return fmt::format("  along a curve of {} points, evenly by its length\n", t.points->size());
+  if (!t.file.empty()) return "  along the curve of a file, evenly by its length\n";
   if (!t.rise && !t.angle) return "";
   const double chord = (*t.to - *t.from).norm();
   if (t.profile == Profile::sine) return fmt::format("  half a sine wave, rise {:.10g}, span {:.10g}\n", *t.rise, chord);
@@ -176,11 +178,15 @@ std::string describe_connection(const ConnectTable& t, const Model& model) {
   for (const Bond& b : model.bonds) {
     const auto [i, j] = b.particles;
     const bool joins = (member[0][i] && member[1][j]) || (member[0][j] && member[1][i]);
-    if (!joins || structure[i] == structure[j] || model.bond_types[b.type].stiffness != t.bond_stiffness) continue;
+    const BondType& type = model.bond_types[b.type];
+    const bool stiff = t.bond_stiffness ? type.stiffness == *t.bond_stiffness : std::abs(2 * type.stiffness * type.rest_length / *t.axial_stiffness - 1) < 1e-12;
+    if (!joins || structure[i] == structure[j] || !stiff) continue;
     lengths.add(model.bond_types[b.type].rest_length);
     ++bonds;
   }
-  std::string text = fmt::format("connection of '{}' and '{}' within {:.10g}: K = {:.10g}", t.between[0], t.between[1], t.within, t.bond_stiffness);
+  const std::string reach = t.within ? fmt::format(" within {:.10g}", *t.within) : "";
+  std::string text = fmt::format("connection of '{}' and '{}'{}: {} = {:.10g}", t.between[0], t.between[1], reach, t.bond_stiffness ? "K" : "EA",
+                                 t.bond_stiffness ? *t.bond_stiffness : *t.axial_stiffness);
   if (bonds > 0) text += fmt::format(", {} bond{} between structures, rest length {}", bonds, bonds == 1 ? "" : "s", lengths.text());
   if (t.angle_stiffness) text += fmt::format(", angles with B = {:.10g}", *t.angle_stiffness);
   return text + "\n";
@@ -201,6 +207,13 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     else text += describe_beam(problem, model, s, kinematics);
   }
   for (const ConnectTable& t : problem.connections) text += describe_connection(t, model);
+  for (const BondsTable& t : problem.bonds)
+    if (t.rule) text += describe_connection(by_rule(t), model);
+    else text += fmt::format("bonds: {}\n", t.pairs ? fmt::format("{} of a list", t.pairs->size()) : "those of " + t.file);
+  for (const AnglesTable& t : problem.angles)
+    text += fmt::format("angles: {}{}\n", t.triples ? fmt::format("{} of a list", t.triples->size()) : t.over.empty() ? "those of " + t.file
+                                                                                                 : "over the bonds that meet in '" + t.over + "'",
+                        t.angle_stiffness ? fmt::format(", B = {:.10g}", *t.angle_stiffness) : "");
   for (const GlueTable& t : problem.glue)
     for (const Group& g : model.groups)
       if (g.name == t.group) text += fmt::format("glue: '{}' carries {} particles of '{}'\n", t.body, g.particles.size(), t.group);

@@ -1,8 +1,8 @@
 #include "study/energy_command.hpp"
 
+#include "study/imperfection.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
-#include "input/build.hpp"
 #include "input/read.hpp"
 #include "results/json.hpp"
 #include "study/run.hpp"
@@ -80,7 +80,7 @@ double largest_column(const Field& f) { return f.cols() ? f.colwise().norm().max
 
 int energy_command(const EnergyOptions& options) {
   const Problem problem = read_problem(options.file, options.settings);
-  const Model model = build_model(problem);
+  const Model model = model_of(problem);
   Energy energy(model);
   State state = starting_state(problem, energy);
   if (options.load_factor) energy.kinematics().prescribe(state, *options.load_factor);

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "core/text_file.hpp"
 #include "dynamics/timestep.hpp"
-#include "input/build.hpp"
+#include "study/imperfection.hpp"
 #include "input/read.hpp"
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
@@ -62,7 +62,7 @@ void let_it_settle(const Model& model, Energy& energy, const State& state, Expor
 
 void export_command(const ExportOptions& options) {
   const Problem problem = read_problem(options.file, options.settings);
-  Model all = with_masses(build_model(problem));
+  Model all = with_masses(model_of(problem));
   Energy whole(all);
   ExportedStudy study;
   study.title = problem.title, study.source = std::filesystem::path(problem.file).filename().string();

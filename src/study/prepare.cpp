@@ -1,6 +1,6 @@
 #include "study/prepare.hpp"
 
-#include "input/build.hpp"
+#include "study/imperfection.hpp"
 #include "input/check.hpp"
 #include "input/read.hpp"
 #include "input/tables.hpp"
@@ -240,7 +240,7 @@ PreparedRun prepare_run(const Document& document, const std::vector<Setting>& se
   all.insert(all.end(), swept.begin(), swept.end());
   PreparedRun run{swept, read_problem(document, all), {}, {}};
   run.together = of_all_runs(run.problem);
-  run.model = build_model(run.problem, own);
+  run.model = model_of(run.problem, own);
   return run;
 }
 

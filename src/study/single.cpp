@@ -124,6 +124,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   summary.warnings = teller.warnings();
   summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
   summary.input = problem.file, summary.input_sha256 = problem.sha256;
+  summary.imperfection = model.imperfection;
   summary.times = {{"setup", setup}, {"total", total.seconds()}};
   summary.tolerances = {{"residual", problem.solver.tolerance}};
   results.finish(summary);

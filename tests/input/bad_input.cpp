@@ -156,25 +156,25 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(mistakes_of(file) == "");
   CHECK(said("beam.column.particels", "3") ==
         "--set: \"beam.column.particels\": \"particels\" is no key; allowed: name, from_stage, section, particles, from, to, "
-        "rise, angle, toward, profile, through, clamped, center, axis, "
+        "rise, angle, toward, profile, through, points, file, clamped, center, axis, "
         "spacing, diameter, thickness, youngs_modulus, density, bond_stiffness, angle_stiffness, rest_length, rest, "
-        "axial_stiffness, bending_stiffness; "
+        "axial_stiffness, bending_stiffness, values; "
         "did you mean \"particles\"?");
   CHECK(said("beam.colum.particles", "3") ==
         "--set: \"beam.colum.particles\": no [[beam]] is \"colum\"; there are: column; did you mean \"column\"?");
   CHECK(said("beam.2.particles", "3") == "--set: \"beam.2.particles\": no [[beam]] is \"2\"; there are: column");
   CHECK(said("beam.column", "3") ==
         "--set: \"beam.column\": is a table; name one of its keys: name, from_stage, section, particles, from, to, "
-        "rise, angle, toward, profile, through, clamped, center, axis, spacing, diameter, thickness, youngs_modulus, "
-        "density, bond_stiffness, angle_stiffness, rest_length, rest, axial_stiffness, bending_stiffness");
+        "rise, angle, toward, profile, through, points, file, clamped, center, axis, spacing, diameter, thickness, youngs_modulus, "
+        "density, bond_stiffness, angle_stiffness, rest_length, rest, axial_stiffness, bending_stiffness, values");
   CHECK(said("load.1.force", "[0, 0, 1]") == "--set: \"load.1.force\": there is no [[load]] in this file");
   CHECK(said("support.2.displacement.4", "1") == "--set: \"support.2.displacement.4\": has components 1 to 3");
   CHECK(said("path.steps.3", "1") == "--set: \"path.steps.3\": \"steps\" is a value, not a table");
   CHECK(
       said("", "1") ==
-      "--set: \"\": \"\" is no key; allowed: title, plane, constants, lammps, beam, loop, sheet, grains, body, group, connect, remove, glue, support, "
-      "load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, observe, event, "
-      "expect, sweep");
+      "--set: \"\": \"\" is no key; allowed: title, plane, constants, lammps, beam, loop, sheet, grains, body, group, connect, bonds, angles, remove, glue, "
+      "imperfection, support, load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, modes, solver, dynamics, stage, "
+      "observe, and 3 more");
   CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");
   CHECK(said("path.parameter", "support.9") ==
         "--set: path.parameter: \"support.9\" names no table that a load factor scales; there are: support.1, support.2; "

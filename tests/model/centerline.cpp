@@ -133,3 +133,24 @@ TEST_CASE("Half a sine wave in equal chords", "[model]") {
     CHECK(size(a) >= 0);
   }
 }
+
+TEST_CASE("Along a curve particles are evenly by its length, on its points or not", "[model]") {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0.5}};       // 2.5 long
+  const Centerline line = along_curve(points, 6);
+  REQUIRE(line.centers.size() == 6);
+  CHECK(line.spacing == 0.5);
+  const std::vector<Vec3> expected{{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {1, 1, 0}, {1, 1, 0.5}};
+  for (int i = 0; i < 6; ++i) CHECK(line.centers[i].hi == expected[i]);
+  // Over a corner without a particle a bond is shorter; beyond the ends the curve goes on straight.
+  const Centerline bent = along_curve({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 6, {true, true});
+  CHECK(bent.spacing == Approx(2.0 / 3).epsilon(1e-15));
+  CHECK((bent.centers[0].hi - Vec3(-2.0 / 3, 0, 0)).norm() < 1e-15);
+  CHECK((bent.centers[5].hi - Vec3(1, 5.0 / 3, 0)).norm() < 1e-15);
+  CHECK(distance(bent.centers[2], bent.centers[3]).value() == Approx(std::sqrt(2.0) / 3).epsilon(1e-15));
+  // A helix of many points: arc length R√(φ² + …), every bond as long as every other to what the points allow.
+  std::vector<Vec3> helix;
+  for (int k = 0; k <= 3000; ++k) helix.push_back({std::cos(2 * pi * k / 1000), std::sin(2 * pi * k / 1000), 0.3 * k / 1000});
+  const Centerline spring = along_curve(helix, 101);
+  CHECK(spring.spacing == Approx(3 * std::hypot(2 * pi, 0.3) / 100).epsilon(2e-6));   // the polygon is shorter by (2π/1000)²/24
+  CHECK(uneven(spring) < 2e-6 * spring.spacing);
+}

@@ -179,3 +179,45 @@ TEST_CASE("Nothing near, nothing made; too much is refused", "[model]") {
   CHECK(connect(m, connection(range(0, 4500), range(0, 4500), 10)) == -1);
   CHECK((m.bonds.empty() && m.bond_types.empty()));
 }
+
+TEST_CASE("The nearest ones are found however far they are", "[model]") {
+  Field x(3, 4);
+  x << 0, 1, 100, 1000, 0, 0, 0, 0, 0, 0, 0, 0;
+  Model m = points(x);
+  Connection c = connection(range(0, 4), range(0, 4), 0);
+  c.bonds_per_particle = 1;
+  CHECK(connect(m, c) == 3);
+  CHECK(bonds_of(m) == std::set<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}});
+  // As with a distance that takes in everything.
+  Model far = points(random_points(60, 1)), near = far;
+  Connection any = connection(range(0, 60), range(0, 60), 0), within = connection(range(0, 60), range(0, 60), 10);
+  any.bonds_per_particle = within.bonds_per_particle = 3;
+  CHECK(connect(far, any) == connect(near, within));
+  CHECK(bonds_of(far) == bonds_of(near));
+}
+
+TEST_CASE("New bonds have a type for each stiffness and length; EA makes K = EA/(2 r0)", "[model]") {
+  Field x(3, 4);
+  x << 0, 2, 4, 7, 0, 0, 0, 0, 0, 0, 0, 0;
+  Model m = points(x);
+  add_bonds(m, {{{0, 1}, 5, 0, 0}, {{1, 2}, 5, 0, 0}, {{2, 3}, 0, 12, 0}, {{0, 2}, 0, 12, 3}, {{1, 3}, 6, 0, 2}});
+  REQUIRE(m.bonds.size() == 5);
+  CHECK(m.bond_types.size() == 3);                       // (5, 2), (2, 3) twice, (6, 2)
+  CHECK(m.bonds[0].type == m.bonds[1].type);
+  CHECK(m.bonds[2].type == m.bonds[3].type);
+  CHECK(m.bond_types[m.bonds[2].type].stiffness == 2);
+  CHECK(m.bond_types[m.bonds[4].type].stiffness == 6);
+  CHECK(meeting_bonds(m, range(0, 4), 0).size() == 1 + 3 + 3 + 1);
+  CHECK(meeting_bonds(m, range(0, 3), 0).size() == 3);
+  add_angles(m, {{{0, 1, 2}, 3, -1}, {{1, 2, 3}, 3, -1}, {{1, 2, 3}, 3, 2.5}});
+  CHECK(m.angle_types.size() == 2);
+  CHECK(m.angle_types[m.angles[0].type].rest == pi);
+}
+
+TEST_CASE("Bonds that meet at an angle or more are the straight ones of a lattice", "[model]") {
+  Sheet s;
+  s.name = "s", s.size = {6, 6}, s.spacing = s.diameter = 1, s.bond_stiffness = s.angle_stiffness = 1;
+  Model m;
+  add_sheets(m, {s});
+  CHECK(meeting_bonds(m, range(0, m.particles()), 150 * pi / 180).size() == m.angles.size());
+}

@@ -1,0 +1,38 @@
+#pragma once
+// Tables of commas: cells with their places, and numbers in named columns.
+#include "core/error.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace elamin {
+
+struct CsvCell {
+  std::string_view text;
+  int column;                          // in bytes from 1
+};
+
+/// The cells of a line without the blanks around them and what follows '#'; none if the line is blank.
+std::vector<CsvCell> csv_cells(std::string_view line);
+
+/// The finite number in a cell, or none; `why` then says what is wrong with it.
+std::optional<double> csv_number(const CsvCell& cell, std::string& why);
+
+/// Numbers in columns.
+struct NumberTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;           // NaN where a cell is empty
+  std::vector<int> lines;                          // of the rows, from 1
+
+  /// The number of a column, −1 if there is none of that name.
+  int column(const std::string& name) const;
+};
+
+/// Reads a table of commas. Its columns are the `needed` ones in their order, or those that the first line names, the needed ones and
+/// any of `others`; cells of others may be empty. Blank lines and what follows '#' are left out. Throws InputError with file, line and
+/// column of up to 20 mistakes; holds at least one row.
+NumberTable read_numbers(const std::string& file, const std::vector<std::string>& needed, const std::vector<std::string>& others = {});
+
+}  // namespace elamin
