@@ -22,6 +22,7 @@ void describe(Keys& keys, GroupTable::Inside& t) {
 void describe(Keys& keys, GroupTable& t) {
   keys.about("A named set of particles and bodies: all of other sets, or some of these.");
   keys.name("name", t.name, "its name");
+  keys.may("from_stage", t.from_stage, "the stage that its particles are there from; by default from the start");
   keys.one_or_more("of", t.of, "what is in any of these groups …");
   keys.one_or_more("except", t.except, "… and in none of these");
   keys.may("first", t.first, "that many from the beginning", range::count);

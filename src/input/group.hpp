@@ -7,7 +7,7 @@ namespace elamin {
 
 struct GroupTable {
   TablePlace place;
-  std::string name;
+  std::string name, from_stage;          // of its particles: the stage they are there from
   std::vector<std::string> of{"all"};
   std::optional<std::vector<std::string>> except;
   std::optional<int> first, last, middle;

@@ -104,6 +104,8 @@ std::vector<bool> absent_in(const Problem& problem, int stage, const Model& mode
   for_structures(problem, [&](const auto& t) {
     if (stage_number(problem, t.from_stage) > stage) mark(t.name);
   });
+  for (const GroupTable& g : problem.groups)
+    if (stage_number(problem, g.from_stage) > stage) mark(g.name);
   for (const RemoveTable& r : problem.removals)
     if (r.what == RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) mark(r.group);
   return absent;
@@ -183,6 +185,7 @@ void check_from_stage(const Problem& problem, TablePlace& place, const std::stri
 void check_staged_structure(Problem& problem, Mistakes& mistakes) {
   const auto check = [&](TablePlace& place, const std::string& from) { check_from_stage(problem, place, from, mistakes); };
   for_structures(problem, [&](auto& t) { check(t.place, t.from_stage); });
+  for (GroupTable& g : problem.groups) check(g.place, g.from_stage);
   for (ConnectTable& c : problem.connections) check(c.place, c.from_stage);
   for (BondsTable& t : problem.bonds) check(t.place, t.from_stage);
   for (AnglesTable& t : problem.angles) check(t.place, t.from_stage);

@@ -29,7 +29,7 @@ void leave_out(const Problem& problem, int stage, Model& model, const State& now
 /// A mistake if a table's from_stage names no stage.
 void check_from_stage(const Problem& problem, TablePlace& place, const std::string& from, Mistakes& mistakes);
 
-/// The stages that structures, connections and removals name, and the groups of removals.
+/// The stages that structures, groups, connections and removals name, and the groups of removals.
 void check_staged_structure(Problem& problem, Mistakes& mistakes);
 
 }  // namespace elamin
