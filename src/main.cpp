@@ -11,6 +11,7 @@
 #include "study/compare.hpp"
 #include "study/energy_command.hpp"
 #include "study/export_command.hpp"
+#include "study/import_command.hpp"
 #include "study/run.hpp"
 #include "study/verify_command.hpp"
 
@@ -54,6 +55,7 @@ const char* const description =
     "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
     "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n"
     "  elamin export problem.toml     the model and its stages as a LAMMPS script and data file\n"
+    "  elamin import in.lmp           a LAMMPS input script as a problem file; what was taken, ignored, not understood\n"
     "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
     "  elamin plot DIR                a figure of what a run has left in its directory\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
@@ -171,6 +173,18 @@ int main(int argc, char** argv) {
   plot_app->add_option("--shapes", figure.shapes, "labels of states to draw below, with commas between: initial, final, branch:1, branch:1+mode, mode:2, step=40")->delimiter(',');
   plot_app->add_flag("!--no-diagram", figure.diagram, "the states alone");
   plot_app->add_option("--out", figure.file, "file of the figure, FIG.svg or FIG.pdf (default: DIR/figure.svg)");
+  ImportOptions import;
+  CLI::App* import_app = app.add_subcommand("import", "a LAMMPS input script as a problem file, with a data file beside it");
+  import_app->add_option("script", import.script, "the script")->type_name("FILE")->required();
+  import_app->add_option("-o,--output", import.output, "the problem file (default: the script's name with .toml)")->type_name("FILE.toml");
+  import_app->add_flag("--dynamics", import.dynamics, "motion in time, step for step as LAMMPS makes it, instead of equilibria");
+  import_app->add_option("--compat", import.compat, "lwp: keep the bending stiffness of LAMMPSStructures's sheets as it is")->type_name("lwp");
+  import_app->add_flag("--correct", import.correct, "give these sheets the bending stiffness of their derivation, 3 sqrt(3) times as much");
+  import_app->add_flag("--skip", import.skip, "leave out commands and styles that are not known");
+  import_app->add_option("--after", import.after, "a state that the script's first run has ended in (DIR/states/final.data), the second …, for what follows them")->type_name("FILE");
+  import_app->add_flag("--include-anywhere", import.include_anywhere, "include files that lie outside of the script's folder, too");
+  import_app->add_flag("--force", import.force, "write over files that elamin import has not written, too");
+  import_app->add_flag("--quiet", import.quiet, "print nothing but errors");
   CLI::App* schema_app = app.add_subcommand("schema", "print the JSON schema of problem files, for editors");
   bool markdown = false;
   schema_app->add_flag("--markdown", markdown, "print the key reference instead, docs/keys.md");
@@ -189,6 +203,7 @@ int main(int argc, char** argv) {
     if (*export_app) return export_command(exported), exit_done;
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);
+    if (*import_app) return import_command(import), exit_done;
     if (*report_app) return report_command(report), exit_done;
     if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;

@@ -8,7 +8,7 @@ namespace elamin {
 
 struct LammpsTable {
   TablePlace place;
-  std::string data, bodies, atom_style;
+  std::string data, bodies, atom_style, input;
   std::optional<std::vector<std::string>> ignore;
   std::optional<std::vector<std::vector<double>>> bond_coefficients, angle_coefficients;
   std::vector<std::pair<std::string, int>> labels;   // of the atom types of `data`, groups too; read from the file

@@ -1,0 +1,337 @@
+// Fixes, and the runs in which they are in force.
+#include "lammps/script/granular.hpp"
+#include "lammps/script/interpreter.hpp"
+
+#include "core/suggest.hpp"
+#include "laws/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin::script::command {
+namespace {
+
+constexpr std::size_t most_runs = 1000;
+
+/// A fix in the making.
+struct Making {
+  Interpreter& in;
+  Fix fix;
+
+  /// Word i as a number that does not change in time.
+  double constant(std::size_t i) const {
+    bool timed = false;
+    const double v = in.value(i, &timed);
+    if (timed) throw Wrong(i, in_quotes(in.word(i)) + " changes in time, which is not followed", true);
+    return v;
+  }
+  double direction(std::size_t i, std::size_t c) {
+    if (i < in.size() && in.word(i) == "NULL") {
+      fix.directions[c] = false;
+      return 0;
+    }
+    return constant(i);
+  }
+
+  void move() {
+    in.wants(5, "fix ID GROUP move linear VX VY VZ");
+    fix.kind = Fix::Kind::move;
+    if (in.word(4) != "linear") throw Wrong(4, fmt::format("move {} is not followed; linear is", in.word(4)), true);
+    in.wants(8, "fix ID GROUP move linear VX VY VZ");
+    for (int c = 0; c < 3; ++c) fix.vector[c] = direction(static_cast<std::size_t>(5 + c), static_cast<std::size_t>(c));
+  }
+
+  void setforce() {
+    in.wants(7, "fix ID GROUP setforce FX FY FZ");
+    fix.kind = Fix::Kind::hold;
+    for (int c = 0; c < 3; ++c)
+      if (const auto i = static_cast<std::size_t>(4 + c); direction(i, static_cast<std::size_t>(c)) != 0)
+        throw Wrong(i, "a force that replaces all others is not taken; 0 holds, and addforce adds", true);
+  }
+
+  void gravity() {
+    in.wants(5, "fix ID GROUP gravity MAGNITUDE vector X Y Z");
+    fix.kind = Fix::Kind::gravity;
+    const double g = constant(4);
+    const std::string style = in.size() > 5 ? in.word(5) : "";
+    Vec3 d = Vec3::Zero();
+    if (style == "vector") {
+      in.wants(9, "fix ID GROUP gravity MAGNITUDE vector X Y Z");
+      d = Vec3(constant(6), constant(7), constant(8));
+    } else if (style == "chute") {
+      const double a = constant(6) * (pi / 180);
+      d = Vec3(std::sin(a), 0, -std::cos(a));
+    } else if (style == "spherical") {
+      const double phi = constant(6) * (pi / 180), theta = constant(7) * (pi / 180);
+      d = Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+    } else throw Wrong(std::min<std::size_t>(5, in.size() - 1), "vector, chute and spherical are taken", true);
+    if (!(d.norm() > 0)) throw Wrong(6, "the direction has no length");
+    fix.vector = g * (d / d.norm());
+  }
+
+  void addforce() {
+    in.wants(7, "fix ID GROUP addforce FX FY FZ");
+    fix.kind = Fix::Kind::force;
+    for (int c = 0; c < 3; ++c) fix.vector[c] = direction(static_cast<std::size_t>(4 + c), static_cast<std::size_t>(c));
+    if (in.size() > 7) throw Wrong(7, in_quotes(in.word(7)) + " is no keyword of addforce that is taken", true);
+  }
+
+  /// The law of a wall; returns the word behind it.
+  std::size_t wall_law(std::size_t i, double& modulus) {
+    if (i >= in.size()) throw Wrong(in.size() - 1, "the law of the wall is missing behind this");
+    if (in.word(i) == "granular") {
+      GranularLaw law;
+      i = law.read(in, i + 1, true);
+      // LAMMPS of 2021 and later: E/(2 (1 − ν)) at walls, not E/(2 (1 − ν²)).
+      modulus = law.material ? law.youngs_modulus / (2 * (1 - law.poissons_ratio)) : law.effective_modulus;
+      fix.trap_modulus = law.material && law.youngs_modulus > 0 && law.poissons_ratio != 0;
+      fix.damping = law.damping();
+      if (law.history || law.rolls)
+        in.note("friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without history)");
+      return i;
+    }
+    if (in.word(i) == "hertz/history") {
+      modulus = 0.75 * in.number(i + 1);
+      fix.damping = fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(i + 3), in.number(i + 5));
+      if (modulus < 0) throw Wrong(i + 1, "is negative; 0 or more is taken");
+      return i + 7;
+    }
+    throw Wrong(i, in_quotes(in.word(i)) + " is no law of a wall that is known here; granular hertz, granular hertz/material and hertz/history are", true);
+  }
+
+  void add_wall(const Region& region, bool inside, double modulus, const std::string& suffix) {
+    fix.walls.push_back({region, inside, true, modulus, suffix});
+  }
+
+  void wall_region() {
+    in.wants(6, "fix ID GROUP wall/gran/region LAW … region NAME");
+    fix.kind = Fix::Kind::wall;
+    double modulus = 0;
+    std::size_t i = wall_law(4, modulus);
+    if (i + 1 >= in.size() || in.word(i) != "region") throw Wrong(std::min(i, in.size() - 1), "`region NAME` is wanted here");
+    const auto found = in.world.regions.find(in.word(i + 1));
+    if (found == in.world.regions.end()) throw Wrong(i + 1, in_quotes(in.word(i + 1)) + " is no region");
+    if (found->second.kind != ScriptRegion::Kind::shape) throw Wrong(i + 1, "a wall of several regions together is not taken; give each its own fix", true);
+    if (found->second.moves) throw Wrong(i + 1, "the region moves; where it goes is not followed", true);
+    no_more(i + 2);
+    add_wall(found->second.shape, found->second.inside, modulus, "");
+  }
+
+  void no_more(std::size_t i) const {
+    if (i < in.size() && in.word(i) != "contacts") throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of this fix that is taken", true);
+  }
+
+  void plane_or_tube(std::size_t i, double modulus) {
+    const std::string& style = i < in.size() ? in.word(i) : in.word(0);
+    if (style == "zcylinder") {
+      Region tube;
+      tube.shape = Shape::cylinder, tube.axis = 2, tube.radius = in.positive(i + 1);
+      no_more(i + 2);
+      return add_wall(tube, true, modulus, "");
+    }
+    if (style != "xplane" && style != "yplane" && style != "zplane") throw Wrong(std::min(i, in.size() - 1), in_quotes(style) + " is no wall that is known here; xplane, yplane, zplane and zcylinder are", true);
+    const int c = style[0] - 'x';
+    for (const std::size_t end : {i + 1, i + 2}) {
+      if (end >= in.size()) throw Wrong(i, "two coordinates are wanted behind this, or NULL");
+      if (in.word(end) == "NULL") continue;
+      Region plane;
+      plane.center[c] = in.number(end);
+      plane.normal = Vec3::Unit(c) * (end == i + 1 ? 1.0 : -1.0);
+      add_wall(plane, true, modulus, end == i + 1 ? "_lo" : "_hi");
+    }
+    if (fix.walls.empty()) throw Wrong(i + 1, "both walls are NULL");
+    no_more(i + 3);
+  }
+
+  void wall_gran() {
+    in.wants(6, "fix ID GROUP wall/gran LAW … xplane LO HI");
+    fix.kind = Fix::Kind::wall;
+    double modulus = 0;
+    plane_or_tube(wall_law(4, modulus), modulus);
+  }
+
+  void wall_body() {
+    in.wants(9, "fix ID GROUP wall/body/polyhedron K_N C_N C_T xplane LO HI");
+    fix.kind = Fix::Kind::wall;
+    fix.body = fmt::format("k_n = {}\nc_n = {}\nc_t = {}\n", in.number(4), in.number(5), in.number(6));
+    plane_or_tube(7, 0);
+  }
+
+  void viscous() {
+    in.wants(5, "fix ID GROUP viscous GAMMA");
+    fix.kind = Fix::Kind::viscous;
+    fix.coefficient = constant(4);
+    if (fix.coefficient < 0) throw Wrong(4, "is negative; 0 or more is taken");
+    if (in.size() > 5) throw Wrong(5, "a coefficient for some types is not taken; give a group of its own", true);
+  }
+};
+
+struct Style { const char* name; void (Making::*make)(); };
+constexpr Style styles[]{{"move", &Making::move}, {"setforce", &Making::setforce}, {"gravity", &Making::gravity}, {"addforce", &Making::addforce},
+                         {"wall/gran/region", &Making::wall_region}, {"wall/gran", &Making::wall_gran}, {"wall/body/polyhedron", &Making::wall_body},
+                         {"viscous", &Making::viscous}};
+
+struct Integrator { const char* name; const char* note; };
+constexpr const char* cold = "there is no temperature here: what it integrates moves, and comes to rest";
+constexpr Integrator integrators[]{{"nve", ""}, {"nve/sphere", ""}, {"nve/body", ""}, {"nve/limit", ""}, {"nve/noforce", ""}, {"nvt", cold},
+                                   {"nvt/sphere", cold}, {"nvt/body", cold}, {"nve/asphere", ""}};
+
+struct Other { const char* name; const char* why; };
+constexpr Other others[]{{"print", "output: a run of elamin writes its own"}, {"ave/time", "output: a run of elamin writes its own"},
+                         {"ave/atom", "output: a run of elamin writes its own"}, {"ave/chunk", "output: a run of elamin writes its own"},
+                         {"ave/histo", "output: a run of elamin writes its own"}, {"ave/correlate", "output: a run of elamin writes its own"},
+                         {"vector", "output: a run of elamin writes its own"}, {"store/state", "output: a run of elamin writes its own"},
+                         {"store/force", "output: a run of elamin writes its own"}, {"balance", "how LAMMPS uses the machine"},
+                         {"langevin", "there is no temperature here"}, {"temp/rescale", "there is no temperature here"},
+                         {"temp/berendsen", "there is no temperature here"}, {"dt/reset", "how LAMMPS minimises or steps: [solver] says how elamin does"},
+                         {"recenter", "rigid motions are held by supports"}, {"momentum", "rigid motions are held by supports"},
+                         {"halt", "how long LAMMPS runs"}};
+
+}  // namespace
+
+void fix(Interpreter& in) {
+  in.wants(4, "fix ID GROUP STYLE …");
+  World& w = in.world;
+  Making m{in, {}};
+  Fix& f = m.fix;
+  f.id = in.word(1), f.group = in.word(2), f.style = in.word(3), f.where = in.where;
+  w.group(f.group, 2);
+  f.text = in.text();
+  std::vector<std::string> known;
+  bool found = false;
+  for (const Style& s : styles) {
+    known.push_back(s.name);
+    if (f.style != s.name) continue;
+    found = true;
+    (m.*s.make)();
+  }
+  for (const Integrator& s : integrators) {
+    known.push_back(s.name);
+    if (f.style != s.name) continue;
+    found = true;
+    f.kind = Fix::Kind::integrate;
+    if (*s.note) in.note(s.note);
+  }
+  if (f.style == "freeze") f.kind = Fix::Kind::hold, found = true;
+  if (f.style == "enforce2d") f.kind = Fix::Kind::plane, found = true;
+  for (const Other& o : others)
+    if (f.style == o.name) {
+      found = true;
+      in.ignore(o.why);
+    }
+  if (!found) throw Wrong(3, in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, " + listed(known) + did_you_mean(f.style, known), true);
+  if (f.kind == Fix::Kind::viscous) in.ignore("drag: matters in motion only (--dynamics)");
+  f.serial = ++w.fix_serial;
+  const auto same = std::find_if(w.fixes.begin(), w.fixes.end(), [&](const Fix& o) { return o.id == f.id; });
+  if (same == w.fixes.end()) w.fixes.push_back(std::move(f));
+  else {
+    if (same->style != f.style) throw Wrong(1, fmt::format("the fix {} is there already, of style {}", f.id, same->style));
+    *same = std::move(f);                        // as LAMMPS does
+  }
+}
+
+void unfix(Interpreter& in) {
+  in.wants(2, "unfix ID", 2);
+  auto& fixes = in.world.fixes;
+  const auto found = std::find_if(fixes.begin(), fixes.end(), [&](const Fix& f) { return f.id == in.word(1); });
+  if (found == fixes.end()) throw Wrong(1, in_quotes(in.word(1)) + " is no fix");
+  fixes.erase(found);
+}
+
+namespace {
+
+std::string kind_of(const World& w, std::size_t c) { return w.boundary[c]; }
+
+/// The checks of a run, and its record; then what is known of where things are.
+void record(Interpreter& in, bool minimize, long long steps) {
+  World& w = in.world;
+  if (!w.has_box) throw Wrong(0, "stands before create_box or read_data");
+  const auto periodic = [&](int c) { return kind_of(w, static_cast<std::size_t>(c)).find('p') != std::string::npos; };
+  for (int c = 0; c < 3; ++c)
+    if (periodic(c) && !(c == 2 && w.dimension == 2))
+      throw Wrong(0, fmt::format("the box is periodic along {}: elamin has no periodic boxes. Write `boundary f f f` (or s) before the box is made, or "
+                                 "`change_box all boundary f f f` behind it, with walls or room around what there is", "xyz"[c]));
+  if (steps == 0 && !minimize) return in.ignore("a run of no steps moves nothing");
+  Run r;
+  r.where = in.where, r.minimize = minimize, r.steps = steps, r.timestep = w.timestep;
+  r.text = in.text();
+  for (std::size_t k = 0; k < w.atoms.size(); ++k)
+    if (World::there(w.atoms[k])) r.atoms.push_back(static_cast<int>(k));
+  if (r.atoms.empty()) throw Wrong(0, "there is no atom");
+  if (w.runs.size() >= most_runs) throw Wrong(0, fmt::format("is one more than {} runs", most_runs));
+  std::vector<int> moving(w.atoms.size()), driven(w.atoms.size());    // integrated; how many coordinates fix move gives
+  std::vector<Vec3> velocity(w.atoms.size(), Vec3::Zero());
+  for (const Fix& f : w.fixes) {
+    if (f.kind == Fix::Kind::ignored) continue;
+    Run::Active a{f, {}};
+    const int g = w.group(f.group, 0);
+    for (const int k : r.atoms) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!w.in(w.atoms[i], g)) continue;
+      a.members.push_back(k);
+      if (f.kind == Fix::Kind::integrate || f.kind == Fix::Kind::move) moving[i] = 1;
+      if (f.kind == Fix::Kind::move && f.directions == std::array{true, true, true}) driven[i] = 3, velocity[i] = f.vector;
+    }
+    if (!a.members.empty()) r.fixes.push_back(std::move(a));
+  }
+  r.pairs = w.pairs, r.special_lj = w.special_lj, r.special_coul = w.special_coul;
+  const auto coefficients = [&](const auto& list, const std::vector<Coefficient>& all, std::map<int, Coefficient>& to, const char* what) {
+    for (const auto& glue : list)
+      if (glue.gone == always && !to.count(glue.type)) {
+        const Coefficient& c = all[static_cast<std::size_t>(glue.type - 1)];
+        if (!c.set) throw Wrong(0, fmt::format("{}s of type {} have no coefficients; {}_coeff gives them", what, glue.type, what));
+        to[glue.type] = c;
+      }
+  };
+  coefficients(w.bonds, w.bond_coefficients, r.bonds, "bond");
+  coefficients(w.angles, w.angle_coefficients, r.angles, "angle");
+  if (!w.runs.empty())                            // glue that was there keeps its stiffness within a problem
+    for (const auto& [now, before] : {std::pair(&r.bonds, &w.runs.back().bonds), {&r.angles, &w.runs.back().angles}})
+      for (const auto& [type, c] : *now)
+        if (const auto old = before->find(type); old != before->end() && !(old->second == c)) throw NeedsPositions{w.last_run};
+  if (w.unspecial) in.note("bonds made with `special no` are not known to LAMMPS's contacts: it lets bonded pairs touch, here they do as special_bonds says");
+  if (minimize) std::fill(moving.begin(), moving.end(), 1);
+  for (const int k : r.atoms) {
+    const auto i = static_cast<std::size_t>(k);
+    Atom& a = w.atoms[i];
+    if (a.born == w.run_number()) a.start = a.x;
+    if (driven[i] == 3 && !minimize) a.x += velocity[i] * r.time();
+    else if (moving[i]) a.moved = true;
+  }
+  w.last_run = in.where;
+  w.step += steps, w.time += minimize ? 0 : r.time();
+  w.runs.push_back(std::move(r));
+  if (in.after >= in.options.after.size()) return;
+  take_positions(in, in.options.after[in.after++]);
+  // From here on it is a problem by itself: what was run is behind it.
+  for (Atom& a : w.atoms) a.moved = false, a.born = 0, a.v.setZero(), a.gone = a.gone == always ? always : -1;
+  std::erase_if(w.bonds, [](const auto& b) { return b.gone != always; });
+  std::erase_if(w.angles, [](const auto& b) { return b.gone != always; });
+  for (auto& b : w.bonds) b.born = 0;
+  for (auto& b : w.angles) b.born = 0;
+  w.runs.clear(), w.removals.clear();
+}
+
+}  // namespace
+
+void run(Interpreter& in) {
+  in.wants(2, "run STEPS");
+  long long steps = in.integer(1, 0, 9000000000000000000);
+  for (std::size_t i = 2; i < in.size();) {
+    const std::string& k = in.word(i);
+    if (k == "upto") steps = std::max(0LL, steps - in.world.step), ++i;
+    else if (k == "start" || k == "stop" || k == "pre" || k == "post") i += 2;
+    else if (k == "every") throw Wrong(i, "commands within a run are not followed; write several runs", true);
+    else throw Wrong(i, in_quotes(k) + " is no keyword of run");
+  }
+  record(in, false, steps);
+}
+
+void minimize(Interpreter& in) {
+  in.wants(5, "minimize ETOL FTOL ITERATIONS EVALUATIONS", 5);
+  record(in, true, 0);
+}
+
+}  // namespace elamin::script::command

@@ -1,0 +1,541 @@
+#include "lammps/script/formula.hpp"
+
+#include "core/suggest.hpp"
+#include "laws/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace elamin::script {
+namespace {
+
+constexpr int most_nested = 60;                     // formulas in formulas
+constexpr int most_operands = 1000000;          // of one formula with all that it goes through
+
+bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+[[noreturn]] void needs_forces(std::size_t word, const std::string& what) {
+  throw Wrong(word, in_quotes(what) + " is known only where LAMMPS runs; the import follows what a script builds, not how it moves", true);
+}
+
+class Formula {
+ public:
+  Formula(const std::string& text, const World& world, const Names& names, std::size_t word, bool each, bool* timed, int& operands, int depth = 0)
+      : text_(text), world_(world), names_(names), word_(word), each_(each), timed_(timed), operands_(operands), depth_(depth) {
+    if (depth > most_nested) wrong("goes through too many variables or brackets");
+  }
+
+  Value whole() {
+    Value v = operation(1);
+    if (!end()) wrong(fmt::format("{} is left over", in_quotes(text_.substr(i_))));
+    return v;
+  }
+
+ private:
+  [[noreturn]] void wrong(const std::string& what) const { throw Wrong(word_, "the formula " + in_quotes(text_) + ": " + what); }
+
+  void blanks() {
+    while (i_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[i_]))) ++i_;
+  }
+  bool end() {
+    blanks();
+    return i_ >= text_.size();
+  }
+
+  struct Operator { const char* sign; int precedence; };
+  /// The operator that stands here, or none.
+  const Operator* operator_here() {
+    static constexpr Operator all[]{{"||", 1}, {"|^", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<=", 4}, {">=", 4}, {"<", 4},
+                                    {">", 4},  {"+", 5},  {"-", 5},  {"*", 6},  {"/", 6},  {"%", 6},  {"^", 7}};
+    if (end()) return nullptr;
+    for (const Operator& o : all)
+      if (text_.compare(i_, std::strlen(o.sign), o.sign) == 0) return &o;
+    return nullptr;
+  }
+
+  Value operation(int least) {
+    Value left = operand();
+    for (const Operator* o = operator_here(); o && o->precedence >= least; o = operator_here()) {
+      i_ += std::strlen(o->sign);
+      const Value right = operation(o->precedence + 1);
+      left = combined(o->sign, left, right);
+    }
+    return left;
+  }
+
+  double apply(std::string_view sign, double a, double b, bool one) const {
+    if (sign == "+") return a + b;
+    if (sign == "-") return a - b;
+    if (sign == "*") return a * b;
+    if (sign == "^") return std::pow(a, b);
+    if (sign == "||") return a != 0 || b != 0;
+    if (sign == "|^") return (a != 0) != (b != 0);
+    if (sign == "&&") return a != 0 && b != 0;
+    if (sign == "==") return a == b;
+    if (sign == "!=") return a != b;
+    if (sign == "<=") return a <= b;
+    if (sign == ">=") return a >= b;
+    if (sign == "<") return a < b;
+    if (sign == ">") return a > b;
+    if (b == 0 && one) wrong("divides by 0");
+    return sign == "/" ? a / b : std::fmod(a, b);
+  }
+
+  Value combined(std::string_view sign, const Value& a, const Value& b) const {
+    Value r;
+    if (a.each.empty() && b.each.empty()) {
+      r.number = apply(sign, a.number, b.number, true);
+      return r;
+    }
+    r.each.resize(world_.atoms.size());
+    for (std::size_t k = 0; k < r.each.size(); ++k) r.each[k] = apply(sign, a.at(k), b.at(k), false);
+    return r;
+  }
+
+  template <class Call> Value mapped(Value v, const Call& call) const {
+    if (v.each.empty()) v.number = call(v.number);
+    for (double& x : v.each) x = call(x);
+    return v;
+  }
+
+  Value operand() {
+    if (end()) wrong("ends where a number is wanted");
+    if (++nested_ > most_nested) wrong("has too many brackets or signs in each other");
+    if (++operands_ > most_operands) wrong("goes through more than " + std::to_string(most_operands) + " numbers");
+    struct Leave { int& n; ~Leave() { --n; } } leave{nested_};
+    const char c = text_[i_];
+    if (c == '-' || c == '!') {
+      ++i_;
+      return mapped(operand(), [c](double x) { return c == '-' ? -x : static_cast<double>(x == 0); });
+    }
+    if (c == '(') {
+      ++i_;
+      Value v = operation(1);
+      close(')');
+      return v;
+    }
+    if (std::isdigit(static_cast<unsigned char>(c)) || c == '.') return number();
+    if (std::isalpha(static_cast<unsigned char>(c))) return word();
+    wrong(fmt::format("{} stands where a number is wanted", in_quotes(std::string(1, c))));
+  }
+
+  void close(char bracket) {
+    if (end() || text_[i_] != bracket) wrong(fmt::format("'{}' is missing", bracket));
+    ++i_;
+  }
+
+  Value number() {
+    Value v;
+    const auto [last, error] = std::from_chars(text_.data() + i_, text_.data() + text_.size(), v.number);
+    if (error != std::errc{}) wrong("holds a number that cannot be read");
+    i_ = static_cast<std::size_t>(last - text_.data());
+    return v;
+  }
+
+  std::string name() {
+    const std::size_t begin = i_;
+    while (i_ < text_.size() && is_name(text_[i_])) ++i_;
+    return text_.substr(begin, i_ - begin);
+  }
+
+  /// What stands in the brackets behind a function, cut at its commas.
+  std::vector<std::string> arguments(char open, char shut) {
+    const std::size_t begin = ++i_;
+    std::vector<std::string> all{""};
+    for (int depth = 1; i_ < text_.size(); ++i_) {
+      const char c = text_[i_];
+      if (c == open) ++depth;
+      if (c == shut && --depth == 0) {
+        ++i_;
+        return all;
+      }
+      if (c == ',' && depth == 1) all.emplace_back();
+      else all.back() += c;
+    }
+    wrong(fmt::format("'{}' is not closed: {}", open, in_quotes(text_.substr(begin - 1))));
+  }
+
+  Value sub(const std::string& formula) { return Formula(formula, world_, names_, word_, each_, timed_, operands_, depth_ + 1).whole(); }
+  double sub_number(const std::string& formula) {
+    const Value v = sub(formula);
+    if (!v.each.empty()) wrong(in_quotes(formula) + " is a number for every atom where one number is wanted");
+    return v.number;
+  }
+
+  Value word() {
+    const std::string w = name();
+    if (w.starts_with("v_")) return variable(w.substr(2));
+    if (w.starts_with("c_")) return compute(w.substr(2), w);
+    if (w.starts_with("f_")) needs_forces(word_, w);
+    if (i_ < text_.size() && text_[i_] == '(') return function(w, arguments('(', ')'));
+    if (i_ < text_.size() && text_[i_] == '[') return of_atom(w, arguments('[', ']'));
+    Value v;
+    if (vector(w, v) || constant(w, v.number) || keyword(w, v.number)) return v;
+    wrong(in_quotes(w) + " is no function, atom vector, constant or thermo keyword that is known here");
+  }
+
+  Value variable(const std::string& n) {
+    const auto found = names_.variables.find(n);
+    if (found == names_.variables.end()) wrong(in_quotes("v_" + n) + " is no variable");
+    const Variable& v = found->second;
+    if (v.style == Variable::Style::atom && !each_) wrong(in_quotes("v_" + n) + " is of style atom");
+    Value value;
+    if (i_ < text_.size() && text_[i_] == '[') {
+      if (v.style != Variable::Style::atom) wrong(in_quotes("v_" + n) + " is not of style atom");
+      const double id = sub_number(arguments('[', ']').front());
+      value.number = Formula(v.words.front(), world_, names_, word_, true, timed_, operands_, depth_ + 1).whole().at(static_cast<std::size_t>(atom(id)));
+      return value;
+    }
+    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return sub(v.words.front());
+    const std::string text = text_of(n, world_, names_);
+    const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);
+    if (error != std::errc{} || last != text.data() + text.size()) wrong(fmt::format("{} is {}, no number", in_quotes("v_" + n), in_quotes(text)));
+    return value;
+  }
+
+  int atom(double id) const {
+    if (!(std::abs(id) < 2e9)) wrong("an atom's id is out of range");
+    return world_.with_id(std::llround(id), word_);
+  }
+
+  Value compute(const std::string& n, const std::string& w) {
+    const auto found = names_.computes.find(n);
+    if (found == names_.computes.end()) wrong(in_quotes(w) + " is no compute");
+    const Compute& c = found->second;
+    if (c.style != "reduce") needs_forces(word_, w);
+    std::size_t which = 0;
+    if (i_ < text_.size() && text_[i_] == '[') which = static_cast<std::size_t>(std::clamp(sub_number(arguments('[', ']').front()), 1.0, 1e6)) - 1;
+    if (which >= c.inputs.size()) wrong(in_quotes(w) + " has not so many values");
+    std::string input = c.inputs[which];
+    const Value v = Formula(input, world_, names_, word_, true, timed_, operands_, depth_ + 1).whole();
+    const int group = world_.group(c.group, word_);
+    double sum = 0, least = 1e20, most = -1e20, count = 0;
+    for (std::size_t k = 0; k < world_.atoms.size(); ++k) {
+      if (!World::there(world_.atoms[k]) || !world_.in(world_.atoms[k], group)) continue;
+      if (v.each.empty()) wrong(in_quotes(input) + " is no number for every atom");
+      const double x = v.each[k];
+      sum += c.mode.ends_with("sq") ? x * x : x, least = std::min(least, x), most = std::max(most, x), ++count;
+    }
+    Value r;
+    r.number = c.mode == "min" ? least : c.mode == "max" ? most : c.mode.starts_with("ave") ? (count > 0 ? sum / count : 0) : sum;
+    return r;
+  }
+
+  static constexpr const char* vectors[]{"id", "mass", "type", "mol", "x", "y", "z", "vx", "vy", "vz", "radius", "diameter"};
+  /// An atom's entry in a vector; false: there is no such vector.
+  bool entry(const std::string& w, const Atom& a, double& out) const {
+    if (w == "id") out = a.id;
+    else if (w == "mass") out = world_.mass_of(a);
+    else if (w == "type") out = a.type;
+    else if (w == "mol") out = a.molecule;
+    else if (w == "x" || w == "y" || w == "z") out = world_.at(a)[w[0] - 'x'];
+    else if (w == "vx" || w == "vy" || w == "vz") out = a.v[w[1] - 'x'];
+    else return false;
+    return true;
+  }
+
+  bool vector(const std::string& w, Value& v) const {
+    double one = 0;
+    if (w == "fx" || w == "fy" || w == "fz" || w == "q") needs_forces(word_, w);
+    if (!entry(w, Atom{}, one)) return false;
+    if (!each_) wrong(in_quotes(w) + " is of every atom; an equal-style formula takes " + w + "[id]");
+    v.each.resize(world_.atoms.size());
+    for (std::size_t k = 0; k < v.each.size(); ++k)
+      if (World::there(world_.atoms[k])) entry(w, world_.atoms[k], v.each[k]);
+    return true;
+  }
+
+  Value of_atom(const std::string& w, const std::vector<std::string>& args) {
+    Value v;
+    if (w == "fx" || w == "fy" || w == "fz" || w == "q") needs_forces(word_, w);
+    if (!entry(w, world_.atoms.at(static_cast<std::size_t>(atom(sub_number(args.front())))), v.number)) wrong(in_quotes(w) + " is no atom vector");
+    return v;
+  }
+
+  static bool constant(const std::string& w, double& out) {
+    if (w == "PI") out = pi;
+    else if (w == "version") out = 20210929;
+    else if (w == "yes" || w == "on" || w == "true") out = 1;
+    else if (w == "no" || w == "off" || w == "false") out = 0;
+    else return false;
+    return true;
+  }
+
+  bool keyword(const std::string& w, double& out) const {
+    if (w == "step") out = static_cast<double>(world_.step);
+    else if (w == "time") out = world_.time;
+    else if (w == "elapsed" || w == "elaplong") out = 0;
+    else if (w == "dt") out = world_.timestep;
+    else if (w == "atoms") out = static_cast<double>(std::count_if(world_.atoms.begin(), world_.atoms.end(), World::there));
+    else if (w == "xlo" || w == "ylo" || w == "zlo") out = world_.lo[w[0] - 'x'];
+    else if (w == "xhi" || w == "yhi" || w == "zhi") out = world_.hi[w[0] - 'x'];
+    else if (w == "lx" || w == "ly" || w == "lz") out = (world_.hi - world_.lo)[w[1] - 'x'];
+    else if (w == "vol") out = (world_.hi - world_.lo).prod();
+    else {
+      static constexpr const char* unknown[]{"temp", "press", "pe", "ke", "etotal", "evdwl", "ecoul", "epair", "ebond", "eangle", "fmax", "fnorm", "cpu"};
+      for (const char* u : unknown)
+        if (w == u) needs_forces(word_, w);
+      return false;
+    }
+    if (timed_ && (w == "step" || w == "time" || w.starts_with("elap"))) *timed_ = true;
+    return true;
+  }
+
+  Value function(const std::string& w, const std::vector<std::string>& args) {
+    const std::size_t n = args.size();
+    const auto wants = [&](std::size_t least, std::size_t most) {
+      if (n < least || n > most) wrong(fmt::format("{}() has {} arguments, {} wanted", w, n, least == most ? std::to_string(least) : fmt::format("{} to {}", least, most)));
+    };
+    struct One { const char* name; double (*call)(double); };
+    static constexpr One ones[]{{"sqrt", std::sqrt}, {"exp", std::exp},   {"ln", std::log},     {"log", std::log10}, {"abs", std::abs},
+                                {"sin", std::sin},   {"cos", std::cos},   {"tan", std::tan},    {"asin", std::asin}, {"acos", std::acos},
+                                {"atan", std::atan}, {"ceil", std::ceil}, {"floor", std::floor}, {"round", std::round}};
+    for (const One& o : ones) {
+      if (w != o.name) continue;
+      wants(1, 1);
+      const Value v = sub(args[0]);
+      if (v.each.empty() && !std::isfinite(o.call(v.number))) wrong(fmt::format("{}({}) is not a number", w, v.number));
+      return mapped(v, o.call);
+    }
+    if (w == "atan2") {
+      wants(2, 2);
+      const Value y = sub(args[0]), x = sub(args[1]);
+      Value r;
+      if (y.each.empty() && x.each.empty()) r.number = std::atan2(y.number, x.number);
+      else
+        for (std::size_t k = 0; k < world_.atoms.size(); ++k) r.each.push_back(std::atan2(y.at(k), x.at(k)));
+      return r;
+    }
+    if (w == "random" || w == "normal") throw Wrong(word_, w + "() draws LAMMPS's own random numbers, which are not followed; write the numbers it gave", true);
+    if (w == "ramp" || w == "vdisplace" || w == "swiggle" || w == "cwiggle") return in_time(w, args);
+    if (w == "gmask" || w == "rmask" || w == "grmask") return mask(w, args);
+    Value v;
+    if (group_function(w, args, v.number)) return v;
+    if (w == "is_active" || w == "is_available" || w == "is_defined" || w == "is_file") throw Wrong(word_, w + "() is not known here", true);
+    wrong(in_quotes(w + "()") + " is no function that is known here");
+  }
+
+  Value in_time(const std::string& w, const std::vector<std::string>& args) {
+    if (timed_) *timed_ = true;
+    Value v;
+    const auto argument = [&](std::size_t k) {
+      if (k >= args.size()) wrong(w + "() has too few arguments");
+      return sub_number(args[k]);
+    };
+    const double elapsed = 0;                   // since the run began
+    if (w == "ramp" || w == "vdisplace") v.number = argument(0) + (w == "vdisplace" ? argument(1) * elapsed : 0);
+    else v.number = argument(0);
+    return v;
+  }
+
+  Value mask(const std::string& w, const std::vector<std::string>& args) {
+    if (!each_) wrong(w + "() is of every atom");
+    if (args.size() != (w == "grmask" ? 2u : 1u)) wrong(w + "() has not as many arguments as it wants");
+    Value v;
+    for (const Atom& a : world_.atoms) {
+      if (!World::there(a)) {
+        v.each.push_back(0);
+        continue;
+      }
+      bool on = true;
+      if (w != "rmask") on = world_.in(a, world_.group(args[0], word_));
+      if (w != "gmask") on = on && world_.matches(args.back(), world_.at(a), word_);
+      v.each.push_back(on);
+    }
+    return v;
+  }
+
+  bool group_function(const std::string& w, const std::vector<std::string>& args, double& out) const {
+    static constexpr std::pair<const char*, int> known[]{{"count", 1}, {"mass", 1}, {"xcm", 2}, {"bound", 2}};
+    static constexpr const char* unknown[]{"charge", "vcm", "fcm", "gyration", "ke", "angmom", "torque", "inertia", "omega"};
+    for (const char* u : unknown)
+      if (w == u) needs_forces(word_, w + "()");
+    const auto* found = std::find_if(std::begin(known), std::end(known), [&](const auto& k) { return w == k.first; });
+    if (found == std::end(known)) return false;
+    const auto least = static_cast<std::size_t>(found->second);
+    if (args.size() < least || args.size() > least + 1) wrong(fmt::format("{}() has {} arguments, {} wanted", w, args.size(), least));
+    const int group = world_.group(args[0], word_);
+    const std::string region = args.size() > least ? args.back() : "", what = args.size() > 1 ? args[1] : "";
+    int axis = -1;
+    if (w == "xcm" && (what == "x" || what == "y" || what == "z")) axis = what[0] - 'x';
+    if (w == "bound" && what.size() == 4 && what[0] >= 'x' && what[0] <= 'z' && (what.ends_with("min") || what.ends_with("max"))) axis = what[0] - 'x';
+    if (axis < 0 && (w == "xcm" || w == "bound"))
+      wrong(fmt::format("{} is no {}", in_quotes(what), w == "xcm" ? "direction; x, y and z are" : "end; xmin, xmax, ymin, … are"));
+    double count = 0, mass = 0, moment = 0, least_x = 1e20, most_x = -1e20;
+    for (const Atom& a : world_.atoms) {
+      if (!World::there(a) || !world_.in(a, group) || (!region.empty() && !world_.matches(region, world_.at(a), word_))) continue;
+      const double m = world_.mass_of(a);
+      ++count, mass += m;
+      if (axis < 0) continue;
+      const double x = world_.at(a)[axis];
+      moment += m * x, least_x = std::min(least_x, x), most_x = std::max(most_x, x);
+    }
+    out = w == "count" ? count : w == "mass" ? mass : w == "xcm" ? (mass > 0 ? moment / mass : 0) : what.ends_with("min") ? least_x : most_x;
+    return true;
+  }
+
+  const std::string& text_;
+  const World& world_;
+  const Names& names_;
+  std::size_t word_, i_ = 0;
+  bool each_;
+  bool* timed_;
+  int& operands_;
+  int depth_, nested_ = 0;
+};
+
+/// Conditions of `if`: operands are numbers, or words that are compared as they stand.
+class Condition {
+ public:
+  Condition(const std::string& text, std::size_t word) : text_(text), word_(word) {}
+
+  bool whole() {
+    const Operand o = operation(1);
+    blanks();
+    if (i_ < text_.size()) wrong(fmt::format("{} is left over", in_quotes(text_.substr(i_))));
+    return truth(o);
+  }
+
+ private:
+  struct Operand { double number = 0; std::string text; bool is_text = false; };
+  [[noreturn]] void wrong(const std::string& what) const { throw Wrong(word_, "the condition " + in_quotes(text_) + ": " + what); }
+  void blanks() {
+    while (i_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[i_]))) ++i_;
+  }
+  bool truth(const Operand& o) const {
+    if (o.is_text) wrong(in_quotes(o.text) + " is neither true nor false");
+    return o.number != 0;
+  }
+  Operand operation(int least) {
+    static constexpr std::pair<const char*, int> all[]{{"||", 1}, {"|^", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<=", 4}, {">=", 4}, {"<", 4}, {">", 4}};
+    Operand left = operand();
+    while (true) {
+      blanks();
+      const auto* o = std::find_if(std::begin(all), std::end(all), [&](const auto& a) { return text_.compare(i_, std::strlen(a.first), a.first) == 0; });
+      if (o == std::end(all) || o->second < least) return left;
+      i_ += std::strlen(o->first);
+      const Operand right = operation(o->second + 1);
+      const std::string sign = o->first;
+      if (left.is_text != right.is_text) wrong("compares a number with a word");
+      Operand r;
+      if (sign == "==") r.number = left.is_text ? left.text == right.text : left.number == right.number;
+      else if (sign == "!=") r.number = left.is_text ? left.text != right.text : left.number != right.number;
+      else if (left.is_text) wrong("words can be compared with == and != only");
+      else if (sign == "||") r.number = truth(left) || truth(right);
+      else if (sign == "|^") r.number = truth(left) != truth(right);
+      else if (sign == "&&") r.number = truth(left) && truth(right);
+      else if (sign == "<") r.number = left.number < right.number;
+      else if (sign == "<=") r.number = left.number <= right.number;
+      else if (sign == ">") r.number = left.number > right.number;
+      else r.number = left.number >= right.number;
+      left = r;
+    }
+  }
+  Operand operand() {
+    blanks();
+    if (i_ >= text_.size()) wrong("ends where a number or a word is wanted");
+    if (++nested_ > most_nested) wrong("has too many brackets or signs in each other");
+    struct Leave { int& n; ~Leave() { --n; } } leave{nested_};
+    if (text_[i_] == '!' && text_.compare(i_, 2, "!=") != 0) {
+      ++i_;
+      Operand o = operand();
+      return {static_cast<double>(!truth(o)), "", false};
+    }
+    if (text_[i_] == '(') {
+      ++i_;
+      Operand o = operation(1);
+      blanks();
+      if (i_ >= text_.size() || text_[i_] != ')') wrong("')' is missing");
+      ++i_;
+      return o;
+    }
+    std::size_t j = i_;
+    if (text_[i_] == '"' || text_[i_] == '\'') {
+      j = text_.find(text_[i_], i_ + 1);
+      if (j == std::string::npos) wrong("a quote is not closed");
+      Operand o{0, text_.substr(i_ + 1, j - i_ - 1), true};
+      i_ = j + 1;
+      return o;
+    }
+    while (j < text_.size() && !std::isspace(static_cast<unsigned char>(text_[j])) && !std::strchr("()<>=!&|^", text_[j])) ++j;
+    const std::string t = text_.substr(i_, j - i_);
+    if (t.empty()) wrong(fmt::format("{} stands where a number or a word is wanted", in_quotes(std::string(1, text_[i_]))));
+    i_ = j;
+    Operand o;
+    const auto [last, error] = std::from_chars(t.data() + (t[0] == '+' ? 1 : 0), t.data() + t.size(), o.number);
+    if (error != std::errc{} || last != t.data() + t.size()) o = {0, t, true};
+    return o;
+  }
+
+  const std::string& text_;
+  std::size_t word_, i_ = 0;
+  int nested_ = 0;
+};
+
+}  // namespace
+
+Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each, bool* timed) {
+  int operands = 0;
+  return Formula(formula, world, names, word, each, timed, operands).whole();
+}
+
+double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, bool* timed) {
+  const double v = evaluate(formula, world, names, word, false, timed).number;
+  if (!std::isfinite(v)) throw Wrong(word, "the formula " + in_quotes(formula) + " is not finite");
+  return v;
+}
+
+std::string formatted(const std::string& format, double value, std::size_t word) {
+  const auto refuse = [&] { throw Wrong(word, in_quotes(format) + " is no format of one floating-point number, such as %.6f"); };
+  const std::size_t percent = format.find('%');
+  if (percent == std::string::npos) refuse();
+  std::size_t k = percent + 1;
+  while (k < format.size() && std::strchr("-+ #0", format[k])) ++k;
+  std::size_t digits = 0;
+  while (k < format.size() && (std::isdigit(static_cast<unsigned char>(format[k])) || format[k] == '.')) ++k, ++digits;
+  if (k >= format.size() || !std::strchr("fFgGeE", format[k]) || digits > 6 || format.find('%', k) != std::string::npos || format.size() > 200) refuse();
+  char buffer[2000];
+  const int n = std::snprintf(buffer, sizeof buffer, format.c_str(), value);
+  if (n < 0 || n >= static_cast<int>(sizeof buffer)) refuse();
+  return buffer;
+}
+
+std::string text_of(const std::string& name, const World& world, const Names& names) {
+  const auto found = names.variables.find(name);
+  if (found == names.variables.end()) {
+    std::vector<std::string> known;
+    for (const auto& [n, v] : names.variables) known.push_back(n);
+    throw Wrong(0, "there is no variable " + in_quotes(name) + did_you_mean(name, known));
+  }
+  const Variable& v = found->second;
+  switch (v.style) {
+    case Variable::Style::index: return v.words[v.which];
+    case Variable::Style::string: return v.words.front();
+    case Variable::Style::loop: {
+      const std::string text = std::to_string(v.first + static_cast<long long>(v.which)), last = std::to_string(v.last);
+      return v.pad && text.size() < last.size() ? std::string(last.size() - text.size(), '0') + text : text;
+    }
+    case Variable::Style::equal: return formatted("%.15g", number_of(v.words.front(), world, names, 0), 0);
+    case Variable::Style::format:
+      if (const auto of = names.variables.find(v.words.front()); of == names.variables.end() || of->second.style != Variable::Style::equal)
+        throw Wrong(0, in_quotes(name) + " is the format of " + in_quotes(v.words.front()) + ", which is no variable of style equal");
+      return formatted(v.words[1], number_of("v_" + v.words.front(), world, names, 0), 0);
+    case Variable::Style::atom: break;
+  }
+  throw Wrong(0, in_quotes(name) + " is of style atom: one number for every atom, which cannot be put into a line");
+}
+
+std::string immediate(const std::string& formula, const World& world, const Names& names) {
+  const std::size_t colon = formula.rfind(":%");
+  const std::string format = colon == std::string::npos ? "%.20g" : formula.substr(colon + 1);
+  return formatted(format, number_of(formula.substr(0, colon), world, names, 0), 0);
+}
+
+bool condition(const std::string& text, std::size_t word) { return Condition(text, word).whole(); }
+
+}  // namespace elamin::script

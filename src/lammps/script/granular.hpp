@@ -1,0 +1,24 @@
+#pragma once
+// A granular law as pair_coeff and fix wall/gran/region have it.
+#include "lammps/script/interpreter.hpp"
+
+#include <string>
+
+namespace elamin::script {
+
+struct GranularLaw {
+  bool material = false, history = false, rolls = false;
+  double youngs_modulus = 0, poissons_ratio = 0;          // of hertz/material
+  double effective_modulus = 0;                           // of hertz: 3/4 k_n
+  double gamma = 0, tangential = 0, friction = 0;
+  std::string model = "viscoelastic";                     // of damping
+
+  /// Reads the words from i on, up to one that is none of the law; returns where that is.
+  std::size_t read(const Interpreter& in, std::size_t i, bool wall);
+  /// E_eff of two like spheres: E/(2 (1 − ν²)).
+  double modulus() const;
+  /// As keys of [[contact]] and [[wall]], a line each.
+  std::string damping() const;
+};
+
+}  // namespace elamin::script

@@ -1,0 +1,351 @@
+#include "lammps/script/interpreter.hpp"
+
+#include "core/suggest.hpp"
+#include "core/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <utility>
+
+namespace elamin::script {
+namespace {
+
+constexpr long long most_commands = 5000000;    // executed, so that a loop without an end ends
+constexpr std::size_t deepest_include = 16;     // as LAMMPS has it
+constexpr std::size_t most_passes = 1000;
+
+/// A script or what it includes, read once.
+struct File {
+  std::string path;
+  std::vector<Line> lines;
+  std::map<std::string, std::size_t> labels;    // the first line of each
+};
+
+/// Words that name a thing of the script: what it makes, that nothing further is told of it once it went wrong.
+bool makes_a_name(const std::string& command) {
+  return command == "region" || command == "variable" || command == "group" || command == "compute" || command == "fix";
+}
+
+class Reader {
+ public:
+  Reader(const std::string& file, const ReadingOptions& options) : root_(std::filesystem::path(file).parent_path()) {
+    in_.options = options;
+    in_.reading.files = {file};
+    files_.push_back(read(file));
+    in_.frames.push_back({0, 0});
+  }
+
+  Reading all() {
+    while (!in_.frames.empty() && !in_.ended && !stopped_) step();
+    if (in_.label && mistakes_.empty())
+      mistakes_.push_back({in_.reading.files.front(), 1, 1, "jump", fmt::format("there is no label {}", in_quotes(*in_.label))});
+    if (!mistakes_.empty()) throw InputError(std::move(mistakes_));
+    in_.end_pass();
+    return std::move(in_.reading);
+  }
+
+ private:
+  static std::shared_ptr<File> read(const std::string& path) {
+    auto file = std::make_shared<File>();
+    file->path = path;
+    file->lines = lines_of(std::string(without_mark(read_text(path))));
+    for (std::size_t i = 0; i < file->lines.size(); ++i) {
+      const std::string& text = file->lines[i].text;
+      if (text.find("label") == std::string::npos) continue;
+      try {
+        const auto words = split(without_comment(text));
+        if (words.size() == 2 && words[0].text == "label") file->labels.emplace(words[1].text, i);
+      } catch (const Wrong&) {                   // told when the line is executed
+      }
+    }
+    return file;
+  }
+
+  void step() {
+    Interpreter::Frame& frame = in_.frames.back();
+    const File& file = *files_[static_cast<std::size_t>(frame.file)];
+    if (in_.label) {
+      const auto found = file.labels.find(*in_.label);
+      if (found == file.labels.end()) {
+        tell({file.path, file.lines.empty() ? 1 : file.lines.back().place(0).line, 1, "jump", fmt::format("there is no label {}", in_quotes(*in_.label))});
+        in_.ended = true;
+        return;
+      }
+      frame.next = found->second + 1;
+      in_.label.reset();
+    }
+    if (frame.next >= file.lines.size()) {
+      in_.frames.pop_back();
+      return;
+    }
+    const Line& line = file.lines[frame.next++];
+    const int number = frame.file;
+    in_.where = {number, line.place(line.text.find_first_not_of(" \t\r\f\v\n")).line};
+    if (++in_.reading.commands > most_commands) {
+      tell({file.path, in_.where.line, 1, "", fmt::format("more than {} commands have been gone through; a loop may have no end", most_commands)});
+      in_.ended = true;
+      return;
+    }
+    in_.words.clear();
+    try {
+      const Substitution by{[&](const std::string& n) { return lookup(n); },
+                            [&](const std::string& f) { return immediate(f, in_.world, in_.names); }};
+      in_.words = words_of(line, by);
+      if (in_.words.empty()) return;
+      in_.run_command();
+      load_files();
+    } catch (const NeedsPositions& needs) {
+      stop(needs, file, line);
+    } catch (const Silent&) {
+    } catch (const InputError& e) {              // of a file that the command reads
+      for (const Mistake& m : e.mistakes())
+        tell(m.line > 0 ? m : Mistake{file.path, in_.where.line, 1, in_.words[0].text, m.sentence()});
+    } catch (const Wrong& wrong) {
+      const std::size_t w = wrong.word < in_.words.size() ? wrong.word : 0;
+      const Place at = line.place(in_.words.empty() ? line.text.find_first_not_of(" \t") : in_.words[w].offset);
+      const std::string command = in_.words.empty() ? "" : in_.words[0].text;
+      if (in_.words.size() > 1 && makes_a_name(command)) broken_.insert(in_.words[1].text);
+      if (wrong.unknown && in_.options.skip) {
+        in_.reading.told.push_back({Told::Fate::not_understood, command, wrong.what(), 1, in_.where});
+        return;
+      }
+      // What follows from a mistake that was told is not told again.
+      for (const std::string& name : broken_)
+        if (!name.empty() && std::string(wrong.what()).starts_with(in_quotes(name) + " is no")) return;
+      for (const std::string& name : broken_)
+        if (std::string(wrong.what()) == "there is no variable " + in_quotes(name)) return;
+      tell({file.path, at.line, at.column, command, wrong.what()});
+    }
+  }
+
+  struct Silent {};
+
+  std::string lookup(const std::string& name) const {
+    if (broken_.count(name) && !in_.names.variables.count(name)) throw Silent();
+    return text_of(name, in_.world, in_.names);
+  }
+
+  void tell(Mistake mistake) {
+    in_.failed = true;
+    for (const Mistake& m : mistakes_)
+      if (m.file == mistake.file && m.line == mistake.line && m.column == mistake.column) return;
+    mistakes_.push_back(std::move(mistake));
+    if (mistakes_.size() < most_mistakes) return;
+    mistakes_.push_back({mistakes_.back().file, mistakes_.back().line, mistakes_.back().column, {}, fmt::format("{} mistakes; there may be more", most_mistakes)});
+    throw InputError(mistakes_);
+  }
+
+  /// At a command that needs positions behind a run: what was run so far is a problem by itself.
+  void stop(const NeedsPositions& needs, const File& file, const Line& line) {
+    stopped_ = true;
+    if (in_.world.runs.empty()) return tell({file.path, in_.where.line, 1, in_.words[0].text, "needs positions behind a run that is not there"});
+    in_.note(fmt::format("{} needs to know where particles are behind the run of {}; the import ends here. Run the problem, then give its last state: "
+                         "--after DIR/states/final.data", in_.words[0].text, in_.reading.place(needs.run)));
+    in_.world.last_run = needs.run;
+    (void)line;
+    in_.reading.passes.push_back({in_.world, {}, in_.where});
+    in_.world = World();
+  }
+
+  /// Frames of files that a command has opened.
+  void load_files() {
+    for (Interpreter::Frame& f : in_.frames) {
+      if (f.file < static_cast<int>(files_.size())) continue;
+      const std::string& path = in_.reading.files[static_cast<std::size_t>(f.file)];
+      try {
+        files_.push_back(read(path));
+      } catch (const InputError& e) {
+        files_.push_back(std::make_shared<File>());
+        files_.back()->path = path;
+        Mistake m = e.mistakes().front();
+        if (m.line == 0) m = {in_.reading.files[static_cast<std::size_t>(in_.where.file)], in_.where.line, 1, in_.words[0].text, e.what()};
+        tell(m);
+      }
+    }
+    (void)root_;
+  }
+
+  Interpreter in_;
+  std::filesystem::path root_;
+  std::vector<std::shared_ptr<File>> files_;
+  std::vector<Mistake> mistakes_;
+  std::set<std::string> broken_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+Reading read_script(const std::string& file, const ReadingOptions& options) { return Reader(file, options).all(); }
+
+void Interpreter::wants(std::size_t least, const std::string& form, std::size_t most) const {
+  if (size() < least) throw Wrong(0, fmt::format("has too few words; it is: {}", form));
+  if (size() > most) throw Wrong(most, fmt::format("has too many words; it is: {}", form));
+}
+
+double Interpreter::number(std::size_t i) const {
+  if (i >= size()) throw Wrong(size() - 1, "a number is missing behind this");
+  const std::string& w = word(i);
+  double v = 0;
+  const auto [end, error] = std::from_chars(w.data() + (w.starts_with('+') ? 1 : 0), w.data() + w.size(), v);
+  if (error != std::errc{} || end != w.data() + w.size() || !std::isfinite(v)) throw Wrong(i, in_quotes(w) + " is not a number");
+  return v;
+}
+
+double Interpreter::positive(std::size_t i) const {
+  const double v = number(i);
+  if (!(v > 0)) throw Wrong(i, fmt::format("must be above 0, is {}", word(i)));
+  return v;
+}
+
+long long Interpreter::integer(std::size_t i, long long lo, long long hi) const {
+  if (i >= size()) throw Wrong(size() - 1, "an integer is missing behind this");
+  const std::string& w = word(i);
+  long long v = 0;
+  const auto [end, error] = std::from_chars(w.data() + (w.starts_with('+') ? 1 : 0), w.data() + w.size(), v);
+  if (error == std::errc{} && end == w.data() + w.size()) {
+    if (v < lo || v > hi) throw Wrong(i, fmt::format("{} is out of range; {} is allowed", w, hi < lo ? "nothing" : fmt::format("{} to {}", lo, hi)));
+    return v;
+  }
+  // LAMMPS's own formulas print large integers as numbers such as 1e+06.
+  double d = 0;
+  const auto [last, wrong] = std::from_chars(w.data(), w.data() + w.size(), d);
+  if (wrong == std::errc{} && last == w.data() + w.size() && d == std::floor(d))
+    throw Wrong(i, in_quotes(w) + " is a floating-point number where an integer is wanted; LAMMPS takes none either");
+  throw Wrong(i, in_quotes(w) + " is not an integer");
+}
+
+double Interpreter::value(std::size_t i, bool* timed) const {
+  if (i < size() && word(i).starts_with("v_")) return number_of(word(i), world, names, i, timed);
+  return number(i);
+}
+
+bool Interpreter::yes(std::size_t i) const {
+  if (i >= size()) throw Wrong(size() - 1, "yes or no is missing behind this");
+  const std::string& w = word(i);
+  if (w == "yes" || w == "on" || w == "true") return true;
+  if (w == "no" || w == "off" || w == "false") return false;
+  throw Wrong(i, in_quotes(w) + " is neither yes nor no");
+}
+
+std::array<int, 2> Interpreter::range(std::size_t i, int most) const {
+  if (i >= size()) throw Wrong(size() - 1, "a number or a range such as 2*4 is missing behind this");
+  const std::string& w = word(i);
+  const std::size_t star = w.find('*');
+  const auto part = [&](const std::string& text, int without) {
+    if (text.empty()) return without;
+    int v = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (error != std::errc{} || end != text.data() + text.size()) throw Wrong(i, in_quotes(w) + " is no number and no range such as 2*4");
+    if (v < 1 || v > most) throw Wrong(i, most == 0 ? fmt::format("{} is out of range; create_box or read_data announces none", v)
+                                                    : fmt::format("{} is out of range; 1 to {} is allowed", v, most));
+    return v;
+  };
+  if (star == std::string::npos) {
+    const int v = part(w.empty() ? "x" : w, 0);
+    return {v, v};
+  }
+  const std::array<int, 2> r{part(w.substr(0, star), 1), part(w.substr(star + 1), most)};
+  if (r[0] > r[1]) throw Wrong(i, fmt::format("the range {} is empty", in_quotes(w)));
+  return r;
+}
+
+std::string Interpreter::text() const {
+  std::string all;
+  for (const Word& w : words) (all += all.empty() ? "" : " ") += w.text;
+  for (char& c : all)
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  return all;
+}
+
+void Interpreter::note(const std::string& what) {
+  for (const Note& n : reading.notes)
+    if (n.where == where && n.text == what) return;
+  if (reading.notes.size() < 200) reading.notes.push_back({where, what});
+}
+
+void Interpreter::run_command() {
+  const std::string command = word(0);
+  const auto tell = [&](Told::Fate fate, const std::string& why) {
+    for (Told& t : reading.told)
+      if (t.command == command && t.fate == fate && t.why == why) return void(++t.count);
+    reading.told.push_back({fate, command, why, 1, where});
+  };
+  if (const Handler handler = handler_of(command)) {
+    why_ignored.clear();
+    handler(*this);
+    if (why_ignored.empty()) tell(Told::Fate::taken, "");
+    else tell(Told::Fate::ignored, why_ignored);
+    return;
+  }
+  if (const std::string why = ignored_command(command); !why.empty()) return tell(Told::Fate::ignored, why);
+  if (const std::string why = refused_command(command); !why.empty()) throw Wrong(0, why, true);
+  throw Wrong(0, in_quotes(command) + " is no command that is known here" + did_you_mean(command, known_commands()) + "; --skip leaves it out", true);
+}
+
+void Interpreter::execute(const std::string& line_text, const Where& at) {
+  if (depth > 20) throw Wrong(0, "holds commands in commands more than 20 deep");
+  if (++reading.commands > most_commands) {
+    ended = true;
+    throw Wrong(0, fmt::format("more than {} commands have been gone through; a loop may have no end", most_commands));
+  }
+  const std::vector<Word> outer = std::exchange(words, {});
+  struct Back {
+    Interpreter& in;
+    const std::vector<Word>& outer;
+    ~Back() { in.words = outer, --in.depth; }
+  } back{*this, outer};
+  ++depth;
+  where = at;
+  const Substitution by{[&](const std::string& n) { return text_of(n, world, names); },
+                        [&](const std::string& f) { return immediate(f, world, names); }};
+  try {
+    words = split(substituted(without_comment(line_text), by));
+    if (!words.empty()) run_command();
+  } catch (const Wrong& wrong) {
+    throw Wrong(0, fmt::format("in {}: {}", in_quotes(line_text), wrong.what()), wrong.unknown);
+  }
+}
+
+void Interpreter::begin_file(const std::string& name, std::size_t w, bool returns) {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::path(reading.files.front()).parent_path();
+  const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : root / name;
+  if (name.empty() || name.find('\0') != std::string::npos) throw Wrong(w, "a file's name is missing");
+  if (!options.include_anywhere) {
+    std::error_code failed;
+    const fs::path whole = fs::weakly_canonical(path, failed);
+    const fs::path base = failed ? fs::path() : fs::weakly_canonical(root.empty() ? fs::path(".") : root, failed);
+    const fs::path inner = whole.lexically_relative(base);
+    if (failed || inner.empty() || *inner.begin() == "..")
+      throw Wrong(w, in_quotes(name) + " lies outside of the script's folder; --include-anywhere allows that");
+  }
+  if (frames.size() >= deepest_include) throw Wrong(w, fmt::format("files include each other more than {} deep", deepest_include));
+  const std::string shown = path.string();
+  const auto found = std::find(reading.files.begin(), reading.files.end(), shown);
+  const int number = static_cast<int>(found - reading.files.begin());
+  if (found == reading.files.end()) reading.files.push_back(shown);
+  if (!returns) frames.pop_back();
+  frames.push_back({number, 0});
+}
+
+void Interpreter::end_pass() {
+  const bool ran = !world.runs.empty();
+  const bool anything = std::any_of(world.atoms.begin(), world.atoms.end(), World::there) || !world.body_file.empty();
+  if (!ran && !(anything && reading.passes.empty())) return;
+  if (reading.passes.size() >= most_passes) {
+    ended = true;
+    throw Wrong(0, fmt::format("more than {} problems follow from the script", most_passes));
+  }
+  std::map<std::string, std::string> loops;
+  for (const auto& [name, v] : names.variables)
+    if (v.style == Variable::Style::loop || v.style == Variable::Style::index) loops[name] = text_of(name, world, names);
+  reading.passes.push_back({world, loops, std::nullopt});
+}
+
+}  // namespace elamin::script

@@ -1,0 +1,207 @@
+// Pair styles and their coefficients.
+#include "lammps/script/interpreter.hpp"
+#include "lammps/script/granular.hpp"
+
+#include "core/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin::script {
+namespace {
+
+bool known_style(const std::string& s) {
+  static constexpr const char* all[]{"granular", "gran/hertz/history", "lj/cut", "body/rounded/polyhedron", "zero", "none"};
+  return std::any_of(std::begin(all), std::end(all), [&](const char* a) { return s == a; });
+}
+
+PairStyle style_from(const Interpreter& in, std::size_t from, std::size_t to) {
+  PairStyle s;
+  s.name = in.word(from);
+  const std::size_t n = to - from - 1;
+  const auto wants = [&](std::size_t least, std::size_t most, const char* form) {
+    if (n < least || n > most) throw Wrong(from, fmt::format("{} is followed by: {}", s.name, form));
+  };
+  if (s.name == "lj/cut") {
+    wants(1, 1, "its cutoff");
+    s.cutoff = in.number(from + 1);
+  } else if (s.name == "gran/hertz/history") {
+    wants(6, 7, "Kn Kt gamma_n gamma_t xmu dampflag");
+    s.gran_modulus = 0.75 * in.number(from + 1);
+    if (s.gran_modulus < 0) throw Wrong(from + 1, "is negative; 0 or more is taken");
+    s.damping = fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(from + 3), in.number(from + 5));
+  } else if (s.name == "body/rounded/polyhedron") {
+    wants(5, 5, "c_n c_t mu delta_ua cut_inner");
+    s.c_n = in.number(from + 1), s.c_t = in.number(from + 2), s.mu = in.number(from + 3), s.delta_ua = in.number(from + 4), s.cut_inner = in.number(from + 5);
+  }
+  return s;
+}
+
+}  // namespace
+
+std::size_t GranularLaw::read(const Interpreter& in, std::size_t i, bool wall) {
+  const auto word = [&](std::size_t k) -> const std::string& {
+    if (k >= in.size()) throw Wrong(in.size() - 1, "is followed by too few words of a granular law");
+    return in.word(k);
+  };
+  const std::string normal = word(i);
+  if (normal == "hertz/material") {
+    youngs_modulus = in.number(i + 1), gamma = in.number(i + 2), poissons_ratio = in.number(i + 3), material = true;
+    if (youngs_modulus < 0) throw Wrong(i + 1, "is negative; 0 or more is taken");
+    if (!(poissons_ratio > -1 && poissons_ratio <= 0.5)) throw Wrong(i + 3, fmt::format("is no Poisson's ratio, {}", word(i + 3)));
+    i += 4;
+  } else if (normal == "hertz") {
+    const double kn = in.number(i + 1);
+    if (kn < 0) throw Wrong(i + 1, "is negative; 0 or more is taken");
+    effective_modulus = 0.75 * kn, gamma = in.number(i + 2);
+    i += 3;
+  } else if (normal == "hooke" || normal == "dmt" || normal == "jkr")
+    throw Wrong(i, fmt::format("contacts of style {} are not known here; hertz and hertz/material are", normal), true);
+  else throw Wrong(i, in_quotes(normal) + " is no normal model of granular that is known here; hertz and hertz/material are", true);
+  while (i < in.size()) {
+    const std::string& k = in.word(i);
+    if (k == "damping") {
+      model = word(i + 1);
+      static constexpr const char* models[]{"velocity", "mass_velocity", "viscoelastic", "tsuji"};
+      if (std::none_of(std::begin(models), std::end(models), [&](const char* m) { return model == m; }))
+        throw Wrong(i + 1, in_quotes(model) + " is no damping model; velocity, mass_velocity, viscoelastic and tsuji are", true);
+      i += 2;
+    } else if (k == "tangential") {
+      const std::string& t = word(i + 1);
+      if (t == "linear_nohistory") tangential = in.number(i + 2), friction = in.number(i + 3), i += 4;
+      else if (t == "linear_history" || t.starts_with("mindlin")) {
+        if (word(i + 2) != "NULL") in.number(i + 2);
+        tangential = in.number(i + 3), friction = in.number(i + 4), history = true, i += 5;
+      } else throw Wrong(i + 1, in_quotes(t) + " is no tangential model that is known here", true);
+    } else if (k == "rolling" || k == "twisting") {
+      const std::string& t = word(i + 1);
+      if (t == "none" || t == "marshall") i += 2;
+      else if (t == "sds") in.number(i + 2), in.number(i + 3), in.number(i + 4), i += 5;
+      else throw Wrong(i + 1, in_quotes(t) + fmt::format(" is no {} model that is known here", k), true);
+      rolls = rolls || t != "none";
+    } else if (k == "cutoff" && !wall) in.number(i + 1), i += 2;
+    else if (k == "limit_damping") ++i;
+    else break;
+  }
+  return i;
+}
+
+double GranularLaw::modulus() const {
+  return material ? youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio)) : effective_modulus;
+}
+
+std::string GranularLaw::damping() const {
+  std::string keys = model == "tsuji" ? fmt::format("damping = \"tsuji\"\nrestitution = {}\n", gamma)
+                     : gamma > 0      ? fmt::format("damping = \"{}\"\ndamping_coefficient = {}\n", model, gamma)
+                                      : "";
+  if (friction > 0) keys += fmt::format("friction = {}\n", friction);
+  if (friction > 0 || !keys.empty()) keys += fmt::format("friction_damping = {}\n", tangential);
+  return keys;
+}
+
+namespace command {
+
+void pair_style(Interpreter& in) {
+  in.wants(2, "pair_style STYLE …");
+  Pairs p;
+  const bool mixed = in.word(1) == "hybrid" || in.word(1) == "hybrid/overlay";
+  p.hybrid = in.word(1) == "hybrid";
+  std::size_t i = mixed ? 2 : 1;
+  while (i < in.size()) {
+    if (!known_style(in.word(i)))
+      throw Wrong(i, in_quotes(in.word(i)) + " is no pair style that is known here; granular, gran/hertz/history, lj/cut, body/rounded/polyhedron, hybrid "
+                     "and hybrid/overlay of them are", true);
+    std::size_t end = i + 1;
+    while (end < in.size() && !(mixed && known_style(in.word(end)))) ++end;
+    p.styles.push_back(style_from(in, i, end));
+    i = end;
+  }
+  if (mixed && p.styles.empty()) throw Wrong(1, "is followed by no style");
+  if (!mixed && p.styles.front().name == "gran/hertz/history") p.styles.front().name = "gran/hertz/history";
+  in.world.pairs = std::move(p);
+}
+
+void pair_modify(Interpreter& in) {
+  in.wants(2, "pair_modify KEYWORD …");
+  for (std::size_t i = 1; i < in.size();) {
+    const std::string& k = in.word(i);
+    if (i + 1 >= in.size()) throw Wrong(i, in_quotes(k) + " is followed by nothing");
+    if (k == "shift") {
+      for (PairStyle& s : in.world.pairs.styles) s.shift = in.yes(i + 1);
+    } else if (k == "mix") {
+      const std::string& m = in.word(i + 1);
+      if (m != "geometric" && m != "arithmetic" && m != "sixthpower") throw Wrong(i + 1, in_quotes(m) + " is no way of mixing; geometric, arithmetic and sixthpower are");
+      for (PairStyle& s : in.world.pairs.styles)
+        s.mix = m == "geometric" ? PairStyle::Mix::geometric : m == "arithmetic" ? PairStyle::Mix::arithmetic : PairStyle::Mix::sixthpower;
+    } else if (k != "tail" && k != "table" && k != "compute") throw Wrong(i, in_quotes(k) + " is no keyword of pair_modify that is taken; shift and mix are", true);
+    else if (k == "tail" && in.yes(i + 1)) throw Wrong(i, "corrections for a cut tail are of periodic boxes", true);
+    i += 2;
+  }
+}
+
+void pair_coeff(Interpreter& in) {
+  in.wants(3, "pair_coeff TYPES TYPES …");
+  World& w = in.world;
+  PairCoefficient c;
+  c.first = in.range(1, w.atom_types), c.second = in.range(2, w.atom_types);
+  c.where = in.where, c.text = in.text();
+  bool any = false;
+  for (int a = c.first[0]; a <= c.first[1] && !any; ++a) any = std::max(c.second[0], a) <= c.second[1];
+  if (!any) throw Wrong(1, fmt::format("there is no pair I J with I up to J in {} {}; write the smaller type first", in.word(1), in.word(2)));
+  if (w.pairs.styles.empty()) throw Wrong(0, "stands before pair_style");
+  std::size_t i = 3;
+  const PairStyle* style = &w.pairs.styles.front();
+  if (w.pairs.styles.size() > 1 || (in.size() > 3 && in.word(3) == style->name)) {
+    in.wants(4, "pair_coeff TYPES TYPES STYLE …");
+    if (in.word(3) == "none") style = nullptr;
+    else {
+      const auto found = std::find_if(w.pairs.styles.begin(), w.pairs.styles.end(), [&](const PairStyle& s) { return s.name == in.word(3); });
+      if (found == w.pairs.styles.end()) throw Wrong(3, in_quotes(in.word(3)) + " is none of the styles of pair_style");
+      style = &*found;
+    }
+    ++i;
+  }
+  const std::string name = style ? style->name : "none";
+  std::size_t end = in.size();
+  if (name == "granular") {
+    GranularLaw law;
+    end = law.read(in, i, false);
+    c.law = PairCoefficient::Law::hertz;
+    if (law.material) c.youngs_modulus = law.youngs_modulus, c.poissons_ratio = law.poissons_ratio;
+    if (!law.material) c.effective_modulus = law.effective_modulus;
+    c.damping = law.damping();
+    if (law.history || law.rolls)
+      in.note("friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without history)");
+  } else if (name == "gran/hertz/history") {
+    c.law = PairCoefficient::Law::hertz, c.effective_modulus = style->gran_modulus, c.damping = style->damping;
+    end = i;
+  } else if (name == "lj/cut") {
+    c.law = PairCoefficient::Law::lj;
+    c.epsilon = in.number(i), c.sigma = in.number(i + 1), c.cutoff = in.size() > i + 2 ? in.number(i + 2) : style->cutoff;
+    if (c.epsilon < 0 || c.sigma < 0 || c.cutoff < 0) throw Wrong(i, "a number is negative; 0 or more is taken");
+    end = std::min(in.size(), i + 3);
+  } else if (name == "body/rounded/polyhedron") {
+    c.law = PairCoefficient::Law::rounded;
+    c.k_n = in.number(i), c.k_na = in.number(i + 1);
+    if (c.k_n < 0 || c.k_na < 0) throw Wrong(i, "a number is negative; 0 or more is taken");
+    end = i + 2;
+  } else end = i;                                // zero, none
+  if (end != in.size() && name != "zero" && name != "none") throw Wrong(end, fmt::format("{} is no word of pair_coeff for {} that is known here", in_quotes(in.word(end)), name), true);
+  if (w.pairs.hybrid || name == "none") {        // one style a pair: others are forgotten
+    std::erase_if(w.pairs.coefficients, [&](const PairCoefficient& o) {
+      return o.law != c.law && c.first[0] <= o.first[0] && o.first[1] <= c.first[1] && c.second[0] <= o.second[0] && o.second[1] <= c.second[1];
+    });
+    for (const PairCoefficient& o : w.pairs.coefficients)
+      for (int a = c.first[0]; a <= c.first[1] && o.law != c.law && o.law != PairCoefficient::Law::none && a - c.first[0] < 1000; ++a)
+        for (int b = std::max(a, c.second[0]); b <= c.second[1] && b - c.second[0] < 1000; ++b)
+          if (o.covers(a, b)) throw Wrong(1, fmt::format("types {} {} have another style already; write each pair of types once", a, b), true);
+  }
+  // A later line holds; what it covers altogether is forgotten.
+  std::erase_if(w.pairs.coefficients, [&](const PairCoefficient& o) { return o.law == c.law && o.first == c.first && o.second == c.second; });
+  w.pairs.coefficients.push_back(std::move(c));
+}
+
+}  // namespace command
+}  // namespace elamin::script

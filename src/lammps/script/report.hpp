@@ -1,0 +1,12 @@
+#pragma once
+// What an import says of itself.
+#include "lammps/script/interpreter.hpp"
+
+#include <string>
+
+namespace elamin::script {
+
+/// A line for each name of a command: taken, ignored and why, not understood; then the notes, each with its place.
+std::string report(const Reading& reading, const std::vector<Note>& notes);
+
+}  // namespace elamin::script

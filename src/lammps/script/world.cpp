@@ -1,0 +1,94 @@
+#include "lammps/script/world.hpp"
+
+#include "core/suggest.hpp"
+#include "laws/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace elamin::script {
+
+std::optional<int> World::find_group(const std::string& name) const {
+  const auto found = std::find(groups.begin(), groups.end(), name);
+  return found == groups.end() || name.empty() ? std::nullopt : std::optional(static_cast<int>(found - groups.begin()));
+}
+
+int World::group(const std::string& name, std::size_t word) const {
+  if (const auto found = find_group(name)) return *found;
+  std::vector<std::string> names;
+  std::copy_if(groups.begin(), groups.end(), std::back_inserter(names), [](const std::string& g) { return !g.empty(); });
+  throw Wrong(word, in_quotes(name) + " is no group; there are: " + listed(names) + did_you_mean(name, names));
+}
+
+double World::mass_of(const Atom& a) const {
+  if (sphere) return a.diameter > 0 ? a.density * pi / 6 * a.diameter * a.diameter * a.diameter : a.density;
+  return a.type <= static_cast<int>(mass.size()) ? mass[a.type - 1] : 0;
+}
+
+const Vec3& World::at(const Atom& a) const {
+  if (a.moved) throw NeedsPositions{last_run};
+  return a.x;
+}
+
+bool World::matches(const std::string& name, const Vec3& x, std::size_t word, int depth) const {
+  const auto found = regions.find(name);
+  if (found == regions.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, region] : regions) names.push_back(known);
+    throw Wrong(word, in_quotes(name) + " is no region; " + (names.empty() ? "there is none" : "there are: " + listed(names)) + did_you_mean(name, names));
+  }
+  if (depth > 20) throw Wrong(word, in_quotes(name) + " is made of too many regions in each other");
+  const ScriptRegion& r = found->second;
+  if (r.moves) throw Wrong(word, in_quotes(name) + " moves; where it is is not followed", true);
+  bool within;
+  if (r.kind == ScriptRegion::Kind::shape) within = r.shape.contains(x);
+  else {
+    const bool all = r.kind == ScriptRegion::Kind::intersect;
+    within = all;
+    for (const std::string& part : r.parts)
+      if (matches(part, x, word, depth + 1) != all) within = !all;
+  }
+  return within == r.inside;
+}
+
+int World::with_id(long long id, std::size_t word) const {
+  if (id >= 1 && id < static_cast<long long>(of_id.size()) && of_id[static_cast<std::size_t>(id)] >= 0) return of_id[static_cast<std::size_t>(id)];
+  throw Wrong(word, fmt::format("there is no atom {}", id));
+}
+
+Atom& World::create(int type, const Vec3& x) {
+  Atom a;
+  while (of_id.size() > 1 && of_id.back() < 0) of_id.pop_back();       // the next id is behind the largest one
+  if (of_id.empty()) of_id.push_back(-1);
+  a.id = static_cast<int>(of_id.size());
+  a.type = type, a.x = a.start = x, a.born = run_number();
+  if (sphere) a.diameter = 1, a.density = 1;
+  of_id.push_back(static_cast<int>(atoms.size()));
+  return atoms.emplace_back(a);
+}
+
+void World::new_glue(std::initializer_list<int> indices) const {
+  if (runs.empty()) return;
+  for (const int i : indices)
+    if (atoms[static_cast<std::size_t>(i)].born == run_number()) return;
+  throw NeedsPositions{last_run};
+}
+
+void World::remove(Atom& a) {
+  of_id[static_cast<std::size_t>(a.id)] = -1;
+  a.gone = run_number();
+}
+
+void World::remove(const std::vector<bool>& gone) {
+  for (std::size_t i = 0; i < atoms.size(); ++i)
+    if (gone[i] && there(atoms[i])) remove(atoms[i]);
+  const auto end = [&](auto& list) {
+    for (auto& glue : list)
+      if (glue.gone == always && std::any_of(glue.atoms.begin(), glue.atoms.end(), [&](int i) { return gone[static_cast<std::size_t>(i)]; }))
+        glue.gone = run_number();
+  };
+  end(bonds), end(angles);
+}
+
+}  // namespace elamin::script

@@ -1,0 +1,199 @@
+#pragma once
+// What the commands of a script have built: the box, regions, particles, what glues them, coefficients, and what is in force.
+#include "core/types.hpp"
+#include "lammps/script/words.hpp"
+#include "laws/region.hpp"
+
+#include <array>
+#include <climits>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elamin::script {
+
+/// A place in the files of a script; line 0: none.
+struct Where {
+  int file = 0, line = 0;
+  bool operator==(const Where&) const = default;
+};
+
+constexpr int always = INT_MAX;
+
+/// A particle. Runs are counted from 0: it is there in those from `born` to before `gone`.
+struct Atom {
+  int id = 0, type = 1, molecule = 0;
+  Vec3 x = Vec3::Zero(), start = Vec3::Zero();   // now; where the first run that it is in begins
+  double diameter = 0, density = 0;              // of atom style sphere
+  Vec3 v = Vec3::Zero();
+  std::uint32_t groups = 1;                      // a bit each; the first is all
+  int born = 0, gone = always;
+  bool moved = false;                            // by a run: x is not known
+  bool is_body = false;
+};
+
+template <int N> struct Glue {
+  int type;                                      // from 1
+  std::array<int, N> atoms;                      // indices
+  int born, gone = always;
+};
+
+/// A region: a shape, or several of them together.
+struct ScriptRegion {
+  enum class Kind { shape, unite, intersect } kind = Kind::shape;
+  Region shape;
+  bool inside = true, moves = false;
+  std::vector<std::string> parts;
+  std::string words;                             // as in the script
+  Where where;
+};
+
+/// Coefficients of a bond or angle type; stiffness K or B, rest r₀ or θ₀ [rad].
+struct Coefficient {
+  double stiffness = 0, rest = 0;
+  bool set = false;
+  bool operator==(const Coefficient&) const = default;
+};
+
+/// What a pair_coeff line says of pairs of types i ≤ j.
+struct PairCoefficient {
+  enum class Law { hertz, lj, rounded, none } law = Law::none;
+  std::array<int, 2> first{1, 1}, second{1, 1};  // types, from and to
+  double youngs_modulus = 0, poissons_ratio = 0; // hertz of a material …
+  std::optional<double> effective_modulus;       // … or E_eff itself
+  double epsilon = 0, sigma = 0, cutoff = 0;     // lj
+  double k_n = 0, k_na = 0;                      // rounded
+  std::string damping;                           // keys of [[contact]] for dynamics, lines
+  Where where;
+  std::string text;                              // the command
+  bool covers(int i, int j) const {
+    if (i > j) std::swap(i, j);
+    return first[0] <= i && i <= first[1] && second[0] <= j && j <= second[1];
+  }
+};
+
+struct PairStyle {
+  std::string name;                              // "granular"
+  double cutoff = 0;                             // of lj/cut: global
+  bool shift = false;                            // pair_modify shift yes
+  enum class Mix { geometric, arithmetic, sixthpower } mix = Mix::geometric;
+  double c_n = 0, c_t = 0, mu = 0, delta_ua = 1, cut_inner = 0;   // body/rounded/polyhedron
+  std::string damping;                           // of gran/hertz…, as above
+  double gran_modulus = 0;                       // E_eff of gran/hertz…
+};
+
+/// What pair_style and pair_coeff have said so far.
+struct Pairs {
+  bool hybrid = false;
+  std::vector<PairStyle> styles;
+  std::vector<PairCoefficient> coefficients;
+};
+
+/// A fix that matters to equilibria.
+struct Fix {
+  enum class Kind { integrate, move, hold, gravity, force, wall, viscous, plane, ignored } kind = Kind::ignored;
+  std::string id, style, group;
+  int serial = 0;
+  Where where;
+  std::string text;                              // the command
+  std::array<bool, 3> directions{true, true, true};   // move, hold: which coordinates
+  Vec3 vector = Vec3::Zero();                    // velocity of move; acceleration; force
+  double coefficient = 0;                        // viscous
+  struct Wall { Region region; bool inside = true, curved = true; double effective_modulus = 0; std::string suffix; };
+  std::vector<Wall> walls;
+  std::string damping;                           // keys of [[wall]] for dynamics
+  std::string body;                              // keys of [[wall]] of bodies
+  bool trap_modulus = false;                     // E/(2(1 − ν)) of hertz/material
+};
+
+/// A run or minimisation of more than no steps, and what was in force then.
+struct Run {
+  Where where;
+  std::string text;
+  bool minimize = false;
+  long long steps = 0;
+  double timestep = 0;
+  struct Active { Fix fix; std::vector<int> members; };   // indices of atoms, ascending
+  std::vector<Active> fixes;
+  std::vector<int> atoms;                        // that are there
+  Pairs pairs;
+  std::map<int, Coefficient> bonds, angles;      // of the types in use
+  std::array<double, 3> special_lj{}, special_coul{};
+  double time() const { return static_cast<double>(steps) * timestep; }
+};
+
+/// Glue that delete_bonds has taken away behind a run.
+struct Removal {
+  int run = 0;                                   // from which it is gone
+  bool angles = false;                           // only these; else bonds with the angles over them
+  std::vector<int> members;
+  std::string group, text;
+  Where where;
+};
+
+struct World {
+  // Settings.
+  std::string units = "lj", atom_style = "atomic", bond_style, angle_style, body_style;
+  bool sphere = false, molecular = false, bodies = false;
+  int dimension = 3;
+  std::array<std::string, 3> boundary{"p", "p", "p"};
+  Where boundary_where;
+  double timestep = 0.005;
+  bool timestep_set = false;
+  std::array<double, 3> special_lj{}, special_coul{};
+  double lattice = 1;
+  long long step = 0;
+  double time = 0;
+  // The box.
+  bool has_box = false;
+  Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
+  int atom_types = 0, bond_types = 0, angle_types = 0;
+  // What there is.
+  std::map<std::string, ScriptRegion> regions;
+  std::vector<Atom> atoms;                       // in the order of their making; those gone stay
+  std::vector<int> of_id;                        // index of the one with an id that is there, −1: none
+  std::vector<Glue<2>> bonds;
+  std::vector<Glue<3>> angles;
+  std::vector<std::string> groups{"all"};        // by bit; "": free
+  std::vector<double> mass;                      // by type
+  std::vector<Coefficient> bond_coefficients, angle_coefficients;   // by type from 0
+  Pairs pairs;
+  std::vector<Fix> fixes;
+  int fix_serial = 0;
+  std::string body_file;                         // the data file that bodies are from
+  std::vector<Run> runs;
+  std::vector<Removal> removals;
+  Where last_run;                                // that has moved particles
+  bool unspecial = false;                        // some bonds were made with `special no`
+  std::map<std::string, std::vector<int>> sheets;   // by files of atoms that are called sheet_N: their indices
+
+  int run_number() const { return static_cast<int>(runs.size()); }
+  static bool there(const Atom& a) { return a.gone == always; }
+  /// The bit of a group; throws Wrong at `word` if there is none.
+  int group(const std::string& name, std::size_t word) const;
+  std::optional<int> find_group(const std::string& name) const;
+  bool in(const Atom& a, int group_bit) const { return (a.groups >> group_bit & 1u) != 0; }
+  /// Mass of a particle; 0: not known.
+  double mass_of(const Atom& a) const;
+  /// Where it is. Throws NeedsPositions if a run has moved it.
+  const Vec3& at(const Atom& a) const;
+  /// Whether x is in a region; throws Wrong if there is none of that name.
+  bool matches(const std::string& region, const Vec3& x, std::size_t word, int depth = 0) const;
+  /// Index of the particle with that id; throws Wrong if there is none.
+  int with_id(long long id, std::size_t word) const;
+  /// A new particle with the next id.
+  Atom& create(int type, const Vec3& x);
+  /// Throws NeedsPositions if all of these were there in an earlier run already: glue between them comes with a problem of its own.
+  void new_glue(std::initializer_list<int> indices) const;
+  void remove(const std::vector<bool>& gone);
+  void remove(Atom& a);
+};
+
+/// A command needs to know where particles are that a run has moved.
+struct NeedsPositions {
+  Where run;                                     // which has moved them
+};
+
+}  // namespace elamin::script
