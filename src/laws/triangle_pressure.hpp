@@ -36,7 +36,7 @@ struct TrianglePressure {
   Eigen::Matrix<double, 9, 1> gradient_rate(const Points<3>& x, const TrianglePressure& rate) const { return gradient(x, rate.p); }
 
  private:
-  Vec3 arm(const Points<3>& x, int i) const { return (ExactVector{x.position.col(i), x.tail.col(i)} - ExactVector{tip, Vec3::Zero()}).hi; }
+  Vec3 arm(const Points<3>& x, int i) const { return (ExactVector{x.position.col(i), x.low.col(i)} - ExactVector{tip, Vec3::Zero()}).hi; }
   Eigen::Matrix<double, 9, 1> gradient(const Points<3>& x, double pressure) const {
     Eigen::Matrix<double, 9, 1> g;
     for (int i = 0; i < 3; ++i) {

@@ -19,7 +19,7 @@ class PythonGroup final : public ElementGroup {
   int sites() const override { return law_.sites; }
   std::span<const int> stencil(int element) const override { return law_.elements[element]; }
   bool anchored() const override { return law_.anchored; }
-  bool unpredicted(const State&, const State&, double*) const override { return false; }
+  bool residual_energy(const State&, const State&, double*) const override { return false; }
 
   void values(const State& state, double* value) const override {
     const py::gil_scoped_acquire acquire;
@@ -47,7 +47,7 @@ class PythonGroup final : public ElementGroup {
     double* out = x.mutable_data();
     for (const std::vector<int>& element : law_.elements)
       for (const int p : element) {
-        const Vec3 at = law_.anchored ? Vec3(state.position.col(p) + state.tail.col(p)) : Vec3((state.at(p) - state.at(element[0])).hi);
+        const Vec3 at = law_.anchored ? Vec3(state.position.col(p) + state.low.col(p)) : Vec3((state.at(p) - state.at(element[0])).hi);
         for (int c = 0; c < 3; ++c) *out++ = at[c];
       }
     return x;

@@ -122,8 +122,8 @@ class PathIterator {
   }
 
   Outcome trace_points() {
-    std::optional<StateTail> stored;
-    if (!problem_.path.start.empty()) stored = read_tail(problem_.path.start);
+    std::optional<StateSupplement> stored;
+    if (!problem_.path.start.empty()) stored = read_supplement(problem_.path.start);
     Record record(problem_, system_->model);
     Energy* energy = nullptr;
     std::string stage_name;

@@ -95,7 +95,7 @@ py::array_t<double> body_forces(System& s, const State& state) {
   py::array_t<double> array({static_cast<py::ssize_t>(s.model.bodies.size()), py::ssize_t(6)});
   auto out = array.mutable_unchecked<2>();
   for (int b = 0; b < static_cast<int>(s.model.bodies.size()); ++b)
-    for (int c = 0; c < 3; ++c) out(b, c) = all(c, k.place_of(b)), out(b, 3 + c) = k.lever(b) * all(c, k.turn_of(b));
+    for (int c = 0; c < 3; ++c) out(b, c) = all(c, k.place_of(b)), out(b, 3 + c) = k.characteristic_length(b) * all(c, k.rotation_of(b));
   return array;
 }
 
@@ -112,7 +112,7 @@ Rows both_triangles(const Energy& energy, bool free) {
   Rows out{{}, {}, std::vector<int>(static_cast<std::size_t>(rows) + 1), rows};
   auto& [data, indices, indptr, n] = out;
   std::vector<bool> idle(energy.dofs());
-  for (const int d : energy.idle()) idle[d] = true;    // what stands there keeps grains that fly from flying far; it is no stiffness
+  for (const int d : energy.null_dofs()) idle[d] = true;    // what stands there keeps grains that fly from flying far; it is no stiffness
   int row = 0;
   for (int d = 0; d < energy.dofs(); ++d) {
     for (; row <= at[d]; ++row) indptr[row] = static_cast<int>(data.size());

@@ -4,6 +4,7 @@
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
 #include "input/read.hpp"
+#include "input/stages.hpp"
 #include "results/json.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
@@ -74,13 +75,23 @@ void write_forces(const std::string& file, const Model& model, const Forces& for
     bodies.add(row(model.bodies[b].id, {forces.bodies.col(b), forces.torques.col(b)}));
 }
 
+/// What there is and what is in force as the problem begins: in the first of its stages.
+Model at_start(const Problem& problem) {
+  Model all = model_of(problem);
+  if (problem.stages.empty()) return all;
+  Stages stages(problem);
+  std::string unclear;
+  const Stage first = stages.enter(unclear);
+  return model_in(problem, first, all, all.restart.value_or(all.start));
+}
+
 double largest_column(const Field& f) { return f.cols() ? f.colwise().norm().maxCoeff() : 0.0; }
 
 }  // namespace
 
 int energy_command(const EnergyOptions& options) {
   const Problem problem = read_problem(options.file, options.settings);
-  const Model model = model_of(problem);
+  const Model model = at_start(problem);
   Energy energy(model);
   State state = starting_state(problem, energy);
   if (options.load_factor) energy.kinematics().prescribe(state, *options.load_factor);

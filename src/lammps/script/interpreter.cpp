@@ -181,6 +181,10 @@ class Reader {
 
 }  // namespace
 
+std::string Reading::short_place(const Where& w) const {
+  return std::filesystem::path(files[static_cast<std::size_t>(w.file)]).filename().string() + ":" + std::to_string(w.line);
+}
+
 Reading read_script(const std::string& file, const ReadingOptions& options) { return Reader(file, options).all(); }
 
 void Interpreter::wants(std::size_t least, const std::string& form, std::size_t most) const {
@@ -318,11 +322,11 @@ void Interpreter::begin_file(const std::string& name, std::size_t w, bool return
   const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : root / name;
   if (name.empty() || name.find('\0') != std::string::npos) throw Wrong(w, "a file's name is missing");
   if (!options.include_anywhere) {
-    std::error_code failed;
-    const fs::path whole = fs::weakly_canonical(path, failed);
-    const fs::path base = failed ? fs::path() : fs::weakly_canonical(root.empty() ? fs::path(".") : root, failed);
+    std::error_code unknown;
+    const fs::path whole = fs::weakly_canonical(path, unknown);
+    const fs::path base = unknown ? fs::path() : fs::weakly_canonical(root.empty() ? fs::path(".") : root, unknown);
     const fs::path inner = whole.lexically_relative(base);
-    if (failed || inner.empty() || *inner.begin() == "..")
+    if (unknown || inner.empty() || *inner.begin() == "..")
       throw Wrong(w, in_quotes(name) + " lies outside of the script's folder; --include-anywhere allows that");
   }
   if (frames.size() >= deepest_include) throw Wrong(w, fmt::format("files include each other more than {} deep", deepest_include));

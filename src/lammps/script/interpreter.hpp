@@ -40,6 +40,8 @@ struct Reading {
   std::vector<Told> told;
   std::vector<Note> notes;
   long long commands = 0;
+  /// As comments of a problem file have it: the file's name without its folder, and the line.
+  std::string short_place(const Where& w) const;
   std::string place(const Where& w) const { return files[static_cast<std::size_t>(w.file)] + ":" + std::to_string(w.line); }
 };
 

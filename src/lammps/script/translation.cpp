@@ -74,8 +74,14 @@ class Translation {
     for (char& c : name)
       if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
     if (name.empty()) name = "some";
+    const auto reserved = [](const std::string& w) {
+      return w == "all" || w == "lammps" || (w.starts_with("type") && w.find_first_not_of("0123456789", 4) == std::string::npos);
+    };
+    if (name.size() > 58) name.resize(58);
+    if (!std::isalpha(static_cast<unsigned char>(name[0])) && name[0] != '_') name = "_" + name;
+    if (reserved(name)) name += "_";
     std::string n = name;
-    for (int k = 2; n == "all" || n == "lammps" || n.starts_with("type") || !names_.insert(n).second; ++k) n = fmt::format("{}_{}", name.starts_with("type") ? "of_" + name : name, k);
+    for (int k = 2; !names_.insert(n).second; ++k) n = fmt::format("{}_{}", name, k);
     return n;
   }
 
@@ -248,7 +254,16 @@ class Translation {
   void wall(int k, const Run::Active& a) {
     for (const Fix::Wall& w : a.fix.walls) {
       if (w.effective_modulus == 0 && a.fix.body.empty()) continue;
-      std::string body = fmt::format("group = \"{}\"\n", group_of(a.members, a.fix.group, k)) + region_text(w.region, w.inside);
+      // LAMMPS lets those feel nothing that are on the other side; here they may not be there.
+      Members members;
+      std::copy_if(a.members.begin(), a.members.end(), std::back_inserter(members), [&](int i) {
+        const bool known = k == 0 || atom(i).born == k;
+        return !known || w.region.any_open() || atom(i).is_body || w.region.shape == Shape::plane || w.region.contains(atom(i).start) == w.inside;
+      });
+      const auto beyond = a.members.size() - members.size();
+      if (beyond > 0) note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they are left out of its group", beyond, a.members.size()));
+      if (members.empty()) continue;
+      std::string body = fmt::format("group = \"{}\"\n", beyond > 0 ? group_of(members, a.fix.id + "_inside", k) : group_of(members, a.fix.group, k)) + region_text(w.region, w.inside);
       const bool round = w.region.shape != Shape::plane && w.region.shape != Shape::block;
       if (a.fix.body.empty()) body += fmt::format("effective_modulus = {}\n", w.effective_modulus) + (round ? "effective_radius = \"curved\"\n" : "");
       else body += a.fix.body + (options_.dynamics ? "formulation = \"lammps\"\n" : "");
@@ -441,7 +456,7 @@ class Translation {
                                     group_of(members, "gone", k - 1), stage(k));
     for (const Removal& r : world_.removals)
       if (r.run < runs())
-        presence_text_ += fmt::format("\n[[remove]]                      # {} {}\ngroup = \"{}\"\nfrom_stage = \"{}\"\nwhat = \"{}\"\n", reading_.place(r.where), r.text,
+        presence_text_ += fmt::format("\n[[remove]]                      # {} {}\ngroup = \"{}\"\nfrom_stage = \"{}\"\nwhat = \"{}\"\n", reading_.short_place(r.where), r.text,
                                       group_of(r.members, r.group, r.run), stage(r.run), r.angles ? "angles" : "bonds");
   }
 
@@ -468,7 +483,7 @@ class Translation {
   }
 
   std::string data_text() {
-    const std::string title = "particles of " + reading_.files.front() + ", by elamin import";
+    const std::string title = "particles of " + script_name() + ", by elamin import";
     try {
       return particles_.data(title, stiffer_, options_.dynamics);
     } catch (const Wrong& w) {
@@ -514,7 +529,7 @@ class Translation {
   // The file -------------------------------------------------------------------------------------------------------------------
 
   std::string text() {
-    std::string t = fmt::format("# Written by elamin import from {}", reading_.files.front());
+    std::string t = fmt::format("# Written by elamin import from {}", script_name());
     for (const auto& [name, value] : pass_.loops) t += fmt::format(", {} = {}", name, value);
     t += fmt::format(". Units: {}.\ntitle = \"{}\"\n", world_.units, title());
     int plane = flat();
@@ -546,17 +561,22 @@ class Translation {
     return r;
   }
 
+  std::string script_name() const {
+    const std::string name = reading_.short_place({0, 1});
+    return escaped(name.substr(0, name.rfind(':')));
+  }
+
   std::string title() const {
-    std::string name = reading_.files.front();
+    std::string name = script_name();
     for (const auto& [n, value] : pass_.loops) name += ", " + n + " = " + value;
-    return escaped(name);
+    return name;
   }
 
   std::string table_text(const Table& t, int number) {
     std::string comment = t.comment;
     if (comment.size() > 100) comment = comment.substr(0, 97) + "...";
     while (!comment.empty() && (static_cast<unsigned char>(comment.back()) & 0xC0) == 0x80) comment.pop_back();
-    std::string text = fmt::format("# {} {}\n[[{}]]\n", reading_.place(t.where), comment, t.kind);
+    std::string text = fmt::format("# {} {}\n[[{}]]\n", reading_.short_place(t.where), comment, t.kind);
     if (!t.name.empty()) text += fmt::format("name = \"{}\"\n", t.name);
     text += t.body;
     if (!staged() || !t.staged) return text;
@@ -573,14 +593,14 @@ class Translation {
     if (options_.dynamics) {
       const Run& run = world_.runs.front();
       if (!start_from.empty()) t += fmt::format("\n[path]\nstart = \"{}\"\n", escaped(start_from));
-      t += fmt::format("\n# {} {}\n[study]\ntype = \"dynamics\"\n\n[dynamics]\n", reading_.place(run.where), run.text);
+      t += fmt::format("\n# {} {}\n[study]\ntype = \"dynamics\"\n\n[dynamics]\n", reading_.short_place(run.where), run.text);
       if (run.minimize) return t + "relax = true\nsteps = 1000000\n" + observations();
       return t + fmt::format("timestep = {}\nsteps = {}\nevery = {}\nallow_unstable = true           # the script's timestep, whatever it is\n", run.timestep,
                              std::min(run.steps, 2000000000LL), std::max(1LL, run.steps / 100)) + observations();
     }
     if (!staged()) {
       const Run& run = world_.runs.front();
-      t += fmt::format("\n# {} {}\n", reading_.place(run.where), run.text);
+      t += fmt::format("\n# {} {}\n", reading_.short_place(run.where), run.text);
       if (driven_.front()) t += fmt::format("[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\nwhen_unstable = \"jump\"\n", run.time());
       else t += "[study]\ntype = \"equilibrium\"\n";
       return t + observations();
@@ -589,7 +609,7 @@ class Translation {
     double at = 0;
     for (int k = 0; k < runs(); ++k) {
       const Run& run = world_.runs[static_cast<std::size_t>(k)];
-      t += fmt::format("\n# {} {}\n[[stage]]\nname = \"{}\"\n", reading_.place(run.where), run.text, stage(k));
+      t += fmt::format("\n# {} {}\n[[stage]]\nname = \"{}\"\n", reading_.short_place(run.where), run.text, stage(k));
       if (const auto off = off_.find(k); off != off_.end()) t += fmt::format("off = {}\n", list_of(off->second));
       if (!driven_[static_cast<std::size_t>(k)]) {
         t += "from = 0\nto = 1\nsteps = 1\n";
