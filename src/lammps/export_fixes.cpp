@@ -60,7 +60,7 @@ class FixMaker {
     for (const Viscosity& v : m_.viscosity)
       if (!v.particles.empty() && v.coefficient != 0)
         fixes_.push_back({"drag", v.particles, "viscous " + lammps_number(v.coefficient), {}, {}, "drag, a force of minus this times the velocity"});
-    for (const Pressure& p : m_.pressures) refused_.push_back(fmt::format("pressure on '{}': LAMMPS has no force that stays normal to a row", p.loop));
+    for (const Pressure& p : m_.pressures) refused_.push_back(fmt::format("pressure on '{}': LAMMPS has no force that stays normal to a row or a sheet", p.of));
     for (const Change& c : m_.changes) refused_.push_back(fmt::format("change of '{}': coefficients that vary with the load factor", c.group));
     return std::move(fixes_);
   }

@@ -20,7 +20,7 @@ struct AtomRow {
   bool is_body = false;
   double mass = 0;                                                 // of a body
 };
-struct VelocityRow { int line, id; Vec3 velocity, spin; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
+struct VelocityRow { int line, id; Vec3 velocity, angular_velocity; bool long_row = false; };   // of bodies the angular momentum; four or seven columns
 struct CoefficientRow { int line, type; double stiffness, rest; int digits = 0; };   // rest length, or rest angle [rad]; digits written
 using TypeLabels = std::map<std::string, int, std::less<>>;      // types from 1
 struct MassRow { int line, type; double mass; };

@@ -35,7 +35,7 @@ py::tuple parts(const State& s) {
 
 State from_parts(const py::tuple& t) {
   State s(field_of(t[0].cast<py::array_t<double>>(), -1, "x"));
-  s.low = field_of(t[1].cast<py::array_t<double>>(), s.particles(), "tail");
+  s.low = field_of(t[1].cast<py::array_t<double>>(), s.particles(), "low");
   s.load_factor = t[2].cast<double>();
   for (const py::handle h : t[3]) {
     const auto n = h.cast<std::array<double, 10>>();
@@ -54,7 +54,7 @@ void add_states(py::module_& module) {
   py::class_<State>(module, "State", "Where everything is, to about 32 digits, and the load factor.")
       .def_property_readonly("x", [](const py::object& self) { return view(self.cast<const State&>().position, self); },
                              "Positions of the particles (n, 3) [length]: a view of the state, read-only.")
-      .def_property_readonly("tail", [](const py::object& self) { return view(self.cast<const State&>().low, self); },
+      .def_property_readonly("low", [](const py::object& self) { return view(self.cast<const State&>().low, self); },
                              "What the rounding of x left out (n, 3) [length].")
       .def_property_readonly("bodies", &poses, "Of the rigid bodies position and quaternion w, x, y, z (b, 7).")
       .def_readonly("load_factor", &State::load_factor)

@@ -120,7 +120,7 @@ def test_states_keep_all_digits():
     step = list(p.path())[-1]
     state = pickle.loads(pickle.dumps(step.state))
     assert p.energy(state) == step.energy == p.energy(step)
-    assert (state.tail == step.state.tail).all() and np.abs(state.tail).max() > 0
+    assert (state.low == step.state.low).all() and np.abs(state.low).max() > 0
     assert (p.forces(step) == step.forces).all()
     moved = state.at_load_factor(0)
     assert moved.load_factor == 0 and state.load_factor == step.load_factor

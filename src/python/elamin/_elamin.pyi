@@ -35,7 +35,7 @@ class State:
     def x(self) -> Floats:
         """Positions of the particles (n, 3) [length]: a view of the state, read-only."""
     @property
-    def tail(self) -> Floats:
+    def low(self) -> Floats:
         """What the rounding of x left out (n, 3) [length]."""
     @property
     def bodies(self) -> Floats:
