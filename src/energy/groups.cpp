@@ -159,7 +159,7 @@ std::unique_ptr<ElementGroup> sheet_pressure_group(const Model& model) {
     for (const auto& triangle : model.pressures[k].triangles) kind.push_back(static_cast<int>(k)), stencils.push_back(triangle);
   if (kind.empty()) return std::make_unique<LawGroup<TrianglePressure>>(std::vector<TrianglePressure>{}, kind, stencils);
   const auto course = [&model](const State& state) {
-    Course<TrianglePressure> now;
+    Schedule<TrianglePressure> now;
     for (const Pressure& p : model.pressures) {
       now.laws.push_back({p.scaling.at(state.load_factor) * p.pressure, p.tip});
       now.rates.push_back({p.scaling.rate * p.pressure, p.tip});
