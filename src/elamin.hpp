@@ -14,4 +14,5 @@
 #include "model/sheet.hpp"
 #include "path/path.hpp"
 #include "solve/method.hpp"
+#include "study/imperfection.hpp"
 #include "study/run.hpp"

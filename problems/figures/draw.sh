@@ -32,7 +32,8 @@ truss_low . --x height --y lambda --shapes initial,limit:1,final
 truss_tall . --x height --y lambda --shapes initial,branch:1+mode,final
 truss_spring 1 --x height --y force --shapes initial,final
 truss_three_bars . --no-diagram --shapes final
-chain_hanging . --no-diagram --shapes initial,final
+chain_hanging . --no-diagram --shapes final
+helix_spring 1 --no-diagram --shapes final
 spiral_spring . --no-diagram --shapes final
 lee_frame 1 --x v --y lambda --shapes initial,limit:1,limit:2,final
 williams_toggle 1 --x w --y lambda --shapes initial,limit:1,final

@@ -22,7 +22,8 @@ enum Place { bonds, angles = 2, contacts = 4, cohesion = 6, walls = 8, body_part
 constexpr double EnergyTerms::*term_at[places]{
     &EnergyTerms::bond,     &EnergyTerms::bond,     &EnergyTerms::angle, &EnergyTerms::angle, &EnergyTerms::contact, &EnergyTerms::contact,
     &EnergyTerms::cohesion, &EnergyTerms::cohesion, &EnergyTerms::wall,  &EnergyTerms::wall,  &EnergyTerms::body,    &EnergyTerms::body,
-    &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external};
+    &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external,
+    &EnergyTerms::external, &EnergyTerms::external};
 
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, rotation or overlap of order one.
 double stiffest(const Model& model) {

@@ -300,7 +300,7 @@ void check_glued(const Problem& problem, const Model& model, Mistakes& mistakes)
     for (const auto& table : tables) {
       const auto& names = [&] {
         if constexpr (requires { table.between; }) return std::vector<std::string>(table.between.begin(), table.between.end());
-        else if constexpr (requires { table.loop; }) return std::vector<std::string>{table.loop};
+        else if constexpr (requires { table.loop; }) return std::vector<std::string>{table.loop ? *table.loop : table.sheet.value_or("")};
         else return std::vector<std::string>{table.group};
       }();
       if (table.place.broken || std::find(names.begin(), names.end(), name) == names.end()) continue;

@@ -41,8 +41,9 @@ struct AnglesTable {
   TablePlace place;
   std::string from_stage;
   std::optional<std::vector<std::vector<int>>> triples;
-  std::string file, over;
-  double least = 0;                             // [degrees]
+  std::string file;
+  std::optional<std::string> over;
+  std::optional<double> least;                  // [degrees]
   std::optional<double> angle_stiffness;
   Rest rest{true, 180};
   bool operator==(const AnglesTable&) const = default;

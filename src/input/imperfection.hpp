@@ -9,14 +9,15 @@ enum class Distribution { uniform, normal };
 
 struct ImperfectionTable {
   TablePlace place;
-  std::vector<int> modes;                        // either these …
-  std::vector<double> amplitudes;
-  std::string run, at;
+  std::optional<std::vector<int>> modes;         // either these …
+  std::optional<std::vector<double>> amplitudes;
+  std::string run;
+  std::optional<std::string> at;
   std::string state;                             // … or this …
-  double scale = 1;
+  std::optional<double> scale;
   std::optional<double> random;                  // … or this
   std::optional<int> seed;
-  Distribution distribution = Distribution::uniform;
+  std::optional<Distribution> distribution;
   std::string group = "all";
   bool stress_free = true;
   bool operator==(const ImperfectionTable&) const = default;

@@ -93,10 +93,16 @@ class ContactBuilder {
     c.first = std::move(particles[0]), c.second = std::move(particles[1]);
     const int bonds = connect(model_, c);
     if (bonds > 0) return true;
-    const std::string which = fmt::format("no particle of \"{}\" is within {} of one of \"{}\" that it is not bonded to already", t.between[1],
-                                          t.within.value_or(0), t.between[0]);
-    if (!t.within) mistakes_.add(t.place, "rule", bonds < 0 ? "has more pairs to look at than can be; give within" : "makes no bond: there is none to bond");
-    else mistakes_.add(t.place, "within", bonds < 0 ? fmt::format("makes more bonds than can be handled, {}; make it smaller", *t.within) : "makes no bond: " + which);
+    if (!t.within) {
+      mistakes_.add(t.place, "rule", bonds < 0 ? "has more pairs to look at than can be; give within" : "makes no bond: there is none to bond");
+      return false;
+    }
+    mistakes_.add(t.place, "within",
+                  bonds < 0
+                      ? fmt::format("makes more bonds than can be handled, {}; make it smaller", *t.within)
+                      : fmt::format("makes no bond: no particle of \"{}\" is within {} of one of \"{}\" that it is "
+                                    "not bonded to already",
+                                    t.between[1], *t.within, t.between[0]));
     return false;
   }
 
@@ -114,8 +120,8 @@ class ContactBuilder {
   }
 
   bool add(const AnglesTable& t, bool now) {
-    const Members* over = t.place.broken || t.over.empty() ? nullptr : groups_.find(t.place, "over", t.over);
-    if (t.place.broken || (!over && !t.over.empty())) return false;
+    const Members* over = t.place.broken || !t.over ? nullptr : groups_.find(t.place, "over", *t.over);
+    if (t.place.broken || (!over && t.over)) return false;
     const std::size_t before = mistakes_.list().size();
     if (!now && over) return true;                      // of bonds that are not there yet
     const std::vector<NewAngle> angles = listed_angles(t, over ? over->particles : std::vector<int>{}, model_, mistakes_);
@@ -234,7 +240,7 @@ class CheckInteractions {
     check_listed(t, mistakes_);
   }
   void check(AnglesTable& t) {
-    if (!t.over.empty()) names_.refer(t.place, "over", t.over);
+    if (t.over) names_.refer(t.place, "over", *t.over);
     check_listed(t, mistakes_);
   }
 

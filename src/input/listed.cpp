@@ -33,7 +33,8 @@ std::vector<ListedRow> rows_of(const TablePlace& place, const char* key, const s
     const auto written = place.keys.find(key);
     const Place at = written == place.keys.end() ? Place{place} : written->second;
     for (const std::vector<int>& numbers : *list)
-      rows.push_back({{numbers.begin(), numbers.end()}, none, none, {at.line > 0 ? mistakes.file() : "--set", at.line, at.column, place.key + "." + key, {}}});
+      rows.push_back({{numbers.begin(), numbers.end()}, none, none,
+                      {at.line > 0 ? mistakes.file() : "--set", at.line, at.column, place.key + "." + key, {}}});
     return rows;
   }
   try {
@@ -53,7 +54,8 @@ std::vector<ListedRow> rows_of(const TablePlace& place, const char* key, const s
 /// Looks up particles and tells of what is wrong with a row, of so many rows at most.
 class Finder {
  public:
-  Finder(const Model& model, const std::array<std::vector<int>, 2>* sides, Mistakes& mistakes) : model_(model), sides_(sides), mistakes_(mistakes) {
+  Finder(const Model& model, const std::array<std::vector<int>, 2>* sides, Mistakes& mistakes)
+      : model_(model), sides_(sides), mistakes_(mistakes) {
     for (int i = 0; i < model.particles(); ++i) index_[model.id[i]] = i;
   }
 
@@ -70,8 +72,7 @@ class Finder {
       }
       const auto found = number == std::trunc(number) && std::abs(number) < 2e9 ? index_.find(static_cast<int>(number)) : index_.end();
       if (found == index_.end())
-        return wrong(row, index_.empty() ? "there is no particle" : fmt::format("{} is no id of a particle; there are {} to {}", number, index_.begin()->first,
-                                                                                index_.rbegin()->first));
+        return wrong(row, fmt::format("{} is no id of a particle; there are {} to {}", number, index_.begin()->first, index_.rbegin()->first));
       particles[k] = found->second;
     }
     for (std::size_t k = 1; k < n; ++k)
@@ -126,11 +127,13 @@ std::vector<NewBond> listed_bonds(const BondsTable& t, const std::array<std::vec
     const bool own = !std::isnan(row.stiffness);
     if (own) b.stiffness = row.stiffness;
     else b.stiffness = t.bond_stiffness.value_or(0), b.axial_stiffness = t.axial_stiffness.value_or(0);
-    if (there.count(std::minmax(i, j))) finder.wrong(row, fmt::format("{} are bonded already", names));
-    else if (!mine.insert(std::minmax(i, j)).second) finder.wrong(row, fmt::format("{} are there twice; once is enough", names));
-    else if (!(b.stiffness > 0) && !(b.axial_stiffness > 0)) finder.wrong(row, "its stiffness is missing or not positive; give bond_stiffness, here or in the table");
-    else if (b.rest_length < 0 || (!std::isnan(row.rest) && row.rest == 0)) finder.wrong(row, fmt::format("rest_length must be a positive number, is {}", row.rest));
-    else if (b.rest_length == 0 && model.start.position.col(i) == model.start.position.col(j)) finder.wrong(row, fmt::format("{} are in the same place; give rest_length", names));
+    const auto refuse = [&](const std::string& what) { finder.wrong(row, what); };
+    const bool stiff = b.stiffness > 0 || b.axial_stiffness > 0, in_one_place = model.start.position.col(i) == model.start.position.col(j);
+    if (there.count(std::minmax(i, j))) refuse(names + " are bonded already");
+    else if (!mine.insert(std::minmax(i, j)).second) refuse(names + " are there twice; once is enough");
+    else if (!stiff) refuse("its stiffness is missing or not positive; give bond_stiffness, here or in the table");
+    else if (b.rest_length < 0 || row.rest == 0) refuse(fmt::format("rest_length must be a positive number, is {}", row.rest));
+    else if (b.rest_length == 0 && in_one_place) refuse(names + " are in the same place; give rest_length");
     else bonds.push_back(b);
   }
   return bonds;
@@ -139,10 +142,11 @@ std::vector<NewBond> listed_bonds(const BondsTable& t, const std::array<std::vec
 std::vector<NewAngle> listed_angles(const AnglesTable& t, const std::vector<int>& over, const Model& model, Mistakes& mistakes) {
   const double rest = t.rest.as_built ? -1 : rest_angle(t.rest, pi), stiffness = t.angle_stiffness.value_or(0);
   std::vector<NewAngle> angles;
-  if (!t.over.empty()) {
-    for (const auto& triple : meeting_bonds(model, over, t.least * pi / 180)) angles.push_back({triple, stiffness, rest});
+  if (t.over) {
+    for (const auto& triple : meeting_bonds(model, over, t.least.value_or(0) * pi / 180)) angles.push_back({triple, stiffness, rest});
     if (angles.empty())
-      mistakes.add(t.place, "over", fmt::format("no two bonds meet in \"{}\"{}", t.over, t.least > 0 ? fmt::format(" at {} degrees or more", t.least) : ""));
+      mistakes.add(t.place, "over", fmt::format("no two bonds meet in \"{}\"{}", *t.over,
+                                                t.least ? fmt::format(" at {} degrees or more", *t.least) : ""));
     return angles;
   }
   Finder finder(model, nullptr, mistakes);
@@ -150,9 +154,12 @@ std::vector<NewAngle> listed_angles(const AnglesTable& t, const std::vector<int>
     NewAngle a{{}, given(row.stiffness, t.angle_stiffness), rest};
     if (!std::isnan(row.rest)) a.rest = row.rest == 180 ? pi : row.rest * pi / 180;
     if (!finder.find(row, a.particles)) continue;
-    if (!(a.stiffness > 0)) finder.wrong(row, "its stiffness is missing or not positive; give angle_stiffness, here or in the table");
-    else if (!std::isnan(row.rest) && !(row.rest >= 0 && row.rest <= 180)) finder.wrong(row, fmt::format("rest must be an angle of 0 to 180 degrees, is {}", row.rest));
-    else angles.push_back(a);
+    if (!(a.stiffness > 0))
+      finder.wrong(row, "its stiffness is missing or not positive; give angle_stiffness, here or in the table");
+    else if (row.rest < 0 || row.rest > 180)
+      finder.wrong(row, fmt::format("rest must be an angle of 0 to 180 degrees, is {}", row.rest));
+    else
+      angles.push_back(a);
   }
   return angles;
 }

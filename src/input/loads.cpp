@@ -86,13 +86,13 @@ void check_load(const Problem& problem, LoadTable& l, Mistakes& mistakes) {
 }
 
 void check_pressure(const Problem& problem, PressureTable& p, Mistakes& mistakes) {
-  const auto is_one = [&](const char* key, const std::string& name, const auto& tables) {
-    if (!p.place.written(key) || (name.empty() && p.place.broken)) return;
+  const auto is_one = [&](const char* key, const std::optional<std::string>& name, const auto& tables) {
+    if (!name) return;
     std::vector<std::string> names;
     for (const auto& t : tables) names.push_back(t.name);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      mistakes.add(p.place, key, in_quotes(name) + " is no [[" + key + "]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
-                                     did_you_mean(name, names));
+    if (std::find(names.begin(), names.end(), *name) == names.end())
+      mistakes.add(p.place, key, in_quotes(*name) + " is no [[" + key + "]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
+                                     did_you_mean(*name, names));
   };
   is_one("loop", p.loop, problem.loops);
   is_one("sheet", p.sheet, problem.sheets);
@@ -229,7 +229,7 @@ void set_velocity(const Problem& problem, const VelocityTable& table, const Memb
 /// Triangles of a sheet, the forces on its rim, and whether all of that is held; else it is told who is not.
 void press_sheet(const PressureTable& table, const SheetTable& sheet, const Structure& s, Model& model, const Scaling& scaling, Mistakes& mistakes) {
   const bool round = sheet.shape == SheetShape::cylinder;
-  Pressure p{table.sheet, {}, unit(sheet.normal), table.pressure, scaling, lattice_triangles(model, s, sheet.center, unit(sheet.normal), round),
+  Pressure p{*table.sheet, {}, unit(sheet.normal), table.pressure, scaling, lattice_triangles(model, s, sheet.center, unit(sheet.normal), round),
              sheet.center, {}};
   p.particles.resize(s.count);
   std::iota(p.particles.begin(), p.particles.end(), s.first);
@@ -242,10 +242,10 @@ void press_sheet(const PressureTable& table, const SheetTable& sheet, const Stru
     p.rim.col(i - s.first) += force, p.rim.col(j - s.first) += force;
     if (held[i]) continue;
     mistakes.add(table.place, "sheet", fmt::format("the rim of \"{}\" must be held in all directions, and {} is not: a pressure on an edge that moves "
-                                                   "has no energy", table.sheet, called(model, i)));
+                                                   "has no energy", *table.sheet, called(model, i)));
     return;
   }
-  if (p.triangles.empty()) return mistakes.add(table.place, "sheet", in_quotes(table.sheet) + " has no triangles to press on");
+  if (p.triangles.empty()) return mistakes.add(table.place, "sheet", in_quotes(*table.sheet) + " has no triangles to press on");
   model.pressures.push_back(std::move(p));
 }
 
@@ -253,15 +253,16 @@ void add_pressures(const Problem& problem, Model& model, Mistakes& mistakes) {
   for (std::size_t t = 0; t < problem.pressures.size(); ++t) {
     const PressureTable& table = problem.pressures[t];
     const Scaling scaling = scaling_of(problem, condition_of("pressure", problem.pressures, t));
-    const auto named = [](const std::string& name) { return [&name](const auto& one) { return one.name == name; }; };
-    const auto built = [&](const char* kind, const std::string& name) {
+    using Name = std::optional<std::string>;
+    const auto named = [](const Name& name) { return [&name](const auto& one) { return one.name == name; }; };
+    const auto built = [&](const char* kind, const Name& name) {
       return std::find_if(model.structures.begin(), model.structures.end(), [&](const Structure& s) { return s.kind == kind && s.name == name; });
     };
     const auto loop = std::find_if(problem.loops.begin(), problem.loops.end(), named(table.loop));
     const auto sheet = std::find_if(problem.sheets.begin(), problem.sheets.end(), named(table.sheet));
     if (table.place.broken) continue;
     if (const auto s = built("loop", table.loop); loop != problem.loops.end() && s != model.structures.end()) {
-      Pressure p{table.loop, {}, unit(loop->normal), table.pressure, scaling};
+      Pressure p{*table.loop, {}, unit(loop->normal), table.pressure, scaling};
       for (int i = 0; i < s->count; ++i) p.particles.push_back(s->first + i);
       model.pressures.push_back(std::move(p));
     }

@@ -28,7 +28,8 @@ struct GravityTable {
 
 struct PressureTable {
   TablePlace place;
-  std::string name, loop, sheet;                // on one of these
+  std::string name;
+  std::optional<std::string> loop, sheet;       // on one of these
   double pressure = 0;
   bool constant = false;
   std::string from_stage;

@@ -259,26 +259,30 @@ void Reader::numbers(NamedNumbers& list) {
 }
 
 bool Reader::read(const Key& key, const Node& node, int& value) {
-  const std::string what = wanted(key, &value);
-  const bool literal = std::holds_alternative<std::int64_t>(node.value), expression = std::holds_alternative<std::string>(node.value);
-  if (!literal && !expression) return wrong(key, node, what);
+  const auto inside_range = [&](double x) {
+    return x >= std::max<double>(key.range.lo, std::numeric_limits<int>::min()) && x <= std::min<double>(key.range.hi, std::numeric_limits<int>::max());
+  };
+  std::optional<double> x;
   std::string is;
-  std::optional<double> x = number(key, node, what, is);
-  if (!x) return false;
-  if (expression) x = nearly_integer(*x);
-  const bool inside_range = x && *x >= std::max<double>(key.range.lo, std::numeric_limits<int>::min()) &&
-                            *x <= std::min<double>(key.range.hi, std::numeric_limits<int>::max());
-  if (!inside_range) return wrong(key, node, what, is);
+  if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+    x = static_cast<double>(*integer);
+  } else if (std::holds_alternative<std::string>(node.value)) {
+    if (!(x = number(key, node, wanted(key, &value), is))) return false;
+    x = nearly_integer(*x);
+  }
+  if (!x || !inside_range(*x)) return wrong(key, node, wanted(key, &value), is.empty() ? shown(node) : is);
   value = static_cast<int>(*x);
   return true;
 }
 
 bool Reader::read(const Key& key, const Node& node, double& value) {
+  std::optional<double> x;
   std::string is;
-  const std::optional<double> x = number(key, node, wanted_number(key.range), is);
-  if (!x) return false;
+  if (const auto* integer = std::get_if<std::int64_t>(&node.value)) x = static_cast<double>(*integer);
+  else if (const auto* real = std::get_if<double>(&node.value)) x = *real;
+  else if (!(x = number(key, node, wanted_number(key.range), is))) return false;
   const bool inside_range = (key.range.above ? *x > key.range.lo : *x >= key.range.lo) && *x <= key.range.hi;   // false for nan
-  if (!inside_range) return wrong(key, node, wanted_number(key.range), is);
+  if (!inside_range) return wrong(key, node, wanted_number(key.range), is.empty() ? shown(node) : is);
   value = *x;
   return true;
 }
@@ -324,9 +328,9 @@ bool Reader::read(const Key& key, const Node& node, Rest& value) {
     return true;
   }
   std::string is;
-  const std::optional<double> degrees = number(key, node, wanted(key, &value), is);
+  if (!number(key, node, wanted(key, &value), is)) return false;
   value.as_built = false;
-  return degrees && read(key, node, value.degrees);
+  return read(key, node, value.degrees);
 }
 
 bool Reader::read(const Key& key, const Node& node, std::vector<std::string>& values) {

@@ -159,7 +159,7 @@ std::string connect_in(const Problem& problem, int stage, Model& all, const Stat
   }
   for (const AnglesTable& t : problem.angles) {
     if (!begins(t)) continue;
-    std::vector<NewAngle> angles = listed_angles(t, members(t.over, true), all, told);
+    std::vector<NewAngle> angles = listed_angles(t, members(t.over.value_or(""), true), all, told);
     std::erase_if(angles, gone);
     add_angles(all, angles);
   }

@@ -2,11 +2,11 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "study/imperfection.hpp"
 #include "input/read.hpp"
 #include "report/shape_data.hpp"
 #include "results/expectations.hpp"
 #include "study/check_command.hpp"
+#include "study/imperfection.hpp"
 
 #include <filesystem>
 

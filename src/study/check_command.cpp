@@ -6,6 +6,7 @@
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace elamin {
 
@@ -39,6 +40,11 @@ std::string describe(const Problem& problem, const Model& model) {
   std::string text = fmt::format("{} particles, {}{} bonds, {} angles, {} free dofs{}\n", model.particles(),
                                  model.bodies.empty() ? "" : fmt::format("{} bodies, ", model.bodies.size()), model.bonds.size(),
                                  model.angles.size(), energy.dofs(), problem.plane.empty() ? "" : ", plane " + problem.plane);
+  if (problem.constants) {
+    std::vector<std::string> numbers;
+    for (const auto& [name, value] : problem.constants->numbers) numbers.push_back(fmt::format("{} = {:.10g}", name, value));
+    text += fmt::format("constants: {}\n", fmt::join(numbers, ", "));
+  }
   text += describe_structures(problem, model, energy.kinematics());
   for (const std::string& note : lammps_remarks(problem).notes) text += "note: " + note + "\n";
   if (problem.imperfection)

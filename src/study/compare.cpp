@@ -1,6 +1,5 @@
 #include "study/compare.hpp"
 
-#include "study/imperfection.hpp"
 #include "core/error.hpp"
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
@@ -11,6 +10,7 @@
 #include "input/read.hpp"
 #include "results/progress.hpp"
 #include "results/summary.hpp"
+#include "study/imperfection.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
 

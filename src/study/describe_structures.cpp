@@ -179,7 +179,8 @@ std::string describe_connection(const ConnectTable& t, const Model& model) {
     const auto [i, j] = b.particles;
     const bool joins = (member[0][i] && member[1][j]) || (member[0][j] && member[1][i]);
     const BondType& type = model.bond_types[b.type];
-    const bool stiff = t.bond_stiffness ? type.stiffness == *t.bond_stiffness : std::abs(2 * type.stiffness * type.rest_length / *t.axial_stiffness - 1) < 1e-12;
+    const bool stiff = t.bond_stiffness ? type.stiffness == *t.bond_stiffness
+                                        : std::abs(2 * type.stiffness * type.rest_length / *t.axial_stiffness - 1) < 1e-12;
     if (!joins || structure[i] == structure[j] || !stiff) continue;
     lengths.add(model.bond_types[b.type].rest_length);
     ++bonds;
@@ -211,8 +212,10 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     if (t.rule) text += describe_connection(by_rule(t), model);
     else text += fmt::format("bonds: {}\n", t.pairs ? fmt::format("{} of a list", t.pairs->size()) : "those of " + t.file);
   for (const AnglesTable& t : problem.angles)
-    text += fmt::format("angles: {}{}\n", t.triples ? fmt::format("{} of a list", t.triples->size()) : t.over.empty() ? "those of " + t.file
-                                                                                                 : "over the bonds that meet in '" + t.over + "'",
+    text += fmt::format("angles: {}{}\n",
+                        t.triples ? fmt::format("{} of a list", t.triples->size())
+                        : !t.over ? "those of " + t.file
+                                         : "over the bonds that meet in '" + *t.over + "'",
                         t.angle_stiffness ? fmt::format(", B = {:.10g}", *t.angle_stiffness) : "");
   for (const GlueTable& t : problem.glue)
     for (const Group& g : model.groups)

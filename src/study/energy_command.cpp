@@ -1,11 +1,11 @@
 #include "study/energy_command.hpp"
 
-#include "study/imperfection.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
 #include "input/read.hpp"
 #include "input/stages.hpp"
 #include "results/json.hpp"
+#include "study/imperfection.hpp"
 #include "study/run.hpp"
 #include "study/trace.hpp"
 

@@ -33,8 +33,8 @@ std::vector<Field> own_modes(const Problem& problem, const Model& model, int cou
 std::vector<Field> stored_modes(const ImperfectionTable& t, const Model& model, int count) {
   const std::filesystem::path run(t.run);
   std::vector<Field> shapes;
-  if (!t.at.empty()) {
-    std::string label = t.at;
+  if (t.at) {
+    std::string label = *t.at;
     std::replace(label.begin(), label.end(), ':', '-');
     shapes = read_displacements((run / "states" / (label + ".modes.csv")).string(), model);
   } else {
@@ -63,7 +63,7 @@ Field random_field(const ImperfectionTable& t, const Model& model) {
   for (int p = 0; p < model.particles(); ++p)
     for (int c = 0; c < 3; ++c) {
       const double u = uniform();
-      by(c, p) = *t.random * (t.distribution == Distribution::uniform ? 2 * u - 1 : std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * uniform()));
+      by(c, p) = *t.random * (t.distribution != Distribution::normal ? 2 * u - 1 : std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * uniform()));
     }
   return by;
 }
@@ -74,8 +74,8 @@ class Maker {
 
   void make() {
     Field by = Field::Zero(3, model_.particles());
-    if (!t_.modes.empty()) add_modes(by);
-    else if (!t_.state.empty()) by = t_.scale * (stored_state().position - model_.start.position);
+    if (t_.modes) add_modes(by);
+    else if (!t_.state.empty()) by = t_.scale.value_or(1) * (stored_state().position - model_.start.position);
     else by = random_field(t_, model_);
     mistakes_.raise();
     keep_still(by);
@@ -89,20 +89,20 @@ class Maker {
 
  private:
   void add_modes(Field& by) {
-    const int count = *std::max_element(t_.modes.begin(), t_.modes.end());
+    const int count = *std::max_element(t_.modes->begin(), t_.modes->end());
     std::vector<Field> shapes;
     try {
       shapes = t_.run.empty() ? own_modes(p_, model_, count) : stored_modes(t_, model_, count);
     } catch (const InputError& e) {
       return mistakes_.add(e.mistakes());
     }
-    for (std::size_t k = 0; k < t_.modes.size(); ++k) {
-      const std::size_t mode = static_cast<std::size_t>(t_.modes[k]);
+    for (std::size_t k = 0; k < t_.modes->size(); ++k) {
+      const std::size_t mode = static_cast<std::size_t>((*t_.modes)[k]);
       if (mode > shapes.size()) {
-        const std::string where = t_.run.empty() ? "the structure" : t_.at.empty() ? in_quotes(t_.run) : t_.at + " of " + in_quotes(t_.run);
+        const std::string where = t_.run.empty() ? "the structure" : !t_.at ? in_quotes(t_.run) : *t_.at + " of " + in_quotes(t_.run);
         return mistakes_.add(t_.place, "modes", fmt::format("there is no mode {}: {} has {}", mode, where, shapes.size()));
       }
-      by += t_.amplitudes[k] * unit_mode(shapes[mode - 1]);
+      by += (*t_.amplitudes)[k] * unit_mode(shapes[mode - 1]);
     }
   }
 

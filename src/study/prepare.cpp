@@ -1,9 +1,9 @@
 #include "study/prepare.hpp"
 
-#include "study/imperfection.hpp"
 #include "input/check.hpp"
 #include "input/read.hpp"
 #include "input/tables.hpp"
+#include "study/imperfection.hpp"
 
 #include <fmt/format.h>
 

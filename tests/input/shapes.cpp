@@ -92,8 +92,8 @@ TEST_CASE("Tables of commas that are wrong are told with their lines") {
   CHECK(said("diameter\n1\n2\n", values) == "8:10: beam.b.values: has 2 rows, and \"b\" has 3 particles; give a row for each");
   CHECK(said("1\n2\n3\n", values).find("1:1: \"1\" is no column of this table; there are: diameter, density") == 0);
   CHECK(said("diameter,bond_stiffness,angle_stiffness\n-1,1,1\n1,0,1\n1,1,\n", values) ==
-        "2:1: angle_stiffness: particle 1 of \"b\" has no angle over it; leave the cell empty\n"
         "2:1: diameter: must be a positive number, is -1\n"
+        "2:1: angle_stiffness: particle 1 of \"b\" has no angle over it; leave the cell empty\n"
         "3:1: bond_stiffness: must be a positive number, is 0\n"
         "4:1: bond_stiffness: particle 3 of \"b\" has no bond behind it; leave the cell empty");
 
