@@ -55,6 +55,7 @@ plate_post_buckling 1 --y force --shapes final
 disc_clamped . --no-diagram --shapes branch:1+mode
 disc_hinged . --no-diagram --shapes branch:1+mode
 plate_pressure 1 --no-diagram --shapes final
+tube_pressure . --no-diagram --shapes final
 sheet_indented . --x deflection --y force --shapes final
 confined_d_cone . --y push --shapes final
 two_beams . --y gap --shapes initial,branch:1,contact:1,limit:1,final
