@@ -33,7 +33,11 @@ Forces::Forces(const Model& model, double load_factor, const EdgeOrder& order)
   for (const Gravity& g : model.gravity)
     for (const int p : g.particles)
       for (int c = 0; c < 3; ++c) loads_.at(c, p) += model.mass(p) * (g.scaling.at(load_factor) * g.acceleration[c]);
-  loaded_ = !model.loads.empty() || !model.gravity.empty();
+  for (const Pressure& p : model.pressures)
+    for (std::size_t k = 0; p.rim.size() && k < p.particles.size(); ++k)
+      for (int c = 0; c < 3; ++c)
+        loads_.at(c, p.particles[k]) += p.scaling.at(load_factor) * p.pressure * p.rim(c, static_cast<Eigen::Index>(k));
+  loaded_ = !model.loads.empty() || !model.gravity.empty() || !model.pressures.empty();
   if (OtherForces::needed(model, order)) others_.emplace(model, order, load_factor);
   if (!model.contacts.empty()) rules_.emplace(model);
   skin_ = skin_for(model, rules_ ? &*rules_ : nullptr);

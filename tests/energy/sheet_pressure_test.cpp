@@ -3,6 +3,9 @@
 #include "energy/energy.hpp"
 #include "input/model_of.hpp"
 #include "model/triangles.hpp"
+#include "solve/method.hpp"
+
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 
@@ -129,4 +132,21 @@ TEST_CASE("the volume's second derivative is the Hessian", "[energy]") {
   // The energy is of third order: with the mean of the Hessians at both ends the difference of gradients is exact.
   CHECK((energy.gradient() - g - (hs + energy.multiply(step, false)) / 2).norm() < 1e-15);
   CHECK(hs.norm() > 1e-6);
+}
+
+TEST_CASE("under a small pressure a clamped plate gives way as its Hessian at rest tells", "[energy]") {
+  Model m = model_of(disc);
+  m.pressures[0].pressure = 1e-10;
+  Energy energy(m);
+  State state = m.start;
+  state.load_factor = 1;
+  energy.evaluate(state);
+  const SparseMatrix h = energy.hessian();
+  const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factor(h);
+  const Vector linear = factor.solve(-energy.gradient());
+  Newton newton(energy);
+  REQUIRE(minimise(newton, state, NewtonOptions{}).status == Status::converged);
+  const Field expected = energy.kinematics().extend(linear), moved = state.position - m.start.position;
+  CHECK(moved.row(2).minCoeff() < -1e-9);
+  CHECK((moved - expected).norm() < 1e-6 * moved.norm());    // membrane forces are (w/t)² of it
 }

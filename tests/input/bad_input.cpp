@@ -190,7 +190,7 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(mistakes_of(constants) == "");
   CHECK(mistakes_of(constants, {{"constants.n", "38"}}) == "");
   CHECK(mistakes_of(constants, {{"constants.N", "38"}}) ==
-        "--set: \"constants.N\": \"N\" is no constant of this file; there are: t, n, L, slender, I, small");
+        "--set: \"constants.N\": \"N\" is no constant of this file; there are: t, n, L, slender, I, small; did you mean \"n\"?");
   CHECK(mistakes_of(constants, {{"constants.n", "'L'"}}) ==
         "--set: constants.n: must be a finite number, is the string \"L\", where \"L\" stands further down; a constant uses those above it");
   CHECK(mistakes_of(constants, {{"constants", "38"}}) == "--set: \"constants\": is a table; name one of its numbers");
