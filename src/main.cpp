@@ -159,6 +159,7 @@ int main(int argc, char** argv) {
   export_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   export_app->add_option("-o,--output", exported.script, "the script, with its data file beside it (default: the file's name with .lmp)")->type_name("FILE");
   export_app->add_flag("--skip", exported.skip, "leave out what LAMMPS cannot have, instead of refusing");
+  export_app->add_option("--steps", exported.steps, "steps of each stage's run towards equilibrium (default: about 20 periods of the slowest bending)")->check(positive("integer"));
   common(export_app);
   ReportOptions report;
   CLI::App* report_app = app.add_subcommand("report", "one self-contained HTML page of the results of runs and sweeps");

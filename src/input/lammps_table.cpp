@@ -11,7 +11,8 @@
 namespace elamin {
 
 void describe(Keys& keys, LammpsTable& t) {
-  keys.about("Particles, bonds, angles (with their coefficients) and bodies from LAMMPS data files. Atom type 2 is the group \"type2\", and its "
+  keys.about("Particles, bonds, angles (with their coefficients) and bodies from LAMMPS data files. Atom type 2 is the group \"type2\", "
+             "and its "
              "label one too; ids are LAMMPS's own.");
   keys.may_file("data", t.data, "the data file");
   keys.may_file("bodies", t.bodies, "a data file of bodies beside it");
@@ -25,7 +26,8 @@ void describe(Keys& keys, LammpsTable& t) {
 
 LammpsReading reading_of(const LammpsTable& t) {
   using Rows = std::vector<std::vector<double>>;
-  return {t.atom_style, t.ignore.value_or(std::vector<std::string>()), t.bond_coefficients.value_or(Rows()), t.angle_coefficients.value_or(Rows())};
+  return {t.atom_style, t.ignore.value_or(std::vector<std::string>()), t.bond_coefficients.value_or(Rows()),
+          t.angle_coefficients.value_or(Rows())};
 }
 
 void check_lammps(LammpsTable& t, Mistakes& mistakes) {

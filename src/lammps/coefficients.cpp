@@ -56,13 +56,15 @@ std::optional<CoefficientRow> coefficient_row(LammpsLines& lines, const DataLine
   const std::string name = first == 2 ? std::string(line[1]) : comment == "hybrid" ? "" : comment;
   const Style* style = style_of(kind, name);
   if (!style) {
-    lines.mistake(line, 1, section, fmt::format("style {} is not available; {}, or {}_coefficients in [lammps]", in_quotes(name), available(kind), kind));
+    lines.mistake(line, 1, section, fmt::format("style {} is not available; {}, or {}_coefficients in [lammps]", in_quotes(name),
+                                                available(kind), kind));
     return std::nullopt;
   }
   const bool two = style->second[0] != 0;
   if (!lines.has_size(line, {first + (two ? 2 : 1)}, section,
-                      fmt::format("type{} {}{} of style {}, {}", two ? "," : " and", style->first,
-                                  two ? std::string(" and ") + style->second : "", style->name, style->formula)))
+                      fmt::format("type{} {}{} of style {}{}, {}", two ? "," : " and", style->first,
+                                  two ? std::string(" and ") + style->second : "", style->name,
+                                  name.empty() ? ", which is meant where none is named" : "", style->formula)))
     return std::nullopt;
   const auto type = type_in(lines, line, 0, section + ": type", most_types, labels);
   const auto K = lines.amount(line, first, section + ": " + style->first);

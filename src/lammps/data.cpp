@@ -160,16 +160,18 @@ void take_topology(LammpsLines& lines, const LammpsRows& rows, const std::vector
         if (r.id[l] == r.id[k])
           lines.mistake(r.line, r.column[k], section + ": id", fmt::format("atom {} stands twice in it", r.id[k]));
     }
-    if (coefficients_known && static_cast<std::size_t>(r.type) > types && missing.insert(r.type).second && missing.size() == 1) first = r.line;
+    const bool lacks = coefficients_known && static_cast<std::size_t>(r.type) > types;
+    if (lacks && missing.insert(r.type).second && missing.size() == 1) first = r.line;
     to.push_back(e);
   }
   if (missing.empty()) return;
   constexpr std::size_t most = 10;
   const std::vector<int> some(missing.begin(), std::next(missing.begin(), static_cast<std::ptrdiff_t>(std::min(most, missing.size()))));
   const std::string more = missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "";
+  const bool one = missing.size() == 1;
   lines.mistake(first, 1, section + ": type",
-                fmt::format("{} {}{} {} no coefficients; the section {} gives them, or {}_coefficients in [lammps]", missing.size() == 1 ? "type" : "types",
-                            fmt::join(some, ", "), more, missing.size() == 1 ? "has" : "have", coefficients, kind == "Bond" ? "bond" : "angle"));
+                fmt::format("{} {}{} {} no coefficients; the section {} gives them, or {}_coefficients in [lammps]", one ? "type" : "types",
+                            fmt::join(some, ", "), more, one ? "has" : "have", coefficients, kind == "Bond" ? "bond" : "angle"));
 }
 
 /// What the file holds and a model has no use for, and coefficients that were rounded.
@@ -179,8 +181,9 @@ void take_notes(const LammpsLines& lines, const LammpsRows& rows, const std::str
                                      section.starts_with("Pair") ? "; contacts are given by [[contact]]" : ""));
   if (rows.charged) data.notes.push_back(file + ": charges are dropped; nothing here depends on them");
   if (rows.most_digits == 0 || rows.most_digits > 6 || !lines.title().starts_with("LAMMPS data file via write_data")) return;
-  data.doubt = file + ": its coefficients have six digits, as LAMMPS's write_data rounds them; a rest length that is off by 1e-6 of itself is a strain "
-                      "that matters beside a buckling strain; give those of the script as bond_coefficients and angle_coefficients in [lammps]";
+  data.doubt = file + ": its coefficients have six digits, as LAMMPS's write_data rounds them; a rest length that is off by 1e-6 of "
+                      "itself is a strain that matters beside a buckling strain; give those of the script as bond_coefficients and "
+                      "angle_coefficients in [lammps]";
 }
 
 }  // namespace
@@ -229,7 +232,9 @@ std::vector<std::pair<std::string, int>> atom_type_labels(const std::string& fil
   std::vector<std::pair<std::string, int>> labels;
   std::ifstream in(file, std::ios::binary);
   std::string line, word;
-  const auto is = [&](std::string_view name) { return line.starts_with(name) && line.find_first_not_of(" \t\r", name.size()) == std::string::npos; };
+  const auto is = [&](std::string_view name) {
+    return line.starts_with(name) && line.find_first_not_of(" \t\r", name.size()) == std::string::npos;
+  };
   while (std::getline(in, line) && !line.starts_with("Atoms"))
     if (is("Atom Type Labels")) {
       int type = 0;

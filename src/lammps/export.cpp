@@ -29,11 +29,13 @@ struct Held {
 
 class ScriptMaker {
  public:
-  ScriptMaker(const ExportedStudy& study, const std::string& data_file) : study_(study), data_file_(data_file), m_(study.stages.front().model) {}
+  ScriptMaker(const ExportedStudy& study, const std::string& data_file)
+      : study_(study), data_file_(data_file), m_(study.stages.front().model) {}
 
   LammpsExport make() {
     refused_ = study_.refused;
-    if (!m_.bodies.empty()) refuse(fmt::format("rigid bodies ({}), and what is glued to them: their potentials are not those of LAMMPS", m_.bodies.size()));
+    if (!m_.bodies.empty()) refuse(fmt::format("rigid bodies ({}), and what is glued to them: their potentials are not those of LAMMPS",
+                                               m_.bodies.size()));
     for (const ExportStage& s : study_.stages) models_.push_back(&s.model);
     types_ = export_types(models_);
     for (const std::string& what : types_.refused) refuse(what);
@@ -45,12 +47,14 @@ class ScriptMaker {
     const std::string top = std::move(text_);
     text_.clear();
     for (std::size_t s = 0; s < study_.stages.size(); ++s) stage(s);
-    std::string about = fmt::format("# {}\n# Written by `elamin export` of {}; run it in its folder, beside {}: lmp -in FILE\n# Numbers are in the units of the problem, whatever these "
-                                    "are; \"si\" changes none of them.\n", study_.title.empty() ? "(no title)" : study_.title, study_.source, data_file_);
+    std::string about = fmt::format("# {}\n# Written by `elamin export` of {}; run it in its folder, beside {}: lmp -in FILE\n# Numbers "
+                                    "are in the units of the problem, whatever these "
+                                    "are; \"si\" changes none of them.\n", study_.title.empty() ? "(no title)"
+                                        : study_.title, study_.source, data_file_);
     for (const std::string& note : study_.notes) about += "# " + note + "\n";
     for (const std::string& what : refused_) about += "# Left out: " + what + "\n";
     out.script = about + "\n" + top + text_;
-    out.refused = refused_;
+    out.refused = refused_, out.files.assign(files_.begin(), files_.end());
     return out;
   }
 
@@ -64,7 +68,8 @@ class ScriptMaker {
 
   double longest_bond() const {
     double most = 0;
-    for (const Bond& b : m_.bonds) most = std::max(most, (study_.start.position.col(b.particles[1]) - study_.start.position.col(b.particles[0])).norm());
+    const Field& x = study_.start.position;
+    for (const Bond& b : m_.bonds) most = std::max(most, (x.col(b.particles[1]) - x.col(b.particles[0])).norm());
     return most;
   }
 
@@ -76,10 +81,12 @@ class ScriptMaker {
     if (!m_.bonds.empty()) put("bond_style harmonic                  # U = K (r - r0)^2");
     if (!m_.angles.empty())
       put("{}", straight ? "angle_style cosine                   # U = B (1 + cos(theta))"
-                         : "angle_style cosine/shift             # U = -Umin/2 (1 + cos(theta - theta0)), Umin = 2B: elamin's energy is larger by 2B an angle; package EXTRA-MOLECULE");
+                         : "angle_style cosine/shift             # U = -Umin/2 (1 + cos(theta - theta0)), Umin = 2B: elamin's energy is "
+                           "larger by 2B an angle; package EXTRA-MOLECULE");
     int special = 0;
     for (const auto& s : types_.stages) special = std::max(special, s.special);
-    put("special_bonds lj/coul {} {} {}        # cohesion of pairs 1, 2 and 3 bonds apart; granular contact does not know it: see pair_coeff", special >= 1 ? 0 : 1,
+    put("special_bonds lj/coul {} {} {}        # cohesion of pairs 1, 2 and 3 bonds apart; granular contact does not know it: see "
+        "pair_coeff", special >= 1 ? 0 : 1,
         special >= 2 ? 0 : 1, special >= 3 ? 0 : 1);
     put("comm_modify vel yes cutoff {}", lammps_number(std::max(3 * longest_bond(), 2 * size)));
     put("neighbor {} bin\nneigh_modify every 1 delay 0 check yes\nread_data {}", lammps_number(0.3 * size), data_file_);
@@ -106,7 +113,8 @@ class ScriptMaker {
       std::size_t end = k + 1;
       while (end < particles.size() && m_.id[particles[end]] == m_.id[particles[end - 1]] + 1) ++end;
       const int first = m_.id[particles[k]], last = m_.id[particles[end - 1]];
-      const std::string word = last == first ? fmt::format(" {}", first) : last == first + 1 ? fmt::format(" {} {}", first, last) : fmt::format(" {}:{}", first, last);
+      const std::string word = last == first ? fmt::format(" {}", first) : last == first + 1 ? fmt::format(" {} {}", first, last)
+          : fmt::format(" {}:{}", first, last);
       if (width + word.size() > 100) line += " &\n   ", width = 4;
       line += word, width += word.size(), k = end;
     }
@@ -226,20 +234,23 @@ class ScriptMaker {
       std::string still;                                     // where there is motion already, it ends
       for (int c = 0; c < 3; ++c) still += h.held[c] && !h.driven() ? " 0" : " NULL";
       if (number > 0 && !h.driven()) settle_.push_back(fmt::format("velocity {} set{} units box", name, still));
-      add({"support_" + name, {}, text, {}, {}, fmt::format("support: '{}' is {} in {}", name, h.driven() ? "driven" : "held", sides)}, name, h.driven());
+      add({"support_" + name, {}, text, {}, {}, fmt::format("support: '{}' is {} in {}", name, h.driven() ? "driven" : "held", sides)},
+          name, h.driven());
     }
     if (m_.plane_normal) {
       std::string text = "setforce";
       for (int c = 0; c < 3; ++c) text += c == *m_.plane_normal ? " 0" : " NULL";
       add({"plane", {}, text, {}, {}, "everything stays in its plane"}, "all", false);
     }
-    if (!free.empty()) add({"motion", {}, "nve/sphere", {}, {}, "what moves freely"}, group(free, number ? fmt::format("free_{}", number + 1) : "free"), true);
+    if (!free.empty()) add({"motion", {}, "nve/sphere", {}, {}, "what moves freely"},
+                           group(free, number ? fmt::format("free_{}", number + 1) : "free"), true);
   }
 
   // --- fixes: those of the stage, held against those that are there
 
   struct Line { std::string id, text, means; bool early = false; };
-  void add(const ExportFix& fix, const std::string& group, bool early) { now_.push_back({fix.name, group + " " + fix.text, fix.means, early}); }
+  void add(const ExportFix& fix, const std::string& group, bool early) { now_.push_back({fix.name, group + " " + fix.text, fix.means,
+                                                                                         early}); }
 
   /// Supports that set forces come last; where something new comes before them they are made again.
   void put_fixes() {
@@ -271,16 +282,18 @@ class ScriptMaker {
     const bool equilibria = study_.kind == ExportedStudy::Kind::equilibria;
     if (equilibria && study_.stages.size() > 1) put("# --- stage '{}'", s.name);
     if (equilibria && s.from != s.to)
-      put("# Load factor {} to {}: during the run driven ends and walls travel, and loads rise, in proportion to it. The run is one of damped\n"
+      put("# Load factor {} to {}: during the run driven ends and walls travel, and loads rise, in proportion to it. The run is one of "
+          "damped\n"
           "# motion: longer ones (more steps, slower travel) come nearer to equilibria.", lammps_number(s.from), lammps_number(s.to));
     else if (equilibria) put("# Everything acts in full; the motion dies down to an equilibrium.");
     pairs(number);
     // Walls may not be made of regions again: another stage has others.
-    std::vector<ExportFix> acting = export_fixes(s.model, s.from, s.to, refused_told_);
+    std::vector<ExportFix> acting = export_fixes(s.model, s.from, s.to, stem(), refused_told_);
     for (const std::string& what : refused_told_) refuse(what);
     refused_told_.clear();
     settle_.clear();
     for (ExportFix& fix : acting) {
+      for (auto& file : fix.files) files_[file.first] = std::move(file.second);
       for (const std::string& line : fix.variables) put("{}", line);
       for (std::string line : fix.regions) {
         const auto there = regions_.find(fix.name);
@@ -294,7 +307,8 @@ class ScriptMaker {
       }
       add(fix, group(fix.particles, fix.name), false);
     }
-    if (equilibria && study_.drag > 0) add({"damping", {}, "viscous " + lammps_number(study_.drag), {}, {}, "takes the motion out"}, "all", false);
+    if (equilibria && study_.drag > 0) add({"damping", {}, "viscous " + lammps_number(study_.drag), {}, {}, "takes the motion out"}, "all",
+                                           false);
     supports(number);
     put_fixes();
     for (const std::string& line : settle_) put("{}", line);
@@ -309,6 +323,8 @@ class ScriptMaker {
   struct RegionLine { std::string line, name; };
   static std::string name_in(const std::string& line) { return line.substr(7, line.find(' ', 7) - 7); }
 
+  std::string stem() const { return data_file_.substr(0, data_file_.rfind('.')); }
+
   void output() {
     const long every = std::max(1L, study_.steps / 20);
     put("variable lambda equal {}", lammps_number(study_.stages.front().from));
@@ -316,7 +332,7 @@ class ScriptMaker {
     put("thermo {}\nthermo_style custom step time v_lambda ebond eangle evdwl ke\nthermo_modify format float %.10g", every);
     if (study_.kind != ExportedStudy::Kind::energy)
       put("dump frames all custom {} {} id type x y z fx fy fz\ndump_modify frames sort id format float %.17g", every,
-          data_file_.substr(0, data_file_.rfind('.')) + ".lammpstrj");
+          stem() + ".lammpstrj");
   }
 
   const ExportedStudy& study_;
@@ -327,6 +343,7 @@ class ScriptMaker {
   std::string text_;
   std::map<std::vector<int>, std::string> groups_;
   std::set<std::string> names_;
+  std::map<std::string, std::string> files_;
   std::map<std::string, RegionLine> regions_;               // by fix
   std::vector<std::string> pair_lines_, refused_, refused_told_, settle_;
   std::vector<Line> fixes_, now_;

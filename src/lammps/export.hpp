@@ -30,6 +30,7 @@ struct ExportedStudy {
 struct LammpsExport {
   std::string script;
   Model written;                           // as the data file has it: with the types that pair_coeff speaks of
+  std::vector<std::pair<std::string, std::string>> files;   // that the script reads besides: names and texts
   std::vector<std::string> refused;        // all that LAMMPS cannot say, each a sentence; the script has it not
 };
 

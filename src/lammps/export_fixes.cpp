@@ -45,12 +45,14 @@ double restitution(double coefficient) {
     const double e = lo + (hi - lo) / 2;
     (tsuji_coefficient(e) > coefficient ? lo : hi) = e;
   }
-  return tsuji_coefficient(hi) == coefficient || std::abs(tsuji_coefficient(hi) - coefficient) < std::abs(tsuji_coefficient(lo) - coefficient) ? hi : lo;
+  const auto off = [&](double e) { return std::abs(tsuji_coefficient(e) - coefficient); };
+  return off(hi) < off(lo) ? hi : lo;
 }
 
 class FixMaker {
  public:
-  FixMaker(const Model& model, double from, double to, std::vector<std::string>& refused) : m_(model), from_(from), to_(to), refused_(refused) {}
+  FixMaker(const Model& model, double from, double to, const std::string& stem, std::vector<std::string>& refused)
+      : m_(model), from_(from), to_(to), stem_(stem), refused_(refused) {}
 
   std::vector<ExportFix> make() {
     for (const Load& l : m_.loads) load(l);
@@ -59,9 +61,12 @@ class FixMaker {
       if (!w.particles.empty() || !w.bodies.empty()) wall(w);
     for (const Viscosity& v : m_.viscosity)
       if (!v.particles.empty() && v.coefficient != 0)
-        fixes_.push_back({"drag", v.particles, "viscous " + lammps_number(v.coefficient), {}, {}, "drag, a force of minus this times the velocity"});
-    for (const Pressure& p : m_.pressures) refused_.push_back(fmt::format("pressure on '{}': LAMMPS has no force that stays normal to a row or a sheet", p.of));
-    for (const Change& c : m_.changes) refused_.push_back(fmt::format("change of '{}': coefficients that vary with the load factor", c.group));
+        fixes_.push_back({"drag", v.particles, "viscous " + lammps_number(v.coefficient), {}, {},
+                          "drag, a force of minus this times the velocity"});
+    for (const Pressure& p : m_.pressures) refused_.push_back(fmt::format("pressure on '{}': LAMMPS has no force that stays normal to a "
+                                                                           "row or a sheet", p.of));
+    for (const Change& c : m_.changes) refused_.push_back(fmt::format("change of '{}': coefficients that vary with the load factor",
+                                                                      c.group));
     return std::move(fixes_);
   }
 
@@ -70,12 +75,36 @@ class FixMaker {
   Vec3 at_end(const Scaling& s, const Vec3& v) const { return s.at(to_) * v; }
 
   void load(const Load& l) {
-    if (l.own.size()) return refused_.push_back(fmt::format("load on '{}': a force of its own on every particle", l.group));
     if (l.particles.empty()) return;
+    if (l.own.size()) return load_of_each(l);
     const Vec3 from = at_start(l.scaling, l.force), to = at_end(l.scaling, l.force);
     if (from.isZero(0) && to.isZero(0)) return;
     ExportFix fix{"load_" + lammps_name(l.group), l.particles, "", {}, {}, "load on every particle of '" + l.group + "'"};
     fix.text = "addforce " + values(unique(fix.name), from, to, fix.variables);
+    fixes_.push_back(std::move(fix));
+  }
+
+  /// A force of its own on every particle: a number of each from a file, times what the load factor makes of it.
+  void load_of_each(const Load& l) {
+    const double from = l.scaling.at(from_), to = l.scaling.at(to_);
+    if (from == 0 && to == 0) return;
+    ExportFix fix{"load_" + lammps_name(l.group), l.particles, "addforce", {}, {}, "load on '" + l.group + "', on every particle its own"};
+    const std::string name = unique(fix.name), factor = from == to ? lammps_number(from)
+        : fmt::format("ramp({},{})", lammps_number(from), lammps_number(to));
+    for (int c = 0; c < 3; ++c) {
+      std::string rows;
+      bool any = false;
+      for (std::size_t k = 0; k < l.particles.size(); ++k) {
+        const double f = l.on(k)[c];
+        rows += fmt::format("{} {}\n", m_.id[l.particles[k]], lammps_number(f)), any = any || f != 0;
+      }
+      if (!any) { fix.text += " 0"; continue; }
+      const std::string variable = fmt::format("{}_{}", name, "xyz"[c]), file = stem_ + "." + variable;
+      fix.files.emplace_back(file, fmt::format("# force {} of each particle\n{}\n{}", "xyz"[c], l.particles.size(), rows));
+      fix.variables.push_back(fmt::format("variable {}_each atomfile {}", variable, file));
+      fix.variables.push_back(fmt::format("variable {} atom v_{}_each*{}", variable, variable, factor));
+      fix.text += " v_" + variable;
+    }
     fixes_.push_back(std::move(fix));
   }
 
@@ -99,7 +128,8 @@ class FixMaker {
       // LAMMPS takes the wall's curvature into the effective radius, which a modulus makes up for where it is one and the same.
       const double d = m_.diameter[w.particles[0]], radius = d / 2;
       const bool one = std::all_of(w.particles.begin(), w.particles.end(), [&](int p) { return m_.diameter[p] == d; });
-      const bool flat = r.shape == Shape::cylinder && ((std::isfinite(r.axial_lo) && !r.open[0]) || (std::isfinite(r.axial_hi) && !r.open[1]));
+      const bool flat = r.shape == Shape::cylinder && ((std::isfinite(r.axial_lo) && !r.open[0]) ||
+                                                       (std::isfinite(r.axial_hi) && !r.open[1]));
       const bool rims = r.shape == Shape::cylinder && !w.inside && (std::isfinite(r.axial_lo) || std::isfinite(r.axial_hi));
       if (!one || flat || rims || r.shape == Shape::cone || w.radius_change != 0)
         return refuse("its effective radius is the particle's; LAMMPS's has the wall's curvature in it (effective_radius = \"curved\")");
@@ -108,7 +138,10 @@ class FixMaker {
       modulus *= std::sqrt((m + radius) / m);                // √(r/R_eff), R_eff = r m/(r + m)
       means += ", here over the root of R_eff/r, as LAMMPS takes the wall's curvature into R_eff";
     }
-    if (w.radius_change != 0 && r.shape == Shape::cone) return refuse("a cone whose radii change");
+    if (r.shape == Shape::cone) {
+      if (w.radius_change != 0) return refuse("a cone whose radii change");
+      means += "; LAMMPS leaves out of the force that R_eff varies along a cone";
+    }
     ExportFix fix{"wall_" + lammps_name(w.name), w.particles, "", {}, {}, means};
     const std::string region = unique(fix.name), tag = region;
     const Vec3 d0 = at_start(w.scaling, w.displacement), d1 = at_end(w.scaling, w.displacement);
@@ -126,11 +159,13 @@ class FixMaker {
         break;
       case Shape::sphere: text += fmt::format("sphere {} {}", numbers(at.center), radius); break;
       case Shape::cylinder:
-        text += fmt::format("cylinder {} {} {} {} {} {}", "xyz"[a], lammps_number(at.center[u]), lammps_number(at.center[v]), radius, axial(at.axial_lo),
+        text += fmt::format("cylinder {} {} {} {} {} {}", "xyz"[a], lammps_number(at.center[u]), lammps_number(at.center[v]), radius,
+                            axial(at.axial_lo),
                             axial(at.axial_hi));
         break;
       case Shape::cone:
-        text += fmt::format("cone {} {} {} {} {} {} {}", "xyz"[a], lammps_number(at.center[u]), lammps_number(at.center[v]), lammps_number(at.radius_lo),
+        text += fmt::format("cone {} {} {} {} {} {} {}", "xyz"[a], lammps_number(at.center[u]), lammps_number(at.center[v]),
+                            lammps_number(at.radius_lo),
                             lammps_number(at.radius_hi), axial(at.axial_lo), axial(at.axial_hi));
         break;
     }
@@ -159,6 +194,7 @@ class FixMaker {
 
   const Model& m_;
   double from_, to_;
+  const std::string& stem_;
   std::vector<std::string>& refused_;
   std::vector<ExportFix> fixes_;
 };
@@ -167,15 +203,18 @@ class FixMaker {
 
 std::string granular_law(double effective_modulus, const ContactDamping& d) {
   using Way = ContactDamping::Model;
-  const char* word = d.model == Way::mass_velocity ? "mass_velocity" : d.model == Way::viscoelastic ? "viscoelastic" : d.model == Way::tsuji ? "tsuji" : "velocity";
+  const char* word = d.model == Way::mass_velocity ? "mass_velocity" : d.model == Way::viscoelastic ? "viscoelastic" : d.model == Way::tsuji
+      ? "tsuji" : "velocity";
   const double gamma = d.model == Way::none ? 0 : d.model == Way::tsuji ? restitution(d.coefficient) : d.coefficient;
   const bool rubs = d.model != Way::none;
-  return fmt::format("hertz/material {} {} 0 tangential linear_nohistory {} {} damping {}", lammps_number(2 * effective_modulus), lammps_number(gamma),
+  return fmt::format("hertz/material {} {} 0 tangential linear_nohistory {} {} damping {}", lammps_number(2 * effective_modulus),
+                     lammps_number(gamma),
                      lammps_number(rubs ? d.tangential : 0), lammps_number(rubs ? d.friction : 0), word);
 }
 
-std::vector<ExportFix> export_fixes(const Model& model, double from, double to, std::vector<std::string>& refused) {
-  return FixMaker(model, from, to, refused).make();
+std::vector<ExportFix> export_fixes(const Model& model, double from, double to, const std::string& stem,
+                                    std::vector<std::string>& refused) {
+  return FixMaker(model, from, to, stem, refused).make();
 }
 
 }  // namespace elamin

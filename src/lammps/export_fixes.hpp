@@ -15,6 +15,7 @@ struct ExportFix {
   std::string text;
   std::vector<std::string> variables, regions;
   std::string means;                        // a comment
+  std::vector<std::pair<std::string, std::string>> files = {};   // that the variables read: names and texts
 };
 
 /// A name with letters, digits and _ alone, as LAMMPS wants them.
@@ -23,11 +24,12 @@ std::string lammps_name(std::string name);
 /// The shortest number that reads back to the same double.
 std::string lammps_number(double value);
 
-/// "hertz/material 2E_eff γ 0 tangential linear_nohistory x μ damping …" of pair_coeff, and of wall/gran/region: with ν = 0 their moduli are
-/// E_eff = E/2 in every version; others, of 2021, have E/(2(1 − ν)) at walls.
+/// "hertz/material 2E_eff γ 0 tangential linear_nohistory x μ damping …" of pair_coeff, and of wall/gran/region: with ν = 0 their
+/// moduli are E_eff = E/2 in every version; others, of 2021, have E/(2(1 − ν)) at walls.
 std::string granular_law(double effective_modulus, const ContactDamping& damping);
 
 /// Everything but supports that acts while the load factor goes from one value to another; what LAMMPS cannot say is told in `refused`.
-std::vector<ExportFix> export_fixes(const Model& model, double from, double to, std::vector<std::string>& refused);
+/// stem: of the names of files.
+std::vector<ExportFix> export_fixes(const Model& model, double from, double to, const std::string& stem, std::vector<std::string>& refused);
 
 }  // namespace elamin

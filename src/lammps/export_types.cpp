@@ -55,7 +55,8 @@ std::vector<int> parts(const std::vector<std::vector<int>>& next) {
 
 class TypeMaker {
  public:
-  TypeMaker(const std::vector<const Model*>& stages, int most) : stages_(stages), model_(*stages.front()), most_(most), next_(neighbours(model_)) {}
+  TypeMaker(const std::vector<const Model*>& stages, int most)
+      : stages_(stages), model_(*stages.front()), most_(most), next_(neighbours(model_)) {}
 
   ExportTypes make() {
     std::vector<std::vector<int>> key(static_cast<std::size_t>(model_.particles()));
@@ -113,7 +114,8 @@ class TypeMaker {
       });
     types_.stages[s].special = most_left_out;
     if (most_left_out > 3 || least_felt <= most_left_out)
-      types_.refused.push_back(fmt::format("cohesion that leaves out pairs {} bonds apart{}: special_bonds knows 1 to 3, the same of all pairs", most_left_out,
+      types_.refused.push_back(fmt::format("cohesion that leaves out pairs {} bonds apart{}: special_bonds knows 1 to 3, the same of all "
+                                           "pairs", most_left_out,
                                            least_felt <= most_left_out ? " of some groups and not of others" : ""));
   }
 
@@ -137,12 +139,14 @@ class TypeMaker {
         ++count[c];
       }
       for (const auto& [c, n] : count)
-        if (n != (c[0] == c[1] ? members[c[0]] * (members[c[0]] - 1) / 2 : members[c[0]] * members[c[1]])) mixed.insert(c[0]), mixed.insert(c[1]);
+        if (n != (c[0] == c[1] ? members[c[0]] * (members[c[0]] - 1) / 2 : members[c[0]] * members[c[1]]))
+          mixed.insert(c[0]), mixed.insert(c[1]);
     }
     long alone = 0;
     for (const int c : mixed) alone += members[c];
     if (alone + static_cast<long>(members.size() - mixed.size()) > most_) {
-      types_.refused.push_back(fmt::format("contact of {} particles that leaves out pairs that are glued closely: LAMMPS's granular style does not "
+      types_.refused.push_back(fmt::format("contact of {} particles that leaves out pairs that are glued closely: LAMMPS's granular style "
+                                           "does not "
                                            "know bonds, and a type for each of so many is too much (at most {})", alone, most_));
       for (auto& pairs : left_out_) pairs.clear();
       return;
@@ -157,7 +161,8 @@ class TypeMaker {
     std::vector<int> first(classes, -1), by(classes), rank(classes);
     for (int p = static_cast<int>(class_.size()) - 1; p >= 0; --p) first[class_[p]] = p;
     std::iota(by.begin(), by.end(), 0);
-    std::stable_sort(by.begin(), by.end(), [&](int a, int b) { return std::pair(model_.type[first[a]], first[a]) < std::pair(model_.type[first[b]], first[b]); });
+    const auto place = [&](int c) { return std::pair(model_.type[first[c]], first[c]); };
+    std::stable_sort(by.begin(), by.end(), [&](int a, int b) { return place(a) < place(b); });
     for (int k = 0; k < classes; ++k) rank[by[k]] = k, first_.push_back(first[by[k]]);
     for (const int c : class_) types_.type.push_back(rank[c] + 1);
     types_.count = classes;

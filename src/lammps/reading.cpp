@@ -33,7 +33,8 @@ std::string other_format(const std::string& file) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   const auto begins = [&](const char* with) { return start.starts_with(with); };
   if (begins("LammpS RestartT"))
-    return "is a LAMMPS restart file; `lmp -restart2data FILE case.data`, or read_restart and write_data in a script, makes a data file of it";
+    return "is a LAMMPS restart file; `lmp -restart2data FILE case.data`, or read_restart and write_data in a script, makes a data file "
+           "of it";
   if (begins("ITEM:"))
     return "is a LAMMPS dump file, which knows neither bonds nor coefficients; write_data in the script writes a data file (of a run that "
            "is over: read_restart or read_data, then read_dump and write_data)";

@@ -126,7 +126,8 @@ class RowReader {
     if (unavailable_.empty()) return;
     std::vector<std::string> owners;
     for (const std::string& section : unavailable_)
-      if (const std::string owner = owner_of(section); std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+      if (const std::string owner = owner_of(section); std::find(owners.begin(), owners.end(), owner) == owners.end())
+        owners.push_back(owner);
     const bool one = unavailable_.size() == 1;
     lines_.mistake(first_unavailable_, 1, fmt::format("\"{}\"", fmt::join(unavailable_, "\", \"")),
                    fmt::format("{} not available; available are Atoms, Velocities, Masses, Bodies, Bonds, Angles, Bond Coeffs and Angle "
@@ -157,8 +158,10 @@ class RowReader {
     lines_.back_to(begin);
     if (skip_) return;
     if (molecule_last && molecule_first && !example.empty())
-      return refuse_section(section, fmt::format("\"hybrid\" alone fits two orders of columns here: {} is diameter, density and molecule of \"hybrid sphere "
-                                                 "angle\", or molecule, diameter and density of \"hybrid angle sphere\"; say which, as atom_style or behind "
+      return refuse_section(section, fmt::format("\"hybrid\" alone fits two orders of columns here: {} is diameter, density and molecule "
+                                                 "of \"hybrid sphere "
+                                                 "angle\", or molecule, diameter and density of \"hybrid angle sphere\"; say which, as "
+                                                 "atom_style or behind "
                                                  "\"Atoms #\"", example));
     style_ = molecule_first && !molecule_last ? "hybrid angle sphere" : "hybrid sphere angle";
   }

@@ -70,7 +70,8 @@ void export_command(const ExportOptions& options) {
   study.start = starting_state(problem, whole);
   const bool path = problem.study == StudyType::path;
   if (path && (problem.path.method == PathMethod::arc_length || problem.path.when_unstable == WhenUnstable::follow))
-    study.notes.push_back("LAMMPS does not follow unstable equilibria, as this study does: where one ends it falls to the next stable one.");
+    study.notes.push_back("LAMMPS does not follow unstable equilibria, as this study does: where one ends it falls to the next stable "
+                          "one.");
   if (problem.study == StudyType::modes) study.notes.push_back("The study asks for modes; the script goes to the equilibrium.");
 
   Stages stages(problem);
@@ -90,9 +91,11 @@ void export_command(const ExportOptions& options) {
     study.timestep = *problem.dynamics.timestep, study.steps = problem.dynamics.steps;
   } else if (study.kind == Kind::equilibria && model.bodies.empty()) {
     let_it_settle(all, whole, study.start, study);
+    if (options.steps > 0) study.steps = options.steps;
   }
 
-  const std::filesystem::path script = options.script.empty() ? std::filesystem::path(problem.file).filename().replace_extension(".lmp") : std::filesystem::path(options.script);
+  const std::filesystem::path script = options.script.empty() ? std::filesystem::path(problem.file).filename().replace_extension(".lmp")
+      : std::filesystem::path(options.script);
   const std::filesystem::path data = std::filesystem::path(script).replace_extension(".data");
   std::error_code error;
   for (const std::string& own : {problem.file, problem.lammps ? problem.lammps->data : std::string()})
@@ -107,8 +110,10 @@ void export_command(const ExportOptions& options) {
     throw InputError(all_of_them);
   }
   write_state(data.string(), out.written, study.start, (problem.title.empty() ? study.source : problem.title) + ", by elamin export");
+  for (const auto& [name, text] : out.files) write_text((std::filesystem::path(script).parent_path() / name).string(), text);
   write_text(script.string(), out.script);
-  fmt::print("written: {} and {}: {} particles, {} bonds, {} angles, {} {}\n", script.string(), data.string(), model.particles(), model.bonds.size(),
+  fmt::print("written: {} and {}: {} particles, {} bonds, {} angles, {} {}\n", script.string(), data.string(), model.particles(),
+             model.bonds.size(),
              model.angles.size(), study.stages.size(), study.stages.size() == 1 ? "run" : "runs");
   for (const std::string& what : out.refused) fmt::print("left out: {}\n", what);
 }

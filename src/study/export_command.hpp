@@ -14,6 +14,7 @@ struct ExportOptions {
   std::vector<Setting> settings;
   std::string script;                      // "": the problem file's name with .lmp
   bool skip = false;
+  int steps = 0;                           // of each stage's run, of a study of equilibria; 0: as many as seem enough
 };
 void export_command(const ExportOptions& options);
 

@@ -59,7 +59,8 @@ TEST_CASE("hybrid alone is the order of columns that all rows fit", "[lammps_dat
 TEST_CASE("sections that have no use here are passed over where that is asked for", "[lammps_data]") {
   ScratchDirectory scratch;
   const std::string more = "1 angle types\n1 dihedrals\n1 dihedral types\n1 impropers\n1 improper types\n";
-  const std::string sections = "\nDihedral Coeffs # harmonic\n\n1 1 1 1\n\nDihedrals\n\n1 1 1 2 4 1\n\nImpropers\n\n1 1 1 2 4 1\n\nPair Coeffs # lj/cut\n\n1 1 1\n";
+  const std::string sections = "\nDihedral Coeffs # harmonic\n\n1 1 1 1\n\nDihedrals\n\n1 1 1 2 4 1\n\nImpropers\n\n1 1 1 2 4 1\n\nPair "
+                               "Coeffs # lj/cut\n\n1 1 1\n";
   const std::string file = scratch.file("x.data", exchanged(small_data_file, "1 angle types\n", more) + sections);
   const std::string what = refusal(file);
   CHECK(what.find("\"Dihedral Coeffs\", \"Dihedrals\", \"Impropers\": these sections are not available") != std::string::npos);
@@ -74,7 +75,8 @@ TEST_CASE("sections that have no use here are passed over where that is asked fo
   const LammpsData bonds = read_lammps_data(scratch.file("b.data", small_data_file), {"", {"Angles"}, {}, {}});
   CHECK((bonds.angles.empty() && bonds.angle_types.empty() && bonds.bonds.size() == 2));
   const std::string charged = exchanged(small_data_file, "# hybrid sphere angle", "# full");
-  std::string rows = exchanged(charged, "1 1 0 0 1 1 800 1\n2 1 0 0 2 1 800 1\n4 1 0 0 3 1 800 1\n", "1 1 1 0.5 0 0 1\n2 1 1 0 0 0 2\n4 1 1 0 0 0 3\n");
+  std::string rows = exchanged(charged, "1 1 0 0 1 1 800 1\n2 1 0 0 2 1 800 1\n4 1 0 0 3 1 800 1\n",
+                               "1 1 1 0.5 0 0 1\n2 1 1 0 0 0 2\n4 1 1 0 0 0 3\n");
   const LammpsData full = read_lammps_data(scratch.file("c.data", rows));
   REQUIRE(full.notes.size() == 1);
   CHECK(full.notes[0].find("charges are dropped") != std::string::npos);
@@ -83,7 +85,8 @@ TEST_CASE("sections that have no use here are passed over where that is asked fo
 TEST_CASE("coefficients of the problem file stand for those that a data file has not, or has rounded", "[lammps_data]") {
   ScratchDirectory scratch;
   const LammpsReading own{"", {}, {{250.5, 0.75}}, {{5}}};
-  const std::string without = exchanged(exchanged(small_data_file, "Bond Coeffs # harmonic\n\n1 100 1\n", ""), "Angle Coeffs # cosine\n\n1 5\n", "");
+  const std::string without = exchanged(exchanged(small_data_file, "Bond Coeffs # harmonic\n\n1 100 1\n", ""),
+                                        "Angle Coeffs # cosine\n\n1 5\n", "");
   for (const std::string& text : {small_data_file, without, exchanged(small_data_file, "# harmonic", "# fene")}) {
     const LammpsData data = read_lammps_data(scratch.file("x.data", text), own);
     REQUIRE(data.bond_types.size() == 1);
@@ -94,7 +97,8 @@ TEST_CASE("coefficients of the problem file stand for those that a data file has
 
   const std::string title = "LAMMPS data file via write_data, version 29 Sep 2021, timestep = 0\n";
   const auto doubt = [&](const std::string& coefficients, const LammpsReading& how = {}) {
-    return read_lammps_data(scratch.file("x.data", exchanged(exchanged(small_data_file, "title\n", title), "1 100 1\n", coefficients)), how).doubt;
+    return read_lammps_data(scratch.file("x.data", exchanged(exchanged(small_data_file, "title\n", title), "1 100 1\n", coefficients)),
+                            how).doubt;
   };
   CHECK(doubt("1 100.123 0.00123457\n").find("its coefficients have six digits") != std::string::npos);
   CHECK(doubt("1 100.1234 0.00123457\n").empty());
@@ -104,8 +108,10 @@ TEST_CASE("coefficients of the problem file stand for those that a data file has
 
 TEST_CASE("labels of types are read, and those of atom types name groups", "[lammps_data]") {
   ScratchDirectory scratch;
-  std::string text = exchanged(small_data_file, "1 atom types\n1 bond types\n1 angle types\n", "2 atom types\n1 bond types\n1 angle types\n");
-  text = exchanged(text, "Bond Coeffs # harmonic\n\n1 100 1\n", "Atom Type Labels\n\n1 steel\n2 rubber\n\nBond Type Labels\n\n1 s-r\n\nAngle Type Labels\n\n1 s-r-s\n\n"
+  std::string text = exchanged(small_data_file, "1 atom types\n1 bond types\n1 angle types\n",
+                               "2 atom types\n1 bond types\n1 angle types\n");
+  text = exchanged(text, "Bond Coeffs # harmonic\n\n1 100 1\n", "Atom Type Labels\n\n1 steel\n2 rubber\n\nBond Type Labels\n\n1 "
+                                                                "s-r\n\nAngle Type Labels\n\n1 s-r-s\n\n"
                                                                "Bond Coeffs # harmonic\n\ns-r 100 1\n");
   text = exchanged(text, "2 1 0 0 2 1 800 1", "2 rubber 0 0 2 1 800 1");
   text = exchanged(text, "2 1 2 4\n", "2 s-r 2 4\n");
@@ -116,7 +122,8 @@ TEST_CASE("labels of types are read, and those of atom types name groups", "[lam
   CHECK(data.bond_types[data.bonds[1].type].stiffness == 100);
   CHECK(atom_type_labels(file) == std::vector<std::pair<std::string, int>>{{"steel", 1}, {"rubber", 2}});
   const std::string toml = "lammps.data = \"x.data\"\n";
-  const Model model = model_of_problem(scratch, toml + "[[support]]\ngroup = \"steel\"\n[[gravity]]\ngroup = \"rubber\"\nacceleration = [0, 0, 1]\n");
+  const Model model = model_of_problem(scratch, toml + "[[support]]\ngroup = \"steel\"\n[[gravity]]\ngroup = \"rubber\"\nacceleration = "
+                                                       "[0, 0, 1]\n");
   CHECK(model.supports[0].particles == std::vector<int>{0, 2});
   CHECK(model.gravity[0].particles == std::vector<int>{1});
   CHECK_THROWS_AS(model_of_problem(scratch, toml + "[[support]]\ngroup = \"copper\"\n"), InputError);
@@ -135,7 +142,8 @@ TEST_CASE("dumps, restarts and packed files are told from data files", "[lammps_
 
 TEST_CASE("remarks about a data file are those of the problem that names it", "[lammps_data]") {
   ScratchDirectory scratch;
-  scratch.file("x.data", exchanged(small_data_file, "title\n", "LAMMPS data file via write_data, version 29 Sep 2021, timestep = 0\n") + "\nPair Coeffs\n\n1 1 1\n");
+  scratch.file("x.data", exchanged(small_data_file, "title\n", "LAMMPS data file via write_data, version 29 Sep 2021, timestep = "
+                                                               "0\n") + "\nPair Coeffs\n\n1 1 1\n");
   const Problem problem = read_problem(scratch.file("p.toml", "study.type = \"energy\"\nlammps.data = \"x.data\"\n"));
   CHECK(lammps_remarks(problem).notes.size() == 1);
   CHECK(lammps_remarks(problem).warnings.size() == 1);
