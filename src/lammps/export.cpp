@@ -27,6 +27,13 @@ struct Held {
   }
 };
 
+/// What is in a comment ends with it.
+std::string in_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  return text;
+}
+
 class ScriptMaker {
  public:
   ScriptMaker(const ExportedStudy& study, const std::string& data_file)
@@ -42,15 +49,15 @@ class ScriptMaker {
     LammpsExport out;
     out.written = m_;
     out.written.type = types_.type;
+    out.written.bodies.clear(), out.written.shapes.clear();      // refused, or left out
     // The body of the script first: it tells which pair styles and groups there are, and what is refused.
     head();
     const std::string top = std::move(text_);
     text_.clear();
     for (std::size_t s = 0; s < study_.stages.size(); ++s) stage(s);
-    std::string about = fmt::format("# {}\n# Written by `elamin export` of {}; run it in its folder, beside {}: lmp -in FILE\n# Numbers "
-                                    "are in the units of the problem, whatever these "
-                                    "are; \"si\" changes none of them.\n", study_.title.empty() ? "(no title)"
-                                        : study_.title, study_.source, data_file_);
+    std::string about = fmt::format("# {}\n# Written by `elamin export` of {}; run it in its folder, beside {}: lmp -in FILE\n"
+                                    "# Numbers are in the units of the problem, whatever these are; \"si\" changes none of them.\n",
+                                    in_one_line(study_.title.empty() ? "(no title)" : study_.title), in_one_line(study_.source), data_file_);
     for (const std::string& note : study_.notes) about += "# " + note + "\n";
     for (const std::string& what : refused_) about += "# Left out: " + what + "\n";
     out.script = about + "\n" + top + text_;

@@ -135,6 +135,13 @@ TEST_CASE("an exported script says walls, contact, supports and loads in LAMMPS'
   CHECK(has(cohesion, "fix load_chain chain addforce 0 v_load_chain_y 0"));
   CHECK(has(cohesion, "variable load_chain_y equal ramp(0,0.001)\n"));
 
+  REQUIRE(elamin_says("export " + root + "tests/lammps/export/cohesion_cut.toml -o " + scratch / "in.lmp").status == 0);
+  const std::string cut = text_of(scratch / "in.lmp");                                  // away from an axis: of every particle its own
+  CHECK(has(cut, "fix load_chain_2 chain addforce 0 v_load_chain_2_y v_load_chain_2_z "));
+  CHECK(has(cut, "variable load_chain_2_y_each atomfile in.load_chain_2_y\n"));
+  CHECK(has(cut, "variable load_chain_2_y atom v_load_chain_2_y_each*ramp(0,1)\n"));
+  CHECK(lines_of(text_of(scratch / "in.load_chain_2_y")).size() == 2 + 12);
+
   REQUIRE(elamin_says("export " + root + "tests/lammps/export/motion.toml -o " + scratch / "in.lmp").status == 0);
   const std::string motion = text_of(scratch / "in.lmp");
   CHECK(has(motion, "fix support_left left move linear 0 0 0.01 "));
@@ -229,6 +236,10 @@ steps = 2
   CHECK(text.find("wall/gran") == std::string::npos);
 
   CHECK(elamin_says("export " + file + " --skip -o " + file).text.find("is a file that the problem is read from") != std::string::npos);
+  const std::string title = scratch.file("t.toml", "title = \"two\\nquit\"\n[[grains]]\nname = \"a\"\npositions = [[0, 0, 0]]\ndiameter = 1\n"
+                                                   "[study]\ntype = \"energy\"\n");
+  REQUIRE(elamin_says("export " + title + " -o " + script).status == 0);
+  CHECK(text_of(script).starts_with("# two quit\n"));
   CHECK(elamin_says("export " + root + "problems/cubes_jammed.toml -o " + script).text.find("LAMMPS cannot have rigid bodies "
                                                                                             "(5)") != std::string::npos);
 }

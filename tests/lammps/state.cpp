@@ -124,3 +124,26 @@ TEST_CASE("particles without bonds, density or a sane title", "[lammps_state]") 
   CHECK(data.density == std::vector<double>(5, 1.0));
   CHECK_THROWS_AS(write_state(scratch / "none/a.data", m, m.start, ""), InputError);
 }
+
+TEST_CASE("types that no bond or angle has are left out of a state, the others counted anew", "[lammps_state]") {
+  ScratchDirectory scratch;
+  Model m = sample_model();
+  const std::vector<BondType> bond_types = m.bond_types;
+  const std::vector<AngleType> angle_types = m.angle_types;
+  m.bond_types.assign(100'000, {7, 1}), m.angle_types.assign(100'000, {3, 1});
+  for (Bond& b : m.bonds) m.bond_types[5000 + 10 * b.type] = bond_types[b.type], b.type = 5000 + 10 * b.type;
+  for (Angle& a : m.angles) m.angle_types[999 + a.type] = angle_types[a.type], a.type = 999 + a.type;
+  const std::string file = scratch / "a.data";
+  write_state(file, m, m.start, "a state");
+  const std::string text = text_of(file);
+  CHECK(text.size() < 2000);
+  CHECK(text.starts_with("a state; types that no bond or angle has are left out\n"));
+  const LammpsData data = read_lammps_data(file);
+  REQUIRE((data.bonds.size() == m.bonds.size() && data.angles.size() == m.angles.size()));
+  for (std::size_t k = 0; k < m.bonds.size(); ++k) {
+    const BondType &own = m.bond_types[m.bonds[k].type], &read = data.bond_types[data.bonds[k].type];
+    CHECK((own.stiffness == read.stiffness && own.rest_length == read.rest_length && data.bonds[k].particles == m.bonds[k].particles));
+  }
+  for (std::size_t k = 0; k < m.angles.size(); ++k)
+    CHECK(data.angle_types[data.angles[k].type].stiffness == m.angle_types[m.angles[k].type].stiffness);
+}
