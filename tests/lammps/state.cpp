@@ -54,6 +54,8 @@ TEST_CASE("angles that are not straight at rest are written as cosine/shift", "[
   ScratchDirectory scratch;
   Model m = sample_model();
   m.angle_types = {{0.1, pi}, {1.0 / 3, pi / 2}, {7, 2.5}, {1e-7 / 3, 0.0}, {2, pi - 2 * pi / 78}};
+  m.angles.push_back(m.angles[0]), m.angles.push_back(m.angles[1]);
+  for (int k = 0; k < 5; ++k) m.angles[k].type = k;
   write_state(scratch / "a.data", m, m.start, "a state");
   CHECK(text_of(scratch / "a.data").find("Angle Coeffs # cosine/shift\n\n1 0.20000000000000001 180\n2 ") != std::string::npos);
   const LammpsData data = read_lammps_data(scratch / "a.data");
