@@ -2,8 +2,8 @@
 
     PYTHONPATH=build/release/python python3 examples/python/bundle.py [bundles]
 
-All is built with numpy: places, particles, bonds, angles, a seeded imperfection. (The geometry of the "mushroom" of LAMMPSStructures, with coarse
-beams, so that a bundle takes seconds.) Units: metre, newton.
+All is built with numpy: places, particles, bonds, angles, a seeded imperfection. (The geometry of the "mushroom" of LAMMPSStructures, with
+coarse beams, so that a bundle takes seconds.) Units: metre, newton.
 """
 import concurrent.futures
 import os
@@ -43,7 +43,8 @@ def bundle(seed):
 
     p = elamin.Problem(title=f"bundle {seed}")
     i = p.particles(x.reshape(-1, 3), d, name="bundle").reshape(BEAMS, PARTICLES)
-    p.bonds(np.column_stack([i[:, :-1].ravel(), i[:, 1:].ravel()]), E * d / 2, d)                                   # square section: E t²/(2 r₀), E t⁴/(12 r₀)
+    # Square section: K = E t²/(2 r₀), B = E t⁴/(12 r₀).
+    p.bonds(np.column_stack([i[:, :-1].ravel(), i[:, 1:].ravel()]), E * d / 2, d)
     p.angles(np.column_stack([i[:, :-2].ravel(), i[:, 1:-1].ravel(), i[:, 2:].ravel()]), E * d**3 / 12)
     p.contact(between=["bundle", "bundle"], youngs_modulus=E, poissons_ratio=0.5)
     for name, ends, way in (("bottom", i[:, :2], 0.5), ("top", i[:, -2:], -0.5)):

@@ -2,8 +2,8 @@
 
     PYTHONPATH=build/release/python python3 examples/python/column_diagram.py [figure.svg]
 
-A chain of links buckles where the force P in them satisfies P a = 4 B sin²(π/(N + 2)), a = d − P/(2K) the length of a link, N the number of free
-particles. Units: metre, newton.
+A chain of links buckles where the force P in them satisfies P a = 4 B sin²(π/(N + 2)), a = d − P/(2K) the length of a link, N the number
+of free particles. Units: metre, newton.
 """
 import sys
 

@@ -2,9 +2,10 @@
 
     PYTHONPATH=build/release/python python3 examples/python/two_beam_threshold.py
 
-The thin one buckles first, towards the thick one, which buckles towards it. They touch, and then one pushes the other back until the pair loses its
-stability. Over a narrow gap the thin one wins: it drives the thick one back until that is straight again. Over a wide gap the thick one has bent so
-far by then that it drives the thin one. (Beams of few particles, so that this runs in seconds; problems/two_beams_winner.toml has finer ones.)
+The thin one buckles first, towards the thick one, which buckles towards it. They touch, and then one pushes the other back until the
+pair loses its stability. Over a narrow gap the thin one wins: it drives the thick one back until that is straight again. Over a wide
+gap the thick one has bent so far by then that it drives the thin one. (Beams of few particles, so that this runs in seconds;
+problems/two_beams_winner.toml has finer ones.)
 Units: metre, newton; the load factor is the shortening in millimetres.
 """
 import concurrent.futures
@@ -23,8 +24,10 @@ def two_beams(gap, contact=True):
     d = {name: L / n for name, n in PARTICLES.items()}
     p = elamin.Problem(title=f"two beams, gap {gap * 1e3:.2f} mm", plane="xz")
     for name, x, push in (("thin", gap, -1e-8), ("thick", -(d["thin"] + d["thick"]) / 2, 1e-8)):
-        p.beam(name=name, section="square", particles=PARTICLES[name] + 4, center=[x, 0, 0], axis=[0, 0, 1], diameter=d[name], youngs_modulus=E)
-        p.group(name=name + "_bottom", of=name, first=2).group(name=name + "_top", of=name, last=2).group(name=name + "_middle", of=name, middle=1)
+        p.beam(name=name, section="square", particles=PARTICLES[name] + 4, center=[x, 0, 0], axis=[0, 0, 1], diameter=d[name],
+               youngs_modulus=E)
+        p.group(name=name + "_bottom", of=name, first=2).group(name=name + "_top", of=name, last=2)
+        p.group(name=name + "_middle", of=name, middle=1)
         p.support(group=name + "_bottom", displacement=[0, 0, 0.5e-3]).support(group=name + "_top", displacement=[0, 0, -0.5e-3])
         # Too small to matter, but it decides that each buckles towards the other.
         p.load(group=name + "_middle", force=[push, 0, 0], constant=True)

@@ -2,7 +2,7 @@
 #include "input/document.hpp"
 #include "input/settings.hpp"
 #include "core/text.hpp"
-#include "python/module.hpp"
+#include "python/documents.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,10 @@ namespace elamin::python {
 
 namespace {
 
-Node node_of(const py::handle& value, const std::string& key) {
+Node node_of(const py::handle& value, const std::string& key, int depth = 0) {
+  constexpr int deepest = 16;
+  const auto wrong = [&](const std::string& what) { return InputError({Mistake{{}, 0, 0, key, what}}); };
+  if (depth > deepest) throw wrong("is nested too deeply; no key is");
   Node node;
   if (py::isinstance<py::bool_>(value)) {
     node.value = value.cast<bool>();
@@ -19,25 +22,29 @@ Node node_of(const py::handle& value, const std::string& key) {
   } else if (py::isinstance<py::dict>(value)) {
     Entries entries;
     for (const auto& [k, v] : py::reinterpret_borrow<py::dict>(value)) {
-      if (!py::isinstance<py::str>(k)) throw InputError({Mistake{{}, 0, 0, key, "has a key that is no string"}});
+      if (!py::isinstance<py::str>(k)) throw wrong("has a key that is no string");
       const std::string name = k.cast<std::string>();
-      if (!v.is_none()) entries.push_back({name, {}, node_of(v, key.empty() ? name : key + "." + name)});
+      if (!v.is_none()) entries.push_back({name, {}, node_of(v, key.empty() ? name : key + "." + name, depth + 1)});
     }
     node.value = std::move(entries);
   } else if (py::isinstance<py::int_>(value)) {
-    node.value = value.cast<std::int64_t>();
+    try {
+      node.value = value.cast<std::int64_t>();
+    } catch (const py::cast_error&) {
+      throw wrong("is an integer that is too large");
+    }
   } else if (py::isinstance<py::float_>(value)) {
     node.value = value.cast<double>();
   } else if (py::hasattr(value, "tolist")) {                   // numpy's arrays and numbers
-    return node_of(value.attr("tolist")(), key);
+    return node_of(value.attr("tolist")(), key, depth + 1);
   } else if (py::hasattr(value, "__fspath__")) {
     node.value = value.attr("__fspath__")().cast<std::string>();
   } else if (py::isinstance<py::sequence>(value)) {
     List list;
-    for (const py::handle element : value) list.push_back(node_of(element, key));
+    for (const py::handle element : value) list.push_back(node_of(element, key, depth + 1));
     node.value = std::move(list);
   } else {
-    throw InputError({Mistake{{}, 0, 0, key, "must be a string, a number, a list or a dict, is " + py::repr(py::type::of(value)).cast<std::string>()}});
+    throw wrong("must be a string, a number, a list or a dict, is " + py::repr(py::type::of(value)).cast<std::string>());
   }
   return node;
 }
@@ -60,7 +67,6 @@ py::object python_of(const Node& node) {
 
 Document document_of(const py::dict& tables, const std::string& name) {
   Document document{name, "", std::get<Entries>(node_of(tables, "").value)};
-  document.sha256 = sha256(to_toml(document));
   return document;
 }
 
@@ -76,7 +82,7 @@ void append(Document& document, const std::string& key, const py::dict& values) 
   auto* list = std::get_if<List>(&at.node.value);
   if (!list) throw InputError({Mistake{document.file, at.place.line, at.place.column, key, "is there already, and no list of tables"}});
   list->push_back(node_of(values, key));
-  document.sha256 = sha256(to_toml(document));
+  document.sha256.clear();
 }
 
 // Keys of [key], or with an empty key of what stands before the first table.
@@ -92,17 +98,22 @@ void update(Document& document, const std::string& key, const py::dict& values) 
     if (Node* there = find(*entries, e.key)) *there = e.node;
     else entries->push_back(e);
   }
-  document.sha256 = sha256(to_toml(document));
+  document.sha256.clear();
 }
 
 void set(Document& document, const std::string& key, const py::object& value) {
   Mistakes mistakes(document.file);
   apply({key, to_toml(node_of(value, key))}, document, mistakes);
   mistakes.raise();
-  document.sha256 = sha256(to_toml(document));
+  document.sha256.clear();
 }
 
 }  // namespace
+
+Document complete(Document document) {
+  if (document.sha256.empty()) document.sha256 = sha256(to_toml(document));
+  return document;
+}
 
 void add_documents(py::module_& module) {
   py::class_<Document>(module, "Document", "The tables of a problem, which know where they stand if they come from a file.")
@@ -115,7 +126,7 @@ void add_documents(py::module_& module) {
       .def("set", &set, py::arg("key"), py::arg("value"))
       .def("erase", [](Document& d, const std::string& key) {
         std::erase_if(d.root, [&](const Entry& e) { return e.key == key; });
-        d.sha256 = sha256(to_toml(d));
+        d.sha256.clear();
       }, py::arg("key"))
       .def("has", [](const Document& d, const std::string& key) { return find(d.root, key) != nullptr; }, py::arg("key"))
       .def("tables", [](const Document& d) { return python_of(Node{{}, d.root}); })

@@ -56,8 +56,8 @@ class PythonGroup final : public ElementGroup {
   Array checked(const py::handle& what, const char* name, py::ssize_t each) const {
     const Array array = py::cast<Array>(what);
     if (array.size() != each * elements())
-      throw std::invalid_argument(fmt::format("the law \"{}\": its {} has {} numbers for {} elements of {} sites; {} are wanted", law_.term, name,
-                                              array.size(), elements(), sites(), each * elements()));
+      throw std::invalid_argument(fmt::format("the law \"{}\": its {} has {} numbers for {} elements of {} sites; {} are wanted",
+                                              law_.term, name, array.size(), elements(), sites(), each * elements()));
     return array;
   }
   void take(const py::handle& what, const char* name, py::ssize_t each, double* out) const {
@@ -75,8 +75,8 @@ std::shared_ptr<py::object> held(py::object object) {
           }};
 }
 
-PythonLaw law_of(std::string term, const py::array_t<int, py::array::c_style | py::array::forcecast>& elements, bool anchored, py::object value,
-                 py::object derivatives) {
+PythonLaw law_of(std::string term, const py::array_t<int, py::array::c_style | py::array::forcecast>& elements, bool anchored,
+                 py::object value, py::object derivatives) {
   PythonLaw law{std::move(term), 0, {}, anchored, held(std::move(value)), held(std::move(derivatives))};
   if (elements.ndim() != 2 || elements.shape(1) < 1 || elements.shape(1) > 12)
     throw InputError(fmt::format("the law \"{}\": its elements must be an array (m, sites) of particles, with 1 to 12 sites", law.term));

@@ -8,9 +8,12 @@ import textwrap
 HEAD = '''"""A method for each table of a problem file. Made of `elamin schema` when elamin is built."""
 from __future__ import annotations
 
-from typing import Any, Literal, Mapping, Optional, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Literal, Mapping, Optional, Sequence, TypeVar, Union
 
 from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from ._problem import Path
 
 Values = Union[Sequence[Any], NDArray[Any]]
 _Self = TypeVar("_Self", bound="Tables")
@@ -24,7 +27,7 @@ class Tables:
         raise NotImplementedError
 
 '''
-OWN = {"path", "modes", "particles", "bonds", "angles"}           # of Problem itself: written there
+OWN = {"modes", "particles", "bonds", "angles"}           # of Problem itself: written there
 
 
 def name_of(key):
@@ -53,14 +56,17 @@ def method(table, spec):
     if table == "group":
         lines.append("        particles: Optional[ArrayLike] = None,")
         before = ["        if particles is not None:", "            ids = self._ids(particles)"]
-    lines.append("    ) -> _Self:")
+    lines.append("    ) -> Path:" if table == "path" else "    ) -> _Self:")
     means = [wrapped(f"{name_of(key)}: {k['description']}" if k.get("description") else name_of(key), 12) for key, k in keys.items()]
     if table == "group":
         means.append(wrapped("particles: numbers of particles, from 0, instead of ids", 12))
-    about = wrapped(spec.get("description", "").replace("\\", "\\\\"), 8).strip()
-    lines.append(f'        """[{table}] {about}\n\n        Args:\n' + "\n".join(means).replace("\\", "\\\\") + '\n        """')
+    about = f"[{table}] " + wrapped(spec.get("description", ""), 8).strip()
+    if table == "path":
+        about = "The path of equilibria, as an iterator: `for step in p.path(): …`. Keys change the table first.\n\n        " + about
+    text = about + "\n\n        Args:\n" + "\n".join(means) + "\n        "
+    lines.append('        """' + text.replace("\\", "\\\\") + '"""')
     lines += before
-    lines.append(f'        return self.table("{table}", **{values})')
+    lines.append(f'        return self._path({values})' if table == "path" else f'        return self.table("{table}", **{values})')
     return "\n".join(lines) + "\n"
 
 
@@ -69,11 +75,10 @@ def main():
     schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True, encoding="utf-8").stdout)
     tables = {name: spec for name, spec in schema["properties"].items() if spec.get("type") in ("array", "object")}
     text = HEAD
-    text += "    def _ids(self, particles: ArrayLike) -> list[int]:\n        raise NotImplementedError\n\n"
+    text += "    def _ids(self, particles: ArrayLike) -> List[int]:\n        raise NotImplementedError\n\n"
+    text += "    def _path(self, keys: Dict[str, object]) -> Path:\n        raise NotImplementedError\n\n"
     text += "\n".join(method(name, spec) for name, spec in tables.items() if name not in OWN)
-    path = tables["path"]["properties"]
     text += "\n\nMANY = " + repr(frozenset(name for name, spec in tables.items() if spec.get("type") == "array")) + "\n"
-    text += "PATH_KEYS = " + repr(tuple(path)) + "\n"
     with open(out, "w", encoding="utf-8") as file:
         file.write(text)
 

@@ -66,7 +66,8 @@ PYBIND11_MODULE(_elamin, module) {
   module.attr("version") = elamin::version();
   module.def("json_schema", &elamin::json_schema, "The JSON schema of a problem file.");
   module.def("set_threads", &set_default_threads, py::arg("count"), "Threads that each call uses; 0: as many as there are cores.");
-  module.def("rest_threads", [] { omp_pause_resource_all(omp_pause_soft); }, "Ends OpenMP's idle threads, so that the process can be forked.");
+  module.def("rest_threads", [] { omp_pause_resource_all(omp_pause_soft); },
+             "Ends OpenMP's idle threads, so that the process can be forked.");
   add_documents(module);
   add_states(module);
   add_laws(module);

@@ -4,6 +4,7 @@
 #include "figures/figure.hpp"
 #include "figures/pdf.hpp"
 #include "figures/shapes.hpp"
+#include "python/documents.hpp"
 #include "python/system.hpp"
 #include "report/report.hpp"
 #include "results/body_picture.hpp"
@@ -19,13 +20,14 @@ namespace elamin::python {
 namespace {
 
 // The exit status and the verdicts of [[expect]], as sentences with whether they are met.
-py::tuple run_document(const Document& document, const std::vector<PythonLaw>& laws, const std::string& directory, bool quiet, bool force, bool report,
-                       int threads) {
+py::tuple run_document(const Document& document, const std::vector<PythonLaw>& laws, const std::string& directory, bool quiet, bool force,
+                       bool report, int threads) {
   const RunResult result = without_lock([&] {
     std::vector<OwnLaw> own;
     for (const PythonLaw& law : laws) own.push_back(own_law(law));
-    RunOptions options{.file = document.file, .settings = {}, .directory = directory, .threads = threads, .force = force, .quiet = quiet, .report = report};
-    PreparedRuns prepared = prepare_runs(document, {}, own);
+    const RunOptions options{.file = document.file, .settings = {}, .directory = directory, .threads = threads, .force = force,
+                             .quiet = quiet, .report = report};
+    PreparedRuns prepared = prepare_runs(complete(document), {}, own);
     for (const PreparedRun& run : prepared.runs)
       if (!own.empty() && run.problem.in_time())
         throw InputError("a law of your own is not felt by what moves in time; ask for equilibria or a path, or take the law away");
@@ -63,24 +65,26 @@ std::string picture(const System& s, const State& state, double width, const std
   });
 }
 
-std::string figure(const std::string& directory, const std::string& x, const std::string& y, const std::vector<std::string>& shapes, bool diagram,
-                   const std::string& file) {
+std::string figure(const std::string& directory, const std::string& x, const std::string& y, const std::vector<std::string>& shapes,
+                   bool diagram, const std::string& file) {
   return without_lock([&] { return write_figure({directory, x, y, shapes, diagram, file}); });
 }
 
 }  // namespace
 
 void add_runs(py::module_& module) {
-  module.def("run", &run_document, py::arg("document"), py::arg("laws"), py::arg("directory"), py::arg("quiet"), py::arg("force"), py::arg("report"),
-             py::arg("threads"));
+  module.def("run", &run_document, py::arg("document"), py::arg("laws"), py::arg("directory"), py::arg("quiet"), py::arg("force"),
+             py::arg("report"), py::arg("threads"));
   module.def("picture", &picture, py::arg("system"), py::arg("state"), py::arg("width"), py::arg("title"));
   module.def("figure", &figure, py::arg("directory"), py::arg("x"), py::arg("y"), py::arg("shapes"), py::arg("diagram"), py::arg("file"));
-  module.def("write_pdf", [](const std::string& svg, const std::string& file) { return without_lock([&] { return write_pdf(svg, file), 0; }); },
-             py::arg("svg"), py::arg("file"));
+  module.def("write_pdf", [](const std::string& svg, const std::string& file) {
+    return without_lock([&] { return write_pdf(svg, file), 0; });
+  }, py::arg("svg"), py::arg("file"));
   module.def("report_page", [](const std::vector<std::string>& directories) {
     return without_lock([&] { return report_page({directories, "", true}); });
   }, py::arg("directories"));
-  module.def("require_results", &require_results, py::arg("directory"), "Raises InputError where the directory holds something else than results.");
+  module.def("require_results", &require_results, py::arg("directory"),
+             "Raises InputError where the directory holds something else than results.");
   module.def("list_also", &list_also, py::arg("directory"), py::arg("name"));
 }
 

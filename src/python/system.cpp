@@ -4,6 +4,7 @@
 #include "study/imperfection.hpp"
 #include "input/key_tree.hpp"
 #include "input/read.hpp"
+#include "python/documents.hpp"
 #include "python/states.hpp"
 #include "results/body_picture.hpp"
 #include "study/check_command.hpp"
@@ -35,7 +36,7 @@ std::shared_ptr<System> build(const Document& document, const std::vector<Python
   return without_lock([&] {
     std::vector<OwnLaw> own;
     for (const PythonLaw& law : laws) own.push_back(own_law(law));
-    Problem problem = read_problem(document);
+    Problem problem = read_problem(complete(document));
     Model model = model_of(problem, own);
     return std::make_shared<System>(std::move(problem), std::move(model));
   });
@@ -52,7 +53,8 @@ State state_at(System& s, const Array& x, std::optional<Array> bodies, double lo
   const auto at = bodies->unchecked<2>();
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {
     const auto i = static_cast<py::ssize_t>(b);
-    state.bodies[b] = {{{at(i, 0), at(i, 1), at(i, 2)}, Vec3::Zero()}, Eigen::Quaterniond(at(i, 3), at(i, 4), at(i, 5), at(i, 6)).normalized()};
+    const Eigen::Quaterniond turned(at(i, 3), at(i, 4), at(i, 5), at(i, 6));
+    state.bodies[b] = {{{at(i, 0), at(i, 1), at(i, 2)}, Vec3::Zero()}, turned.normalized()};
   }
   return state;
 }
@@ -146,14 +148,16 @@ struct Minimum {
 };
 
 // What [solver] asks for, but for what is given here.
-Problem with_solver(const System& s, const std::optional<std::string>& method, const std::optional<double>& tolerance, const std::optional<int>& most) {
+Problem with_solver(const System& s, const std::optional<std::string>& method, const std::optional<double>& tolerance,
+                    const std::optional<int>& most) {
   Problem p = s.problem;
+  const auto wrong = [](const char* key, const std::string& what) { return InputError({Mistake{{}, 0, 0, key, what}}); };
   const std::vector<std::string>& known = key_tree().find("solver")->find("method")->words;
   if (method && std::find(known.begin(), known.end(), *method) == known.end())
-    throw InputError({Mistake{{}, 0, 0, "method", "must be " + quoted_choice(known) + ", is " + in_quotes(*method) + did_you_mean(*method, known)}});
+    throw wrong("method", "must be " + quoted_choice(known) + ", is " + in_quotes(*method) + did_you_mean(*method, known));
   if (tolerance && !(*tolerance > 0 && *tolerance <= 1e-2))
-    throw InputError({Mistake{{}, 0, 0, "tolerance", fmt::format("must be a number above 0 and at most 0.01, is {}", *tolerance)}});
-  if (most && *most < 1) throw InputError({Mistake{{}, 0, 0, "max_iterations", fmt::format("must be an integer of at least 1, is {}", *most)}});
+    throw wrong("tolerance", fmt::format("must be a number above 0 and at most 0.01, is {}", *tolerance));
+  if (most && *most < 1) throw wrong("max_iterations", fmt::format("must be an integer of at least 1, is {}", *most));
   if (tolerance) p.solver.tolerance = *tolerance;
   if (method && *method != p.solver.method) p.solver.method = *method, p.solver.max_iterations = standard_iterations(p.solver);
   if (most) p.solver.max_iterations = *most;
@@ -190,7 +194,7 @@ Minimum minimum(System& s, const std::optional<State>& from, double load_factor,
 std::vector<Mode> modes(System& s, const State& state, int count) {
   check_state(s, state);
   if (count < 1 || count > s.energy.dofs())
-    throw InputError({Mistake{{}, 0, 0, "k", fmt::format("must be an integer from 1 to {}, the number of free coordinates, is {}", s.energy.dofs(), count)}});
+    throw InputError(fmt::format("k: must be an integer from 1 to {}, the number of free coordinates, is {}", s.energy.dofs(), count));
   return without_lock([&] {
     Energy energy(s.model);
     Newton newton(energy, solver_options(s.problem));
@@ -234,7 +238,9 @@ void add_systems(py::module_& module) {
       .def_property_readonly("title", [](const System& s) { return s.problem.title; })
       .def_property_readonly("in_time", [](const System& s) { return s.problem.in_time(); })
       .def_property_readonly("load_factor", [](const System& s) { return starting_load_factor(s.problem); })
-      .def_property_readonly("diameters", [](const System& s) { return py::array_t<double>(s.model.diameter.size(), s.model.diameter.data()); })
+      .def_property_readonly("diameters", [](const System& s) {
+        return py::array_t<double>(s.model.diameter.size(), s.model.diameter.data());
+      })
       .def_property_readonly("ids", [](const System& s) { return py::array_t<int>(s.model.id.size(), s.model.id.data()); })
       .def_property_readonly("groups", &groups)
       .def_property_readonly("bonds", &bonds)

@@ -244,7 +244,9 @@ PreparedRun prepare_run(const Document& document, const std::vector<Setting>& se
   return run;
 }
 
-PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings) { return prepare_runs(read_document(file), settings); }
+PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings) {
+  return prepare_runs(read_document(file), settings);
+}
 
 PreparedRuns prepare_runs(const Document& document, const std::vector<Setting>& settings, const std::vector<OwnLaw>& own) {
   const SweepReader reader = whole_sweeps(document, settings);

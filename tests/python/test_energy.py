@@ -10,8 +10,8 @@ from conftest import buckling_load, column
 EPS = np.finfo(float).eps
 
 
-@pytest.mark.parametrize("name", ["two_beams", "column_cylindrical", "ring_pressure", "grain_corner", "box_tips", "boxes_stacked", "plate_growing",
-                                  "column_between_walls"])
+@pytest.mark.parametrize("name", ["two_beams", "column_cylindrical", "ring_pressure", "grain_corner", "box_tips", "boxes_stacked",
+                                  "plate_growing", "column_between_walls"])
 @pytest.mark.parametrize("load_factor", [None, 0.37])
 def test_energy_and_forces_are_the_programs(root, program_energy, name, load_factor):
     file = root / f"problems/{name}.toml"
@@ -46,7 +46,8 @@ def test_derivatives_are_those_of_the_energy(root, name):
     u = np.zeros(3 * p.n)
     u[p.free[p.free < 3 * p.n]] = rng.standard_normal((p.free < 3 * p.n).sum())
     u /= np.abs(u).max()
-    # Central differences: f′ h² / 6 is the error of the method, ε |f| / h that of rounding. The third derivative is of the order of H / diameter.
+    # Central differences: f‴ h² / 6 is the error of the method, ε |f| / h that of rounding. The third derivative is of the order of
+    # H / diameter.
     d = p.diameters.min()
     h = 1e-4 * d
     size = np.abs(p.hessian(x)).sum(axis=1).max()

@@ -23,5 +23,5 @@ from ._results import Figure, Run, StoredState
 # OpenMP's threads do not survive a fork: a process made by one uses a single thread, as sweeps over processes want it.
 _os.register_at_fork(before=_rest_threads, after_in_child=lambda: set_threads(1))
 
-__all__ = ["Event", "Figure", "InputError", "Minimum", "Mistake", "Mode", "NotConverged", "Path", "Problem", "Run", "Stability", "State", "Step",
-           "StoredState", "check_law", "json_schema", "minimise", "set_threads", "__version__"]
+__all__ = ["Event", "Figure", "InputError", "Minimum", "Mistake", "Mode", "NotConverged", "Path", "Problem", "Run", "Stability", "State",
+           "Step", "StoredState", "check_law", "json_schema", "minimise", "set_threads", "__version__"]

@@ -14,7 +14,8 @@ Floats = NDArray[np.float64]
 Function = Callable[[Floats], Any]
 
 
-def from_functions(name: str, elements: ArrayLike, value: Function, gradient: Function, hessian: Function, translation_invariant: bool) -> Law:
+def from_functions(name: str, elements: ArrayLike, value: Function, gradient: Function, hessian: Function,
+                   translation_invariant: bool) -> Law:
     def derivatives(x: Floats, with_hessian: bool) -> Tuple[Floats, Floats, Optional[Floats]]:
         return np.asarray(value(x)), np.asarray(gradient(x)), np.asarray(hessian(x)) if with_hessian else None
 
@@ -91,7 +92,8 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
     try:
         import sympy
     except ImportError as error:
-        raise InputError("a formula is differentiated by sympy, which is not installed (Debian: python3-sympy); give functions instead") from error
+        raise InputError("a formula is differentiated by sympy, which is not installed (Debian: python3-sympy); "
+                         "give functions instead") from error
     at = np.asarray(elements, dtype=np.int32)
     if at.ndim != 2:
         raise InputError(f"law {name}: elements must have the shape (m, sites), has {at.shape}")
@@ -102,8 +104,8 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
         if parameter in known:
             raise InputError(f"law {name}: {parameter} is a variable of the formula; give the parameter another name")
     symbols = {word: sympy.Symbol(word, real=True) for word in [*known, *parameters]}
-    functions = {f: getattr(sympy, f) for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "pi",
-                                                 "Piecewise", "Max", "Min", "Abs", "Heaviside")}
+    functions = {f: getattr(sympy, f) for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
+                                                 "pi", "Piecewise", "Max", "Min", "Abs", "Heaviside")}
     functions["abs"] = sympy.Abs
     unknown = sorted(words - set(symbols) - set(functions))
     if unknown:
@@ -160,7 +162,8 @@ def check_law(value: Function, gradient: Function, hessian: Function, x: ArrayLi
     Args:
         value, gradient, hessian: its functions, as for Problem.law.
         x: positions (m, sites, 3) at which it is looked at [length].
-        step: of the central differences [length]; by default 1e-5 of the largest distance between an element's sites, or of the coordinates.
+        step: of the central differences [length]; by default 1e-5 of the largest distance between an element's sites, or of the
+            coordinates.
 
     Returns:
         The largest deviations of gradient and Hessian, each relative to the largest entry. About 1e-9 where they are right.

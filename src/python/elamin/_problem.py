@@ -43,12 +43,14 @@ class Event(NamedTuple):
 def _events(step: Step) -> Tuple[Event, ...]:
     if not step.is_event:
         return ()
-    return (Event(step.label, step.label.split(":")[0], step.load_factor, step.multiplicity, step.negative_before, step.negative_after, step.what),)
+    kind = step.label.split(":")[0]
+    return (Event(step.label, kind, step.load_factor, step.multiplicity, step.negative_before, step.negative_after, step.what),)
 
 
 def _repr(step: Step) -> str:
     label = f" {step.label}" if step.label else ""
-    return f"<elamin.Step {step.number}{label}: load factor {step.load_factor:.10g}, energy {step.energy:.7g}, {'stable' if step.stable else 'unstable'}>"
+    stable = "stable" if step.stable else "unstable"
+    return f"<elamin.Step {step.number}{label}: load factor {step.load_factor:.10g}, energy {step.energy:.7g}, {stable}>"
 
 
 setattr(Step, "events", property(_events, doc="What happens here: at most one Event."))
@@ -186,7 +188,8 @@ class Problem(Tables):
         self._built = None
         return self
 
-    def particles(self, x: ArrayLike, diameter: ArrayLike, *, density: Optional[ArrayLike] = None, name: Optional[str] = None) -> NDArray[np.int64]:
+    def particles(self, x: ArrayLike, diameter: ArrayLike, *, density: Optional[ArrayLike] = None,
+                  name: Optional[str] = None) -> NDArray[np.int64]:
         """Adds particles.
 
         Args:
@@ -234,7 +237,8 @@ class Problem(Tables):
         return self
 
     def law(self, name: str, elements: ArrayLike, value: Optional[Function] = None, gradient: Optional[Function] = None,
-            hessian: Optional[Function] = None, *, formula: Optional[str] = None, translation_invariant: bool = False, **parameters: ArrayLike) -> "Problem":
+            hessian: Optional[Function] = None, *, formula: Optional[str] = None, translation_invariant: bool = False,
+            **parameters: ArrayLike) -> "Problem":
         """Adds a law of your own to the energy, as a term of that name.
 
         Args:
@@ -242,8 +246,8 @@ class Problem(Tables):
             value: U of all elements, from positions x (m, sites, 3) to (m,) [energy]; infinite where it is not defined.
             gradient: ∂U/∂x, (m, sites, 3) [force].
             hessian: ∂²U/∂x∂x, (m, 3·sites, 3·sites) [force/length].
-            formula: instead of the functions, U in the distances r01, r02, … of the sites, cosines c012 of the angle at site 1, coordinates x0, y0, …
-                and parameters. sympy differentiates it.
+            formula: instead of the functions, U in the distances r01, r02, … of the sites, cosines c012 of the angle at site 1, coordinates
+                x0, y0, … and parameters. sympy differentiates it.
             translation_invariant: of functions: U is the same where an element is moved as a whole. x is then relative to the element's
                 first site, which keeps all digits of small distances. (Of a formula that is known.)
             parameters: of the formula, a number or one for each element.
@@ -366,8 +370,8 @@ class Problem(Tables):
         """The energy of all laws and loads [energy]; infinite where a law is not defined.
 
         Args:
-            x: positions (n, 3) [length], or a state, a step of a path, a minimum; by default where the study starts. Held particles are where x has
-                them.
+            x: positions (n, 3) [length], or a state, a step of a path, a minimum; by default where the study starts. Held particles are
+                where x has them.
             load_factor: by default that of the state, or p.load_factor.
             bodies: of rigid bodies position and quaternion w, x, y, z (b, 7); by default where they start.
         """
@@ -377,9 +381,10 @@ class Problem(Tables):
         """The energy by its terms: bond, angle, contact, wall, cohesion, body, external, and laws of your own [energy]."""
         return self._system().terms(self._state(x, load_factor, bodies))
 
-    def gradient(self, x: Where = None, load_factor: Optional[float] = None, *, free: bool = False, bodies: Optional[ArrayLike] = None) -> Floats:
-        """∂E/∂x [force]: (n, 3) of all particles, held or not, as minus the forces of `elamin energy --forces`; with free=True over the free
-        coordinates, (dofs,), of bodies too."""
+    def gradient(self, x: Where = None, load_factor: Optional[float] = None, *, free: bool = False,
+                 bodies: Optional[ArrayLike] = None) -> Floats:
+        """∂E/∂x [force]: (n, 3) of all particles, held or not, as minus the forces of `elamin energy --forces`; with free=True over the
+        free coordinates, (dofs,), of bodies too."""
         return self._system().gradient(self._state(x, load_factor, bodies), free)
 
     def forces(self, x: Where = None, load_factor: Optional[float] = None, *, bodies: Optional[ArrayLike] = None) -> Floats:
@@ -390,11 +395,13 @@ class Problem(Tables):
         """Force and torque on each rigid body (b, 6) [force, force·length]."""
         return self._system().body_forces(self._state(x, load_factor, bodies))
 
-    def hessian(self, x: Where = None, load_factor: Optional[float] = None, *, free: bool = False, bodies: Optional[ArrayLike] = None) -> "csr_matrix":
+    def hessian(self, x: Where = None, load_factor: Optional[float] = None, *, free: bool = False,
+                bodies: Optional[ArrayLike] = None) -> "csr_matrix":
         """∂²E/∂x∂x, both triangles of the symmetric matrix, sparse [force/length].
 
-        Rows and columns as in x.ravel(), (3n, 3n): H @ u.ravel() is the change of the gradient with x + u. (Behind the particles of a problem with
-        rigid bodies six rows a body; in a plane the rows across it are empty.) With free=True over the free coordinates, (dofs, dofs).
+        Rows and columns as in x.ravel(), (3n, 3n): H @ u.ravel() is the change of the gradient with x + u. (Behind the particles of a
+        problem with rigid bodies six rows a body; in a plane the rows across it are empty.) With free=True over the free coordinates,
+        (dofs, dofs).
         """
         from scipy.sparse import csr_matrix
 
@@ -409,8 +416,8 @@ class Problem(Tables):
         """The k lowest eigenmodes of the Hessian over the free coordinates at x, which is to be an equilibrium."""
         return self._system().modes(self._state(x, load_factor, bodies), k)
 
-    def minimise(self, x0: Where = None, method: Optional[str] = None, load_factor: Optional[float] = None, *, tolerance: Optional[float] = None,
-                 max_iterations: Optional[int] = None, bodies: Optional[ArrayLike] = None) -> Minimum:
+    def minimise(self, x0: Where = None, method: Optional[str] = None, load_factor: Optional[float] = None, *,
+                 tolerance: Optional[float] = None, max_iterations: Optional[int] = None, bodies: Optional[ArrayLike] = None) -> Minimum:
         """See elamin.minimise."""
         system = self._system()
         if x0 is None:
@@ -420,17 +427,14 @@ class Problem(Tables):
 
     # ---- paths and runs
 
-    def path(self, **keys: object) -> Path:
-        """The path of equilibria, as an iterator: `for step in p.path(): …`.
-
-        Args:
-            keys: of the table [path] (steps, from_, to, method, when_unstable, branches, locate, …), which it changes first.
-        """
-        if keys:
-            self.table("path", **keys)
+    def _path(self, keys: Dict[str, object]) -> Path:
+        given = {key: value for key, value in keys.items() if value is not None}
+        if given:
+            self.table("path", **given)
         return Path(self)
 
-    def run(self, directory: Optional[PathLike] = None, *, progress: bool = False, force: bool = False, report: bool = False, threads: int = 0) -> Run:
+    def run(self, directory: Optional[PathLike] = None, *, progress: bool = False, force: bool = False, report: bool = False,
+            threads: int = 0) -> Run:
         """Runs the study, or all of a [[sweep]], as the program does, and writes the results.
 
         Args:
@@ -440,7 +444,8 @@ class Problem(Tables):
             report: keep states for the page of Run.report.
             threads: to use; 0: all cores.
 
-        A run that ends before its end warns (NotConverged); what was reached is there. Ctrl-C raises KeyboardInterrupt; what was reached is written.
+        A run that ends before its end warns (NotConverged); what was reached is there. Ctrl-C raises KeyboardInterrupt; what was reached
+        is written.
         """
         keep: Optional["tempfile.TemporaryDirectory[str]"] = None
         if directory is None:
@@ -465,7 +470,8 @@ class Problem(Tables):
 
     # ---- pictures
 
-    def picture(self, x: Where = None, load_factor: Optional[float] = None, *, width: float = 240, bodies: Optional[ArrayLike] = None) -> Figure:
+    def picture(self, x: Where = None, load_factor: Optional[float] = None, *, width: float = 240,
+                bodies: Optional[ArrayLike] = None) -> Figure:
         """The shape, drawn as `elamin plot` draws states; width [pt]."""
         system = self._system()
         return Figure(_elamin.picture(system, self._state(x, load_factor, bodies), width, system.title or "shape"))
@@ -482,16 +488,17 @@ class Problem(Tables):
         except InputError as error:
             return f"<elamin.Problem with {max(1, len(error.mistakes))} mistakes>"
         bodies = f", {system.body_count} bodies" if system.body_count else ""
-        return f"<elamin.Problem {system.title or self._document.name!r}: {system.particles} particles{bodies}, {system.dofs} free coordinates>"
+        name = system.title or self._document.name
+        return f"<elamin.Problem {name!r}: {system.particles} particles{bodies}, {system.dofs} free coordinates>"
 
 
-def minimise(problem: Problem, x0: Where = None, method: Optional[str] = None, load_factor: Optional[float] = None, *, tolerance: Optional[float] = None,
-             max_iterations: Optional[int] = None, bodies: Optional[ArrayLike] = None) -> Minimum:
+def minimise(problem: Problem, x0: Where = None, method: Optional[str] = None, load_factor: Optional[float] = None, *,
+             tolerance: Optional[float] = None, max_iterations: Optional[int] = None, bodies: Optional[ArrayLike] = None) -> Minimum:
     """The minimum of the energy near x0.
 
     Args:
-        x0: positions (n, 3) [length], a state, a step; its driven coordinates are put where the load factor has them. By default the start, from which
-            supports and walls go there in steps.
+        x0: positions (n, 3) [length], a state, a step; its driven coordinates are put where the load factor has them. By default the
+            start, from which supports and walls go there in steps.
         method: "newton", "auto", "ipopt", "fire", "nlopt:LD_LBFGS", …; by default the problem's, [solver] method.
         load_factor: by default that of x0, or p.load_factor: 0 of a path from 0.
         tolerance: residual, relative to the largest internal force.

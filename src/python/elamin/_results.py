@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Floats = NDArray[np.float64]
+_WORDS = ("label", "parent", "stage", "status", "what", "zero_mode", "kind", "name", "shape", "open")
+_WHOLE = ("step", "branch", "iterations", "negative", "negative_rigid", "id", "multiplicity", "first", "second", "middle", "third")
 
 
 def read_table(file: Union[str, "os.PathLike[str]"]) -> "pd.DataFrame":
@@ -28,7 +30,7 @@ def read_table(file: Union[str, "os.PathLike[str]"]) -> "pd.DataFrame":
     table = pd.read_csv(file, float_precision="round_trip", keep_default_na=False, na_values={}, dtype=str)
     for column in table.columns:
         values = table[column]
-        if column in ("label", "parent", "stage", "status", "what", "zero_mode", "kind", "name", "shape", "open"):
+        if column in _WORDS:
             continue
         if values.isin(["true", "false"]).all() and len(values):
             table[column] = values == "true"
@@ -37,7 +39,7 @@ def read_table(file: Union[str, "os.PathLike[str]"]) -> "pd.DataFrame":
             table[column] = pd.Series([float(v) if v else np.nan for v in values], index=table.index, dtype=float)
         except ValueError:
             continue
-        if column in ("step", "branch", "iterations", "negative", "negative_rigid", "id", "multiplicity", "first", "second", "middle", "third"):
+        if column in _WHOLE:
             numbers = table[column]
             if len(numbers) and numbers.notna().all():
                 table[column] = numbers.astype(int)
