@@ -1,7 +1,10 @@
 #include "python/law.hpp"
 
 #include "energy/carried_group.hpp"
+#include "core/suggest.hpp"
 #include "energy/energy.hpp"
+#include "input/reader.hpp"
+#include "results/columns.hpp"
 
 #include <fmt/format.h>
 
@@ -78,6 +81,12 @@ std::shared_ptr<py::object> held(py::object object) {
 PythonLaw law_of(std::string term, const py::array_t<int, py::array::c_style | py::array::forcecast>& elements, bool anchored,
                  py::object value, py::object derivatives) {
   PythonLaw law{std::move(term), 0, {}, anchored, held(std::move(value)), held(std::move(derivatives))};
+  static const std::vector<std::string> columns = event_columns({}, true), more = path_columns({}, true);
+  if (!is_name(law.term))
+    throw InputError(fmt::format("the law {}: its name must be of letters, digits, _ and -, a letter first", in_quotes(law.term)));
+  for (const auto* taken : {&columns, &more})
+    if (std::count(taken->begin(), taken->end(), law.term))
+      throw InputError(fmt::format("the law \"{}\": there is a column of this name already; give it another one", law.term));
   if (elements.ndim() != 2 || elements.shape(1) < 1 || elements.shape(1) > 12)
     throw InputError(fmt::format("the law \"{}\": its elements must be an array (m, sites) of particles, with 1 to 12 sites", law.term));
   law.sites = static_cast<int>(elements.shape(1));

@@ -51,6 +51,11 @@ void take_default_threads() {
   if (const int n = default_threads; n > 0) set_threads(n);
 }
 
+int threads_here() {
+  take_default_threads();
+  return omp_get_max_threads();
+}
+
 }  // namespace elamin::python
 
 PYBIND11_MODULE(_elamin, module) {

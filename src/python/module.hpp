@@ -32,6 +32,8 @@ Field field_of(const py::array_t<double, py::array::c_style | py::array::forceca
 /// Threads that each call of this module uses; 0: as many as OpenMP says.
 void set_default_threads(int n);
 void take_default_threads();
+/// What they come to on this thread.
+int threads_here();
 
 /// Solver's work without Python's lock, so that other threads run. Ctrl-C ends it, and is raised behind it.
 template <class Work> auto without_lock(const Work& work) {

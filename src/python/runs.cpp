@@ -1,5 +1,5 @@
 // Whole runs into their directories, pictures and pages of them.
-#include "core/text_file.hpp"
+#include "core/parallel.hpp"
 #include "energy/wall_group.hpp"
 #include "figures/figure.hpp"
 #include "figures/pdf.hpp"
@@ -25,13 +25,15 @@ py::tuple run_document(const Document& document, const std::vector<PythonLaw>& l
   const RunResult result = without_lock([&] {
     std::vector<OwnLaw> own;
     for (const PythonLaw& law : laws) own.push_back(own_law(law));
-    const RunOptions options{.file = document.file, .settings = {}, .directory = directory, .threads = threads, .force = force,
-                             .quiet = quiet, .report = report};
+    const int usual = threads_here();
+    const RunOptions options{.file = document.file, .settings = {}, .directory = directory, .threads = threads > 0 ? threads : usual,
+                             .force = force, .quiet = quiet, .report = report};
     PreparedRuns prepared = prepare_runs(complete(document), {}, own);
     for (const PreparedRun& run : prepared.runs)
       if (!own.empty() && run.problem.in_time())
         throw InputError("a law of your own is not felt by what moves in time; ask for equilibria or a path, or take the law away");
     const RunResult done = run(prepared, options);
+    set_threads(usual);
     std::fflush(stdout);
     return done;
   });

@@ -40,15 +40,16 @@ std::vector<std::string> first_events(const Problem& problem) {
 
 }  // namespace
 
-std::vector<std::string> observable_columns(const Problem& problem) {
+std::vector<std::string> observable_columns(const Problem& problem, const std::vector<OwnLaw>& own) {
   std::vector<std::string> names;
   for (const ObserveTable& o : problem.observe) names.push_back(o.name);
   for (const std::string& name : eigenvalue_columns(problem)) names.push_back(name);
+  for (const OwnLaw& law : own) names.push_back(law.term);
   return names;
 }
 
-std::vector<std::string> run_columns(const Problem& problem) {
-  const std::vector<std::string> observables = observable_columns(problem);
+std::vector<std::string> run_columns(const Problem& problem, const std::vector<OwnLaw>& own) {
+  const std::vector<std::string> observables = observable_columns(problem, own);
   return problem.in_time() ? trajectory_columns(observables) : path_columns(observables, !problem.stages.empty());
 }
 
@@ -82,11 +83,11 @@ Row event_row(const PathPoint& p, const std::vector<double>& observables, const 
 
 bool is_event(const std::string& label) { return label.find(':') != std::string::npos; }
 
-std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, const Problem& problem) {
+std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, const Problem& problem, const std::vector<OwnLaw>& own) {
   std::vector<std::string> columns = keys;
   columns.push_back("status");
   append(columns, first_events(problem));
-  append(columns, run_columns(problem));
+  append(columns, run_columns(problem, own));
   return columns;
 }
 

@@ -24,8 +24,8 @@ Field site_forces(const Model& model, const Motion& m) {
 
 Record::Record(const Problem& problem, const Model& model)
     : problem_(problem),
-      names_(observable_columns(problem)),
-      path_{run_columns(problem), {}},
+      names_(observable_columns(problem, model.own)),
+      path_{run_columns(problem, model.own), {}},
       events_{event_columns(names_, !problem.stages.empty()), {}} {
   const Stage whole;
   enter(whole, model);
@@ -41,7 +41,8 @@ void Record::add(const PathPoint& point, const Field& forces, const std::vector<
                  const std::vector<double>& eigenvalues) {
   std::vector<double> values = observables_->evaluate(point.state, forces, touches);
   values.insert(values.end(), eigenvalues.begin(), eigenvalues.end());
-  values.resize(names_.size(), std::numeric_limits<double>::quiet_NaN());     // fewer dofs than modes asked for
+  values.resize(names_.size() - model_->own.size(), std::numeric_limits<double>::quiet_NaN());     // fewer dofs than modes asked for
+  for (std::size_t k = 0; k < model_->own.size(); ++k) values.push_back(point.energy.own[k].second);
   path_.rows.push_back(path_row(point, values, stage_));
   if (is_event(point.label)) events_.rows.push_back(event_row(point, values, stage_));
 }

@@ -64,7 +64,7 @@ class Halving {
  private:
   // All rows anew: they stand in the order of the key.
   void write_table() {
-    CsvFile table(directory_.file("sweep.csv"), sweep_columns(swept_keys(first_), first_.problem));
+    CsvFile table(directory_.file("sweep.csv"), sweep_columns(swept_keys(first_), first_.problem, prepared_.own));
     for (const auto& [value, row] : rows_) table.add(row);
   }
 

@@ -56,7 +56,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   if (!options.force)
     for (std::size_t k = 0; k < runs.size(); ++k) require_results(options.directory + "/" + name_of(k));
   ResultsDirectory directory(options.directory, options.force, inputs_in(options.directory, first));
-  SweepTable table(directory.file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first));
+  SweepTable table(directory.file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first, prepared.own));
 
   std::vector<SingleResult> results(runs.size());
   std::vector<std::exception_ptr> failures(runs.size());

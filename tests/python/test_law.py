@@ -137,8 +137,17 @@ def test_a_run_has_them_too(tmp_path):
     run = p.run(tmp_path / "run")
     assert run.status == "done"
     assert run.events["lambda"][0] == pytest.approx(buckling_load(), rel=1e-9)
-    assert [s.energy for s in p.path()] == list(run.path["energy"])
-    assert "no_shape" not in run.report().read_text()[:100]
+    steps = list(p.path())
+    assert [s.energy for s in steps] == list(run.path["energy"])
+    for term in ("stretch", "bend"):
+        assert [s.terms[term] for s in steps] == [s.row[term] for s in steps] == list(run.path[term])
+    assert run.plot(y="bend").svg
+
+
+def test_a_sweep_has_their_columns(tmp_path):
+    run = own_column().sweep(key="path.to", values=[0.005, 0.01]).run(tmp_path / "sweep")
+    assert list(run.sweep["stretch"]) == [r.path["stretch"].iloc[-1] for r in run.runs]
+    assert list(run.sweep["negative_rigid"]) == [0, 0]
 
 
 def test_a_foundation_of_own_springs():
@@ -160,7 +169,7 @@ def test_a_foundation_of_own_springs():
 def test_what_nothing_holds_is_still_refused():
     p = elamin.Problem()
     p.particles([[0, 0, 0], [1, 0, 0]], 1.0, name="pair")
-    p.law("bond", [[0, 1]], formula="(r01 - 1)**2").load(group="pair", force=[1, 0, 0])
+    p.law("own", [[0, 1]], formula="(r01 - 1)**2").load(group="pair", force=[1, 0, 0])
     with pytest.raises(elamin.InputError, match="support"):
         p.n
 
@@ -227,11 +236,25 @@ def test_wrong_laws_are_refused():
     fails("its value has 3 numbers for 1 elements", kind=ValueError, value=lambda x: np.zeros(3), gradient=gradient, hessian=hessian)
     fails("its gradient has 3 numbers for 1 elements of 2 sites; 6 are wanted", kind=ValueError, value=value,
           gradient=lambda x: np.zeros(3), hessian=hessian)
+    for name in ("bond", "lambda", "stable", "multiplicity"):
+        fails_by_name("there is a column of this name already", name)
+    for name in ("", "a,b", "1", 'x"'):
+        fails_by_name("its name must be of letters", name)
     p = elamin.Problem()
     p.particles([[0, 0, 0], [1, 0, 0]], 1.0)
-    p.law("bond", [[0, 1]], formula="r01").study(type="energy")
-    with pytest.raises(ValueError, match="there is a term bond already"):
+    p.law("own", [[0, 1]], formula="r01").law("own", [[0, 1]], formula="r01**2").study(type="energy")
+    with pytest.raises(ValueError, match="there is a term own already"):
         p.n
+    p = elamin.Problem()
+    p.particles([[0, 0, 0], [1, 0, 0]], 1.0, name="pair")
+    p.law("own", [[0, 1]], formula="r01").study(type="energy").observe(name="own", group="pair", quantity="position.x")
+    with pytest.raises(elamin.InputError, match='observe.own.name: "own" is the name of a law'):
+        p.n
+
+
+def fails_by_name(match, name):
+    with pytest.raises(elamin.InputError, match=match):
+        elamin.Problem().law(name, [[0, 1]], formula="r01")
 
 
 def test_check_law_tells_right_from_wrong():

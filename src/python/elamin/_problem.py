@@ -204,7 +204,7 @@ class Problem(Tables):
         numbers = self._arrays.add_particles(x, diameter, density)
         self._built = None
         if name is not None:
-            self.group(name=name, particles=numbers)
+            self.group(name=name, ids=[int(i) + 1 for i in numbers])
         return numbers
 
     def _ids(self, particles: ArrayLike) -> List[int]:
@@ -442,7 +442,7 @@ class Problem(Tables):
             progress: says how far it is.
             force: write to a directory that holds something else than results, too.
             report: keep states for the page of Run.report.
-            threads: to use; 0: all cores.
+            threads: to use; 0: as many as set_threads, or else OpenMP (OMP_NUM_THREADS, all cores), has it.
 
         A run that ends before its end warns (NotConverged); what was reached is there. Ctrl-C raises KeyboardInterrupt; what was reached
         is written.
