@@ -210,8 +210,8 @@ struct Structure {
 struct OwnLaw {
   std::string term;                             // name of its energy
   std::vector<std::vector<int>> elements;       // of each element the particles, which it holds together as a bond does
-  bool anchored = false;                        // it holds them in space, too: the energy is another one where an element is moved as a whole
-  std::function<std::unique_ptr<ElementGroup>(const Energy&)> group;   // its sites are particles
+  bool anchored = false;                        // it holds them in space, too: its energy changes where an element is moved as a whole
+  std::function<std::unique_ptr<ElementGroup>(const Energy&)> group;   // its sites are particles, and what carries them
 };
 
 struct Model {

@@ -13,17 +13,24 @@ namespace {
 Node node_of(const py::handle& value, const std::string& key, int depth = 0) {
   constexpr int deepest = 16;
   const auto wrong = [&](const std::string& what) { return InputError({Mistake{{}, 0, 0, key, what}}); };
+  const auto text = [&](const py::handle& string) {
+    try {
+      return string.cast<std::string>();
+    } catch (const py::cast_error&) {
+      throw wrong("is a string that is no text in UTF-8");
+    }
+  };
   if (depth > deepest) throw wrong("is nested too deeply; no key is");
   Node node;
   if (py::isinstance<py::bool_>(value)) {
     node.value = value.cast<bool>();
   } else if (py::isinstance<py::str>(value)) {
-    node.value = value.cast<std::string>();
+    node.value = text(value);
   } else if (py::isinstance<py::dict>(value)) {
     Entries entries;
     for (const auto& [k, v] : py::reinterpret_borrow<py::dict>(value)) {
       if (!py::isinstance<py::str>(k)) throw wrong("has a key that is no string");
-      const std::string name = k.cast<std::string>();
+      const std::string name = text(k);
       if (!v.is_none()) entries.push_back({name, {}, node_of(v, key.empty() ? name : key + "." + name, depth + 1)});
     }
     node.value = std::move(entries);

@@ -84,8 +84,43 @@ def test_mistakes_of_a_dict_have_their_keys():
         elamin.Problem({}).n
     with pytest.raises(elamin.InputError, match="beam.thing: must be a string, a number, a list or a dict"):
         elamin.Problem({"beam": [{"thing": object()}]})
-    with pytest.raises(elamin.InputError, match="there is no such file|cannot|not there"):
+    with pytest.raises(elamin.InputError, match="nowhere/no.toml: "):
         elamin.Problem("nowhere/no.toml")
+    endless = []
+    endless.append(endless)
+    for wrong, what in ((endless, "is nested too deeply"), (2**70, "is an integer that is too large"), ("\ud800", "is no text in UTF-8")):
+        with pytest.raises(elamin.InputError, match="beam.name: .*" + what):
+            elamin.Problem({"beam": [{"name": wrong}]})
+
+
+def test_mutated_tables_are_read_or_refused(root):
+    """Nothing but an InputError, whatever stands in a dict."""
+    import copy
+    import random
+    import tomllib
+
+    rng = random.Random(1)
+    junk = [None, True, -1, 0, 1e300, float("nan"), float("inf"), "", "x" * 100, "\x00", [], [[]], {}, [1, 2, 3], {"a": 1},
+            np.float32(1.5), np.int64(3), np.zeros((2, 3)), 2**70, b"bytes", object(), (1, 2), "all", -0.0]
+    files = sorted((root / "tests/input/good").glob("*.toml"))
+    tables = [tomllib.loads(f.read_text(encoding="utf-8")) for f in files]
+    refused = 0
+    for _ in range(300):
+        node = changed = copy.deepcopy(rng.choice(tables))
+        while True:
+            keys = list(node) if isinstance(node, dict) else list(range(len(node)))
+            key = rng.choice(keys)
+            if isinstance(node[key], (dict, list)) and node[key] and rng.random() < 0.8:
+                node = node[key]
+                continue
+            node[key] = rng.choice(junk)
+            break
+        try:
+            elamin.Problem(changed, folder=root / "tests/input/good").n
+        except elamin.InputError as error:
+            refused += 1
+            assert str(error) and error.mistakes
+    assert 100 < refused < 300
 
 
 def test_wrong_arrays_are_refused():
