@@ -63,7 +63,8 @@ class Builder {
         for (const int p : element)
           if (p < 0 || p >= model_.particles()) wrong = p;
       for (const ObserveTable& o : p_.observe)
-        if (o.name == law.term) mistakes_.add(o.place, "name", fmt::format("\"{}\" is the name of a law that the program brings along", o.name));
+        if (o.name == law.term)
+          mistakes_.add(o.place, "name", fmt::format("\"{}\" is the name of a law that the program brings along", o.name));
       if (wrong >= 0)
         mistakes_.add(fmt::format("the law \"{}\" is of a particle number {}; the problem has {}, which count from 0", law.term, wrong,
                                   model_.particles()));
