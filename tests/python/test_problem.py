@@ -25,6 +25,16 @@ def test_file_dict_and_methods_are_one(root):
     assert again.tables == by_methods.tables
 
 
+def test_tables_as_toml_read_back(root):
+    import tomllib
+
+    files = [*(root / "tests/input/good").glob("*.toml"), *(root / "problems").glob("*.toml")]
+    assert len(files) > 50
+    for file in files:
+        p = elamin.Problem(file)
+        assert tomllib.loads(p.toml()) == p.tables == tomllib.loads(file.read_text(encoding="utf-8")), file
+
+
 def test_arrays_make_what_a_beam_makes():
     by_beam = column()
     n, d, E = 14, 1e-3, 0.96e6

@@ -1,5 +1,6 @@
 #include "catch.hpp"
 #include "chain.hpp"
+#include "core/interrupt.hpp"
 #include "solve/newton.hpp"
 
 using namespace elamin;
@@ -120,6 +121,29 @@ TEST_CASE("what has no stiffness at all is a result with a sentence", "[solve]")
     CHECK(report.why.find("nothing here has a stiffness") != std::string::npos);
   }
   CHECK(newton.factors().inertia().zero == energy.dofs());
+}
+
+TEST_CASE("signs are looked for until a program asks to stop, at whatever moment", "[solve]") {
+  State state;
+  const Model model = column(40, 1e8, true, true, Vec3::UnitZ(), 1e-7, state);
+  const int negative = inertia_of(model, state).negative;
+  Energy energy(model);
+  Newton newton(energy);
+  energy.kinematics().prescribe(state, 1);
+  REQUIRE(newton.correct(state).converged());
+  energy.evaluate(state);
+  int asked = 0, all = 0;
+  for (int patience = 0; patience <= all || patience == 0; ++patience) {
+    asked = 0;
+    const std::function<bool()> stop = [&] { return ++asked > patience; };
+    stop_asked = &stop;
+    const Inertia inertia = newton.factors().inertia();
+    stop_asked = nullptr;
+    all = std::max(all, asked);
+    if (asked <= patience) CHECK(inertia.negative == negative);      // it was never stopped
+    REQUIRE(patience < 10000);
+  }
+  CHECK(all > 3);
 }
 
 TEST_CASE("the search for a shift ends", "[solve]") {
