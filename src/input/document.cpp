@@ -1,5 +1,7 @@
 #include "input/document.hpp"
 
+#include "input/lammps_input.hpp"
+
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
@@ -101,11 +103,15 @@ void set_place(Node& node, Place place) {
 
 }  // namespace
 
-Document read_document(const std::string& file) { return parse_document(read_text(file), file); }
-
 Document parse_document(const std::string& text, const std::string& file) {
-  return {file, sha256(text), parse(std::string(without_mark(text)), file)};
+  Document document{file, sha256(text), parse(std::string(without_mark(text)), file)};
+  take_lammps_input(document);
+  return document;
 }
+
+Entries parse_entries(const std::string& text, const std::string& file) { return parse(text, file); }
+
+Document read_document(const std::string& file) { return parse_document(read_text(file), file); }
 
 Node parse_value(const std::string& text, Place place) {
   Node node;

@@ -36,6 +36,8 @@ Document read_document(const std::string& file);
 
 /// The same of a text; `file`: what mistakes call it, and from whose folder the files that it names are sought.
 Document parse_document(const std::string& text, const std::string& file);
+/// The entries of a text in TOML, which is told of as `file`. Throws InputError if it is not TOML.
+Entries parse_entries(const std::string& text, const std::string& file);
 
 /// One TOML value, such as `[0, 0, 1e-3]`; what is no TOML value is taken as a string of these letters.
 Node parse_value(const std::string& text, Place place);

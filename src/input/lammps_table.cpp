@@ -11,17 +11,17 @@
 namespace elamin {
 
 void describe(Keys& keys, LammpsTable& t) {
-  keys.about("Particles, bonds, angles (with their coefficients) and bodies from LAMMPS data files. Atom type 2 is the group \"type2\", "
-             "and its "
-             "label one too; ids are LAMMPS's own.");
+  keys.about("Particles, bonds, angles (with their coefficients) and bodies from LAMMPS data files, or all that a LAMMPS input script makes. "
+             "Atom type 2 is the group \"type2\", and its label one too; ids are LAMMPS's own.");
   keys.may_file("data", t.data, "the data file");
   keys.may_file("bodies", t.bodies, "a data file of bodies beside it");
+  keys.may("input", t.input, "a LAMMPS input script instead: its particles, and as tables before those of this file what is in force in it");
   keys.may("atom_style", t.atom_style, "LAMMPS's, where the comment behind \"Atoms\" does not say it");
   keys.one_or_more("ignore", t.ignore, "sections that are passed over, as [\"Dihedrals\", \"Impropers\"], with their coefficients");
   keys.may("bond_coefficients", t.bond_coefficients, "[[K, r0], …] of the bond types from 1, instead of those in the file");
   keys.may("angle_coefficients", t.angle_coefficients,
            "[[B], …] of the angle types, U = B (1 + cos θ), or [B, θ₀] with U = B (1 − cos(θ − θ₀)), θ₀ in degrees");
-  keys.one_at_least({"data", "bodies"}, "give data = \"case.data\"");
+  keys.one_at_least({"data", "bodies", "input"}, "give data = \"case.data\"");
 }
 
 LammpsReading reading_of(const LammpsTable& t) {

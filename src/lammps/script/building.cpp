@@ -29,7 +29,9 @@ bool in_box(const World& w, const Vec3& x) { return (x.array() >= w.lo.array()).
 /// Numbers from 0 to 1 as LAMMPS draws them here: x ← 16807 x mod (2³¹ − 1). Source: Park & Miller 1988, Comm. ACM 31, 1192.
 class Random {
  public:
-  explicit Random(long long seed) : seed_(seed) {}
+  explicit Random(long long seed) : seed_(seed) {
+    for (int k = 0; k < 30; ++k) next();         // that LAMMPS throws away
+  }
   double next() {
     seed_ = 16807 * seed_ % 2147483647;
     return static_cast<double>(seed_) * (1.0 / 2147483647);

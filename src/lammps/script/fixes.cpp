@@ -149,7 +149,8 @@ struct Making {
     in.wants(6, "fix ID GROUP wall/gran LAW … xplane LO HI");
     fix.kind = Fix::Kind::wall;
     double modulus = 0;
-    plane_or_tube(wall_law(4, modulus), modulus);
+    const std::size_t next = wall_law(4, modulus);
+    plane_or_tube(next, modulus);
   }
 
   void wall_body() {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <set>
 
@@ -254,24 +255,31 @@ class Translation {
   void wall(int k, const Run::Active& a) {
     for (const Fix::Wall& w : a.fix.walls) {
       if (w.effective_modulus == 0 && a.fix.body.empty()) continue;
-      // LAMMPS lets those feel nothing that are on the other side; here they may not be there.
-      Members members;
-      std::copy_if(a.members.begin(), a.members.end(), std::back_inserter(members), [&](int i) {
+      // Of regions LAMMPS lets those feel nothing that are on the other side; planes of wall/gran push them away, there too.
+      Members members, beyond;
+      for (const int i : a.members) {
         const bool known = k == 0 || atom(i).born == k;
-        return !known || w.region.any_open() || atom(i).is_body || w.region.shape == Shape::plane || w.region.contains(atom(i).start) == w.inside;
-      });
-      const auto beyond = a.members.size() - members.size();
-      if (beyond > 0) note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they are left out of its group", beyond, a.members.size()));
-      if (members.empty()) continue;
-      std::string body = fmt::format("group = \"{}\"\n", beyond > 0 ? group_of(members, a.fix.id + "_inside", k) : group_of(members, a.fix.group, k)) + region_text(w.region, w.inside);
-      const bool round = w.region.shape != Shape::plane && w.region.shape != Shape::block;
-      if (a.fix.body.empty()) body += fmt::format("effective_modulus = {}\n", w.effective_modulus) + (round ? "effective_radius = \"curved\"\n" : "");
-      else body += a.fix.body + (options_.dynamics ? "formulation = \"lammps\"\n" : "");
-      if (options_.dynamics) body += a.fix.damping;
-      put(k, {"wall", a.fix.id + w.suffix, body, a.fix.where, a.fix.text, a.fix.serial, {}});
+        (!known || w.region.any_open() || atom(i).is_body || w.region.contains(atom(i).start) == w.inside ? members : beyond).push_back(i);
+      }
+      const bool either = a.fix.style == "wall/gran" && w.region.shape == Shape::plane;
+      if (!beyond.empty() && !either)
+        note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they are left out of its group", beyond.size(), a.members.size()));
+      if (!members.empty()) one_wall(k, a, w, w.inside, a.fix.id + w.suffix, beyond.empty() ? group_of(members, a.fix.group, k) : group_of(members, a.fix.id + w.suffix + "_before", k));
+      if (!beyond.empty() && either) one_wall(k, a, w, !w.inside, a.fix.id + w.suffix + "_back", group_of(beyond, a.fix.id + w.suffix + "_behind", k));
+      if (w.region.shape == Shape::cone && w.region.radius_lo != w.region.radius_hi)
+        note(a.fix.where, "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
       if (a.fix.trap_modulus)
         note(a.fix.where, "LAMMPS gives walls of hertz/material the modulus E/(2(1 - nu)), and contacts between particles E/(2(1 - nu^2)); that is kept");
     }
+  }
+
+  void one_wall(int k, const Run::Active& a, const Fix::Wall& w, bool inside, const std::string& name, const std::string& group) {
+    std::string body = fmt::format("group = \"{}\"\n", group) + region_text(w.region, inside);
+    const bool round = w.region.shape != Shape::plane && w.region.shape != Shape::block;
+    if (a.fix.body.empty()) body += fmt::format("effective_modulus = {}\n", w.effective_modulus) + (round ? "effective_radius = \"curved\"\n" : "");
+    else body += a.fix.body + (options_.dynamics ? "formulation = \"lammps\"\n" : "");
+    if (options_.dynamics) body += a.fix.damping;
+    put(k, {"wall", name, body, a.fix.where, a.fix.text, a.fix.serial, {}});
   }
 
   static std::string region_text(const Region& r, bool inside) {
@@ -539,7 +547,7 @@ class Translation {
     if (plane >= 0) t += fmt::format("plane = \"{}\"                       # all of it lies in this plane, and nothing pushes it out\n", plane == 0 ? "yz" : plane == 1 ? "xz" : "xy");
     t += "\n[lammps]\n";
     if (particles_.particles() > 0) t += fmt::format("data = \"{}\"\n", data_name_);
-    if (!world_.body_file.empty()) t += fmt::format("bodies = \"{}\"\n", escaped(world_.body_file));
+    if (!world_.body_file.empty()) t += fmt::format("bodies = \"{}\"\n", escaped(std::filesystem::absolute(world_.body_file).string()));
     t += group_text_ + presence_text_;
     for (const char* kind : {"support", "load", "gravity", "contact", "wall", "viscosity"}) {
       int number = 0;

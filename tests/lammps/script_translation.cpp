@@ -1,0 +1,273 @@
+// Scripts as problem files.
+#include "catch.hpp"
+#include "input/stages.hpp"
+#include "lammps/script_reading.hpp"
+#include "study/program.hpp"
+#include "study/run.hpp"
+
+#include <cmath>
+
+using namespace elamin;
+using script::Reading;
+
+namespace {
+
+const std::string scripts = ELAMIN_ROOT "/data/lammps/scripts/";
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+const std::string three_in_a_row = small_script_head +
+    "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.1 0 0\ncreate_atoms 2 single 0.2 0 0\nset group all diameter 0.05\nset group all density 2\n"
+    "create_bonds single/bond 1 1 2\ncreate_bonds single/bond 3 2 3\ncreate_bonds single/angle 2 1 2 3\ntimestep 0.5\n";
+
+double last(const std::string& directory, const std::string& column) {
+  const auto rows = csv_rows(directory + "/path.csv");
+  for (std::size_t c = 0; c < rows[0].size(); ++c)
+    if (rows[0][c] == column) return std::stod(rows.back()[c]);
+  throw std::runtime_error("no column " + column);
+}
+
+}  // namespace
+
+TEST_CASE("what is in force at a run becomes tables", "[script]") {
+  const ImportedProblem p = imported(three_in_a_row +
+      "group one id 1\ngroup three id 3\nfix 1 all nve\nfix m one move linear 0.01 NULL -0.02\nfix h three setforce NULL 0 0\nfix g all gravity 2 vector 0 0 -3\n"
+      "fix f three addforce 1 2 3\nfix v all viscous 0.1\nregion tube cylinder x 0 0 1.5 INF 4 side in open 2\n"
+      "fix w one wall/gran/region granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 region tube\nrun 20\n");
+  INFO(p.files.toml);
+  CHECK(p.model.bonds.size() == 2);
+  CHECK(p.model.bond_types.size() == 2);                        // types 1 and 3; the second is not in use
+  CHECK(p.model.bond_types[1].stiffness == 5);
+  CHECK(p.model.angle_types.size() == 1);
+  REQUIRE(p.model.supports.size() == 2);
+  CHECK(p.model.supports[0].displacement == Vec3(0.1, 0, -0.2));
+  CHECK(p.model.supports[0].held == std::array{true, false, true});
+  CHECK(p.model.supports[1].held == std::array{false, true, true});
+  CHECK(p.model.gravity.at(0).acceleration == Vec3(0, 0, -2));
+  CHECK(p.model.loads.at(0).force == Vec3(1, 2, 3));
+  CHECK(p.model.loads.at(0).scaling == Scaling::constant());
+  REQUIRE(p.model.walls.size() == 1);
+  CHECK(p.model.walls[0].effective_modulus == 100 / (2 * 0.75));
+  CHECK(p.model.walls[0].curved);
+  CHECK(p.model.walls[0].region.open == std::array{false, true, false, false, false, false});
+  CHECK(p.model.walls[0].region.axial_hi == 4);
+  CHECK(p.model.viscosity.empty());
+  CHECK(p.model.contacts.at(0).effective_modulus == 1000 / (2 * (1 - 0.09)));
+  CHECK(p.model.contacts.at(0).exclude_bonds == 1);
+  CHECK(holds(p.files.toml, "# in.lmp:26 fix m one move linear 0.01 NULL -0.02\n[[support]]\nname = \"m\"\n"));
+  CHECK(holds(p.files.toml, "[path]"));
+}
+
+TEST_CASE("particles that nothing integrates stay, and later fixes hold over earlier ones", "[script]") {
+  const ImportedProblem p = imported(three_in_a_row +
+      "group a id 1 2\ngroup b id 2\nfix 1 a nve\nfix 2 a setforce 0 0 0\nfix 3 b move linear 0 0 1\nrun 1\n");
+  INFO(p.files.toml);
+  REQUIRE(p.model.supports.size() == 3);
+  std::map<int, Vec3> of;
+  for (const Support& s : p.model.supports)
+    for (const int i : s.particles) of[i] = s.displacement;
+  CHECK(of == std::map<int, Vec3>{{0, Vec3::Zero()}, {1, Vec3(0, 0, 0.5)}, {2, Vec3::Zero()}});
+}
+
+TEST_CASE("pair coefficients act in LAMMPS's order", "[script]") {
+  const std::string three = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 0.6 0 0\nset group all diameter 0.1\n";
+  // Of E for the pairs 11 12 13 22 23 33, the later line holds; 2* 1*2 means 22 alone.
+  const auto moduli = [&](const std::string& lines) {
+    const ImportedProblem p = imported(three + lines + "fix 1 all nve\nrun 1\n");
+    std::map<std::pair<int, int>, double> E;
+    for (const PairContact& c : p.model.contacts)
+      for (const int i : c.particles[0])
+        for (const int j : c.particles[1])
+          if (c.law == PairContact::Law::hertz) E[{std::min(i, j), std::max(i, j)}] = c.effective_modulus;
+    std::string text;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) text += std::to_string(std::lround(E[{i, j}])) + " ";
+    return text;
+  };
+  const std::string tail = " 0 tangential linear_nohistory 0 0\n", hertz = " hertz ";
+  const auto line = [&](const std::string& types, int modulus) { return "pair_coeff " + types + hertz + std::to_string(4 * modulus / 3) + ".0" + tail; };
+  CHECK(moduli("pair_style granular\n" + line("* *", 30) + line("1 2", 60) + line("2* 1*2", 90)) == "30 60 30 90 30 30 ");
+  CHECK(moduli("pair_style granular\n" + line("* *", 30) + line("2 2", 0) + line("1* 3", 60)) == "30 30 60 0 60 60 ");
+  CHECK(moduli("pair_style granular\n" + line("1 1", 30) + line("2 2", 120) + line("3 3", 0)) == "30 60 0 120 0 0 ");       // mixed
+  CHECK(moduli("pair_style granular\n" + line("* *", 30) + "pair_style granular\n" + line("1 1", 60) + line("1* 2*", 90)) == "60 90 90 90 90 90 ");
+}
+
+TEST_CASE("traps are told", "[script]") {
+  const auto notes = [](const std::string& text) {
+    const Reading r = reading_of(text);
+    return script::report(r, script::translated(r, r.passes.at(0), {}, "p.data").notes);
+  };
+  const std::string all = notes(three_in_a_row +
+      "pair_style hybrid/overlay granular lj/cut 1\npair_coeff * * granular hertz/material 1e3 0 0.3 tangential mindlin NULL 1 0.5\npair_coeff 1 2 lj/cut 1 0.1\n"
+      "special_bonds lj 0 1 1 coul 0 0.5 1\nfix 1 all nve\ngroup two id 1 2\nfix s two setforce 0 0 0\n"
+      "fix w all wall/gran granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 zplane -0.5 0.5\nrun 10\n");
+  for (const char* part : {"E/(2(1 - nu))", "the energy of this cohesion jumps", "friction that remembers", "a clamp. It sits in the middle"}) CHECK(holds(all, part));
+  CHECK(holds(notes(three_in_a_row + "special_bonds lj/coul 0 0.5 1\nfix 1 all nve\nrun 10\n"), "weights of special_bonds between 0 and 1 are ignored by granular"));
+  CHECK(holds(notes(three_in_a_row + "create_atoms 1 single 5 0 0\nfix 1 all nve\nrun 10\n"), "lies outside of the box"));
+  CHECK(holds(notes(three_in_a_row + "region b block 0.05 1 -1 1 -1 1\nfix 1 all nve\nfix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 10\n"),
+              "1 of 3 particles are on the other side of this wall"));
+}
+
+TEST_CASE("sheets of LAMMPSStructures are kept or mended", "[script]") {
+  const ScratchDirectory scratch;
+  scratch.file("sheet_1.txt", "create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.1 0 0\ncreate_atoms 1 single 0.2 0 0\n");
+  const Reading r = script::read_script(scratch.file("in.lmp", small_script_head + "include sheet_1.txt\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\n"
+                                                     "create_bonds single/angle 1 1 2 3\nset type 1 diameter 0.1\nfix 1 all nve\nrun 1\n"), {});
+  CHECK(imported(r).model.angle_types.at(0).stiffness == 0.25);
+  CHECK(imported(r).files.notes.size() == 1);
+  CHECK(imported(r, 0, {false, false, true}).files.notes.empty());
+  const ImportedProblem mended = imported(r, 0, {false, true, false});
+  CHECK(mended.model.angle_types.at(0).stiffness == 0.25 * 3 * std::sqrt(3.0));
+  CHECK(holds(mended.files.notes.at(0).text, "it is mended here"));
+}
+
+TEST_CASE("runs become stages, with what comes and goes between them", "[script]") {
+  const Reading reading = script::read_script(scripts + "stages.lmp", {});
+  const ImportedProblem p = imported(reading);
+  INFO(p.files.toml);
+  REQUIRE(p.problem.stages.size() == 4);
+  CHECK(p.problem.plane == "xz");
+  Stages stages(p.problem);
+  Model all = p.model;
+  struct Expected { double from, to; std::size_t bonds, angles, supports, walls; };
+  // Supports: low, high or stop, the grain's, and where something is absent one that holds it still.
+  const Expected expected[]{{0, 1, 10, 9, 3, 1}, {1, 3, 10, 9, 3, 1}, {0, 1, 10, 9, 3, 0}, {0, 1, 8, 7, 3, 0}};
+  for (const Expected& e : expected) {
+    std::string unclear;
+    const Stage stage = stages.enter(unclear);
+    INFO(stage.name);
+    CHECK(unclear.empty());
+    CHECK(stage.path.from == e.from);
+    CHECK(stage.path.to == e.to);
+    const Model m = model_in(p.problem, stage, all, all.start);
+    CHECK(m.bonds.size() == e.bonds);
+    CHECK(m.angles.size() == e.angles);
+    CHECK(m.supports.size() == e.supports);
+    std::size_t walls = 0;
+    for (const Wall& w : m.walls) walls += !w.particles.empty();
+    CHECK(walls == e.walls);
+    stages.leave(stage.path.to);
+  }
+}
+
+TEST_CASE("a script that begins anew gives a problem for each pass", "[script]") {
+  std::string text = small_script_head + "group g empty\nvariable j loop 3\nlabel again\nvariable n equal 2+$j\nvariable i loop $n\nlabel row\n"
+                     "create_atoms 1 single $(0.1*v_i) 0 0\nnext i\njump SELF row\nset type 1 diameter 0.1\ngroup g type 1\nfix 1 g nve\nrun 10\n"
+                     "delete_atoms group all\nnext j\njump SELF again\n";
+  const Reading r = reading_of(text);
+  REQUIRE(r.passes.size() == 3);
+  for (int k = 0; k < 3; ++k) {
+    const ImportedProblem p = imported(r, static_cast<std::size_t>(k));
+    CHECK(p.model.particles() == 3 + k);
+    CHECK(p.model.id.front() == 1);
+    CHECK(holds(p.files.toml, ", j = " + std::to_string(k + 1) + "."));
+  }
+}
+
+TEST_CASE("what needs positions behind a run ends an import, and goes on with them", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string text = three_in_a_row + "fix 1 all nve\nrun 10\ngroup right id 2 3\nvariable far equal xcm(right,x)*2\n"
+                                            "create_atoms 3 single ${far} 0 0\nset type 3 diameter 0.02\ngroup all2 id 1:4\ncreate_bonds many all2 all2 2 0.2 0.5\nrun 5\n";
+  const std::string file = scratch.file("in.lmp", text);
+  const Reading first = script::read_script(file, {});
+  REQUIRE(first.passes.size() == 1);
+  CHECK(first.passes[0].world.runs.size() == 1);
+  CHECK(holds(script::report(first, {}), "needs to know where particles are behind the run of"));
+  CHECK(imported(first).model.particles() == 3);
+
+  const ScratchDirectory other;
+  const std::string state = other.file("final.data", "moved\n3 atoms\n2 bonds\n1 angles\n2 atom types\n2 bond types\n1 angle types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n"
+      "\nBond Coeffs # harmonic\n\n1 5 0.1\n2 5 0.1\n\nAngle Coeffs # cosine\n\n1 0.25\n\nAtoms # hybrid sphere angle\n\n"
+      "1 1 0 0 0 0.05 2 0\n2 2 0.1 0.05 0 0.05 2 0\n3 2 0.3 0.1 0 0.05 2 0\n\nBonds\n\n1 1 1 2\n2 2 2 3\n\nAngles\n\n1 1 1 2 3\n");
+  script::ReadingOptions options;
+  options.after = {state};
+  const ImportedProblem p = imported(script::read_script(file, options));
+  CHECK(p.model.particles() == 4);
+  CHECK(p.model.start.position.col(2) == Vec3(0.3, 0.1, 0));
+  CHECK(p.model.start.position(0, 3) == 0.4);
+  CHECK(p.model.bonds.size() == 4);                             // 1-3 and 2-4 besides
+  CHECK(p.problem.stages.empty());
+  options.after = {scratch.file("other.data", "none\n1 atoms\n1 atom types\n\nAtoms # sphere\n\n9 1 0.1 1 0 0 0\n")};
+  CHECK_THROWS_AS(script::read_script(file, options), InputError);
+}
+
+TEST_CASE("an imported column buckles as its twin in TOML", "[script]") {
+  const ScratchDirectory scratch;
+  // Straight: the perturbing gravity of the script starts the buckling, as in LAMMPS.
+  std::string text = text_of(scripts + "column.lmp");
+  const std::string bent = "2e-4*sin(PI*(${i}-1)/(${n}-1))";
+  text.replace(text.find(bent), bent.size(), "0");
+  const Reading reading = script::read_script(scratch.file("column.lmp", text), {});
+  const script::Translated t = script::translated(reading, reading.passes.at(0), {}, "column.data");
+  scratch.file("column.data", t.data);
+  const std::string file = scratch.file("column.toml", t.toml);
+  const std::string twin = scratch.file("twin.toml",
+      "plane = \"xz\"\n[[beam]]\nname = \"b\"\nparticles = 24\ncenter = [0, 0, 0]\naxis = [0, 0, 1]\ndiameter = 1e-3\nyoungs_modulus = 0.96e6\ndensity = 800\n"
+      "[[group]]\nname = \"low\"\nof = \"b\"\nfirst = 2\n[[group]]\nname = \"high\"\nof = \"b\"\nlast = 2\n"
+      "[[support]]\ngroup = \"low\"\ndisplacement = [0, 0, 1e-4]\n[[support]]\ngroup = \"high\"\ndisplacement = [0, 0, -1e-4]\n"
+      "[[gravity]]\ngroup = \"b\"\nacceleration = [1e-6, 0, 0]\n[path]\nsteps = 100\nwhen_unstable = \"jump\"\n"
+      "[[observe]]\nname = \"force_bottom_z\"\ngroup = \"low\"\nquantity = \"reaction.z\"\n");
+  for (const std::string& f : {file, twin}) {
+    RunOptions run_options;
+    run_options.file = f, run_options.directory = f + ".out", run_options.quiet = true, run_options.threads = 1;
+    REQUIRE(run(run_options).exit_status == 0);
+  }
+  for (const char* column : {"energy", "force_bottom_z"}) {
+    const double expected = last(twin + ".out", column);
+    INFO(column << " " << expected);
+    CHECK(std::abs(last(file + ".out", column) - expected) < 1e-9 * std::abs(expected));
+  }
+}
+
+TEST_CASE("with --dynamics a script is a motion, run after run", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("in.lmp", three_in_a_row + "velocity all set 0 0 0.1\nfix 1 all nve\nfix v all viscous 0.1\ngroup one id 1\nfix m one move linear 0.01 0 0\nrun 20\nrun 30\n");
+  const Reading r = script::read_script(file, {});
+  const auto all = script::in_time(r, r.passes.at(0), {true, false, false}, {"a.data", "b.data"}, {"a"});
+  REQUIRE(all.size() == 2);
+  CHECK(holds(all[0].toml, "type = \"dynamics\"\n\n[dynamics]\ntimestep = 0.5\nsteps = 20\n"));
+  CHECK(holds(all[0].toml, "velocity = [0.01, 0, 0]\n"));
+  CHECK(holds(all[0].toml, "[[viscosity]]\ngroup = \"all\"\ncoefficient = 0.1\n"));
+  CHECK(holds(all[0].data, "\nVelocities # hybrid sphere angle\n\n1 0 0 0.1"));
+  CHECK(holds(all[1].toml, "start = \"a/states/final.data\""));
+  CHECK(holds(all[1].toml, "steps = 30\n"));
+}
+
+TEST_CASE("elamin import writes files, and no other's", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("in.lmp", three_in_a_row + "fix 1 all nve\nthermo 10\nrun 10\n"), out = scratch / "p.toml";
+  const Answer a = elamin_says("import '" + file + "' -o '" + out + "'");
+  CHECK(a.status == 0);
+  CHECK(holds(a.text, "taken:\n"));
+  CHECK(holds(a.text, "output: a run of elamin writes its own"));
+  CHECK(elamin_says("check '" + out + "'").status == 0);
+  CHECK(elamin_says("import --quiet '" + file + "' -o '" + out + "'").text.empty());           // its own it writes anew
+  scratch.file("p.toml", "title = \"mine\"\n");
+  const Answer mine = elamin_says("import '" + file + "' -o '" + out + "'");
+  CHECK(mine.status == 1);
+  CHECK(holds(mine.text, "is there already and was not written by elamin import"));
+  CHECK(text_of(out) == "title = \"mine\"\n");
+  CHECK(elamin_says("import --force --quiet '" + file + "' -o '" + out + "'").status == 0);
+  const Answer wrong = elamin_says("import '" + scratch.file("bad.lmp", "units si\nfoo\nbar\n") + "' -o '" + (scratch / "q.toml") + "'");
+  CHECK(wrong.status == 1);
+  CHECK(holds(wrong.text, "bad.lmp:2:1: foo: "));
+  CHECK(holds(wrong.text, "bad.lmp:3:1: bar: "));
+  CHECK_FALSE(std::filesystem::exists(scratch / "q.toml"));
+}
+
+TEST_CASE("a hundred thousand lines are read in a second or so", "[script]") {
+  const ScratchDirectory scratch;
+  std::string atoms, bonds;
+  for (int k = 1; k <= 20000; ++k) atoms += "create_atoms 1 single " + std::to_string(k % 200 * 0.004 - 0.5) + " " + std::to_string(k / 200 * 0.004 - 0.5) + " 0\n";
+  for (int k = 1; k < 20000; ++k)
+    for (int t = 1; t <= 3; ++t) bonds += "create_bonds single/bond " + std::to_string(t) + " " + std::to_string(k) + " " + std::to_string(k + 1) + "\n";
+  for (int k = 1; k < 19999; ++k) bonds += "create_bonds single/angle 1 " + std::to_string(k) + " " + std::to_string(k + 1) + " " + std::to_string(k + 2) + "\n";
+  scratch.file("atoms.txt", atoms), scratch.file("bonds.txt", bonds);
+  const std::string file = scratch.file("in.lmp", small_script_head + "include atoms.txt\nset type 1 diameter 0.004\ninclude bonds.txt\nfix 1 all nve\nrun 1\n");
+  const auto begin = std::chrono::steady_clock::now();
+  const Reading r = script::read_script(file, {});
+  const script::Translated t = script::translated(r, r.passes.at(0), {}, "p.data");
+  CHECK(r.passes[0].world.bonds.size() == 59997);
+  CHECK(t.data.size() > 1000000);
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 10);   // 0.3 s; far more only if it grows with the square
+}
