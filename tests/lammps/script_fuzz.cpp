@@ -17,6 +17,7 @@ struct ScriptAttempts {
     const std::string file = scratch.file(std::to_string(read + refused) + ".lmp", text);
     script::ReadingOptions options;
     options.skip = (read + refused) % 2;
+    options.most_commands = 5000;
     try {
       const script::Reading r = script::read_script(file, options);
       for (const script::Pass& p : r.passes) {

@@ -9,6 +9,9 @@
 
 namespace elamin {
 
+/// The folder of scripts that are right.
+inline const std::string lammps_scripts = ELAMIN_ROOT "/data/lammps/scripts/";
+
 /// A box, and what glues.
 inline const std::string small_script_head =
     "units si\natom_style hybrid sphere angle\nregion box block -1 1 -1 1 -1 1\n"

@@ -12,7 +12,6 @@ using script::Reading;
 
 namespace {
 
-const std::string scripts = ELAMIN_ROOT "/data/lammps/scripts/";
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -54,7 +53,7 @@ TEST_CASE("what is in force at a run becomes tables", "[script]") {
   CHECK(p.model.viscosity.empty());
   CHECK(p.model.contacts.at(0).effective_modulus == 1000 / (2 * (1 - 0.09)));
   CHECK(p.model.contacts.at(0).exclude_bonds == 1);
-  CHECK(holds(p.files.toml, "# in.lmp:26 fix m one move linear 0.01 NULL -0.02\n[[support]]\nname = \"m\"\n"));
+  CHECK(holds(p.files.toml, "# in.lmp:25 fix m one move linear 0.01 NULL -0.02\n[[support]]\nname = \"m\"\n"));
   CHECK(holds(p.files.toml, "[path]"));
 }
 
@@ -122,7 +121,7 @@ TEST_CASE("sheets of LAMMPSStructures are kept or mended", "[script]") {
 }
 
 TEST_CASE("runs become stages, with what comes and goes between them", "[script]") {
-  const Reading reading = script::read_script(scripts + "stages.lmp", {});
+  const Reading reading = script::read_script(lammps_scripts + "stages.lmp", {});
   const ImportedProblem p = imported(reading);
   INFO(p.files.toml);
   REQUIRE(p.problem.stages.size() == 4);
@@ -131,7 +130,7 @@ TEST_CASE("runs become stages, with what comes and goes between them", "[script]
   Model all = p.model;
   struct Expected { double from, to; std::size_t bonds, angles, supports, walls; };
   // Supports: low, high or stop, the grain's, and where something is absent one that holds it still.
-  const Expected expected[]{{0, 1, 10, 9, 3, 1}, {1, 3, 10, 9, 3, 1}, {0, 1, 10, 9, 3, 0}, {0, 1, 8, 7, 3, 0}};
+  const Expected expected[]{{0, 1, 10, 9, 3, 1}, {1, 3, 10, 9, 3, 1}, {0, 1, 10, 9, 3, 0}, {0, 1, 10, 8, 3, 0}};
   for (const Expected& e : expected) {
     std::string unclear;
     const Stage stage = stages.enter(unclear);
@@ -185,7 +184,7 @@ TEST_CASE("what needs positions behind a run ends an import, and goes on with th
   CHECK(p.model.particles() == 4);
   CHECK(p.model.start.position.col(2) == Vec3(0.3, 0.1, 0));
   CHECK(p.model.start.position(0, 3) == 0.4);
-  CHECK(p.model.bonds.size() == 4);                             // 1-3 and 2-4 besides
+  CHECK(p.model.bonds.size() == 5);                             // 1-3, 1-4 and 2-4 besides
   CHECK(p.problem.stages.empty());
   options.after = {scratch.file("other.data", "none\n1 atoms\n1 atom types\n\nAtoms # sphere\n\n9 1 0.1 1 0 0 0\n")};
   CHECK_THROWS_AS(script::read_script(file, options), InputError);
@@ -194,7 +193,7 @@ TEST_CASE("what needs positions behind a run ends an import, and goes on with th
 TEST_CASE("an imported column buckles as its twin in TOML", "[script]") {
   const ScratchDirectory scratch;
   // Straight: the perturbing gravity of the script starts the buckling, as in LAMMPS.
-  std::string text = text_of(scripts + "column.lmp");
+  std::string text = text_of(lammps_scripts + "column.lmp");
   const std::string bent = "2e-4*sin(PI*(${i}-1)/(${n}-1))";
   text.replace(text.find(bent), bent.size(), "0");
   const Reading reading = script::read_script(scratch.file("column.lmp", text), {});

@@ -154,10 +154,13 @@ std::set<std::pair<int, int>> left_out(const World& w, const std::vector<int>& a
   int deepest = 0;
   for (int k = 0; k < 3; ++k)
     if (w.special_lj[static_cast<std::size_t>(k)] == 0 && w.special_coul[static_cast<std::size_t>(k)] == 0) deepest = k + 1;
-  if (deepest == 0 || w.bonds.empty()) return pairs;
+  if (deepest == 0 || w.bonds.empty() || among.empty()) return pairs;
   std::vector<std::vector<int>> to(w.atoms.size());
+  const auto matters = [&](const Glue<2>& b) {
+    return deepest > 1 || std::binary_search(among.begin(), among.end(), b.atoms[0]) || std::binary_search(among.begin(), among.end(), b.atoms[1]);
+  };
   for (const auto& b : w.bonds)
-    if (b.gone == always) to[static_cast<std::size_t>(b.atoms[0])].push_back(b.atoms[1]), to[static_cast<std::size_t>(b.atoms[1])].push_back(b.atoms[0]);
+    if (b.gone == always && matters(b)) to[static_cast<std::size_t>(b.atoms[0])].push_back(b.atoms[1]), to[static_cast<std::size_t>(b.atoms[1])].push_back(b.atoms[0]);
   for (const int i : among) {
     std::vector<int> front{i}, all{i};
     for (int k = 0; k < deepest; ++k) {
@@ -181,24 +184,35 @@ void many(Interpreter& in) {
   const int type = static_cast<int>(in.integer(4, 1, w.bond_types));
   const double least = in.number(5), most = in.number(6);
   if (least < 0 || !(most > least)) throw Wrong(5, "two rising distances are wanted, from 0 on");
-  std::vector<int> among;
-  for (std::size_t k = 0; k < w.atoms.size(); ++k)
-    if (World::there(w.atoms[k]) && (w.in(w.atoms[k], first) || w.in(w.atoms[k], second))) among.push_back(static_cast<int>(k));
-  Field x(3, static_cast<Eigen::Index>(among.size()));
-  for (std::size_t k = 0; k < among.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = w.at(w.atoms[static_cast<std::size_t>(among[k])]);
-  const auto atom = [&](int k) -> const Atom& { return w.atoms[static_cast<std::size_t>(among[static_cast<std::size_t>(k)])]; };
-  const auto pairs = near_pairs(x, std::vector<double>(among.size(), most / 2 * (1 + 1e-9)), [&](int i, int j) {
-    const Atom &a = atom(i), &b = atom(j);
-    return (w.in(a, first) && w.in(b, second)) || (w.in(a, second) && w.in(b, first));
-  });
   std::vector<int> touched;
   std::vector<std::pair<int, int>> wanted;
-  for (const IndexPair& p : pairs) {
-    const Vec3 d = x.col(p.first) - x.col(p.second);
+  const auto near = [&](int i, int j) {
+    const Vec3 d = w.at(w.atoms[static_cast<std::size_t>(i)]) - w.at(w.atoms[static_cast<std::size_t>(j)]);
     const double rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (rsq < least * least || rsq > most * most) continue;
-    wanted.push_back({among[static_cast<std::size_t>(p.first)], among[static_cast<std::size_t>(p.second)]});
-    touched.push_back(wanted.back().first);
+    if (rsq < least * least || rsq > most * most) return;
+    wanted.push_back({i, j}), touched.push_back(i);
+  };
+  std::vector<int> among, of_first, of_second;
+  for (std::size_t k = 0; k < w.atoms.size(); ++k) {
+    if (!World::there(w.atoms[k])) continue;
+    const bool a = w.in(w.atoms[k], first), b = w.in(w.atoms[k], second);
+    if (a) of_first.push_back(static_cast<int>(k));
+    if (b) of_second.push_back(static_cast<int>(k));
+    if (a || b) among.push_back(static_cast<int>(k));
+  }
+  if (of_first.size() == 1 || of_second.size() == 1) {           // one atom with all others
+    const int one = of_first.size() == 1 ? of_first[0] : of_second[0];
+    for (const int other : of_first.size() == 1 ? of_second : of_first)
+      if (other != one) near(one, other);
+  } else {
+    Field x(3, static_cast<Eigen::Index>(among.size()));
+    for (std::size_t k = 0; k < among.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = w.at(w.atoms[static_cast<std::size_t>(among[k])]);
+    const auto atom = [&](int k) -> const Atom& { return w.atoms[static_cast<std::size_t>(among[static_cast<std::size_t>(k)])]; };
+    for (const IndexPair& p : near_pairs(x, std::vector<double>(among.size(), most / 2 * (1 + 1e-9)), [&](int i, int j) {
+           const Atom &a = atom(i), &b = atom(j);
+           return (w.in(a, first) && w.in(b, second)) || (w.in(a, second) && w.in(b, first));
+         }))
+      near(among[static_cast<std::size_t>(p.first)], among[static_cast<std::size_t>(p.second)]);
   }
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());

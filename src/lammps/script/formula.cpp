@@ -183,7 +183,6 @@ class Formula {
     const auto found = names_.variables.find(n);
     if (found == names_.variables.end()) wrong(in_quotes("v_" + n) + " is no variable");
     const Variable& v = found->second;
-    if (v.style == Variable::Style::atom && !each_) wrong(in_quotes("v_" + n) + " is of style atom");
     Value value;
     if (i_ < text_.size() && text_[i_] == '[') {
       if (v.style != Variable::Style::atom) wrong(in_quotes("v_" + n) + " is not of style atom");
@@ -191,6 +190,7 @@ class Formula {
       value.number = Formula(v.words.front(), world_, names_, word_, true, timed_, operands_, depth_ + 1).whole().at(static_cast<std::size_t>(atom(id)));
       return value;
     }
+    if (v.style == Variable::Style::atom && !each_) wrong(in_quotes("v_" + n) + " is of style atom");
     if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return sub(v.words.front());
     const std::string text = text_of(n, world_, names_);
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);

@@ -16,7 +16,6 @@
 namespace elamin::script {
 namespace {
 
-constexpr long long most_commands = 5000000;    // executed, so that a loop without an end ends
 constexpr std::size_t deepest_include = 16;     // as LAMMPS has it
 constexpr std::size_t most_passes = 1000;
 
@@ -34,7 +33,7 @@ bool makes_a_name(const std::string& command) {
 
 class Reader {
  public:
-  Reader(const std::string& file, const ReadingOptions& options) : root_(std::filesystem::path(file).parent_path()) {
+  Reader(const std::string& file, const ReadingOptions& options) {
     in_.options = options;
     in_.reading.files = {file};
     files_.push_back(read(file));
@@ -87,8 +86,8 @@ class Reader {
     const Line& line = file.lines[frame.next++];
     const int number = frame.file;
     in_.where = {number, line.place(line.text.find_first_not_of(" \t\r\f\v\n")).line};
-    if (++in_.reading.commands > most_commands) {
-      tell({file.path, in_.where.line, 1, "", fmt::format("more than {} commands have been gone through; a loop may have no end", most_commands)});
+    if (++in_.reading.commands > in_.options.most_commands) {
+      tell({file.path, in_.where.line, 1, "", fmt::format("more than {} commands have been gone through; a loop may have no end", in_.options.most_commands)});
       in_.ended = true;
       return;
     }
@@ -101,7 +100,7 @@ class Reader {
       in_.run_command();
       load_files();
     } catch (const NeedsPositions& needs) {
-      stop(needs, file, line);
+      stop(needs, file);
     } catch (const Silent&) {
     } catch (const InputError& e) {              // of a file that the command reads
       for (const Mistake& m : e.mistakes())
@@ -109,7 +108,7 @@ class Reader {
     } catch (const Wrong& wrong) {
       const std::size_t w = wrong.word < in_.words.size() ? wrong.word : 0;
       const Place at = line.place(in_.words.empty() ? line.text.find_first_not_of(" \t") : in_.words[w].offset);
-      const std::string command = in_.words.empty() ? "" : in_.words[0].text;
+      const std::string command = in_.words.empty() ? first_word(line.text) : in_.words[0].text;
       if (in_.words.size() > 1 && makes_a_name(command)) broken_.insert(in_.words[1].text);
       if (wrong.unknown && in_.options.skip) {
         in_.reading.told.push_back({Told::Fate::not_understood, command, wrong.what(), 1, in_.where});
@@ -125,6 +124,11 @@ class Reader {
   }
 
   struct Silent {};
+
+  static std::string first_word(const std::string& text) {
+    const std::size_t begin = std::min(text.find_first_not_of(" \t\r\f\v\n"), text.size());
+    return text.substr(begin, std::min(text.find_first_of(" \t\r\f\v\n", begin), text.size()) - begin);
+  }
 
   std::string lookup(const std::string& name) const {
     if (broken_.count(name) && !in_.names.variables.count(name)) throw Silent();
@@ -142,13 +146,13 @@ class Reader {
   }
 
   /// At a command that needs positions behind a run: what was run so far is a problem by itself.
-  void stop(const NeedsPositions& needs, const File& file, const Line& line) {
+  void stop(const NeedsPositions& needs, const File& file) {
     stopped_ = true;
-    if (in_.world.runs.empty()) return tell({file.path, in_.where.line, 1, in_.words[0].text, "needs positions behind a run that is not there"});
+    const std::string command = in_.words.empty() ? "a formula" : in_.words[0].text;
+    if (in_.world.runs.empty()) return tell({file.path, in_.where.line, 1, command, "needs positions behind a run that is not there"});
     in_.note(fmt::format("{} needs to know where particles are behind the run of {}; the import ends here. Run the problem, then give its last state: "
-                         "--after DIR/states/final.data", in_.words[0].text, in_.reading.place(needs.run)));
+                         "--after DIR/states/final.data", command, in_.reading.place(needs.run)));
     in_.world.last_run = needs.run;
-    (void)line;
     in_.reading.passes.push_back({in_.world, {}, in_.where});
     in_.world = World();
   }
@@ -168,11 +172,9 @@ class Reader {
         tell(m);
       }
     }
-    (void)root_;
   }
 
   Interpreter in_;
-  std::filesystem::path root_;
   std::vector<std::shared_ptr<File>> files_;
   std::vector<Mistake> mistakes_;
   std::set<std::string> broken_;
@@ -294,9 +296,9 @@ void Interpreter::run_command() {
 
 void Interpreter::execute(const std::string& line_text, const Where& at) {
   if (depth > 20) throw Wrong(0, "holds commands in commands more than 20 deep");
-  if (++reading.commands > most_commands) {
+  if (++reading.commands > options.most_commands) {
     ended = true;
-    throw Wrong(0, fmt::format("more than {} commands have been gone through; a loop may have no end", most_commands));
+    throw Wrong(0, fmt::format("more than {} commands have been gone through; a loop may have no end", options.most_commands));
   }
   const std::vector<Word> outer = std::exchange(words, {});
   struct Back {

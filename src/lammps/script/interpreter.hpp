@@ -13,6 +13,7 @@ namespace elamin::script {
 struct ReadingOptions {
   bool skip = false;                            // commands and styles that are not known are left out
   bool include_anywhere = false;                // `include` of files outside of the script's folder, too
+  long long most_commands = 5000000;            // executed, so that a loop without an end ends
   std::vector<std::string> after;               // data files: where particles are behind the first run, the second, …
 };
 

@@ -92,23 +92,28 @@ class Translation {
   std::string group_of(const Members& members, const std::string& wanted, int run) {
     if (wanted == "all") return "all";
     if (const auto found = groups_.find(members); found != groups_.end()) return found->second;
+    const std::string name = unique(wanted);
+    group_text_ += fmt::format("\n[[group]]\nname = \"{}\"\n{}", name, selection(members, run));
+    return groups_[members] = name;
+  }
+
+  /// The keys of a group that choose these: types where they are all that there are of them, else ids.
+  std::string selection(const Members& members, int run) const {
     std::set<int> types;
     for (const int i : members) types.insert(atom(i).type);
     const bool whole = std::all_of(alive(run).begin(), alive(run).end(), [&](int i) {
       return !types.count(atom(i).type) || std::binary_search(members.begin(), members.end(), i);
     });
-    std::string name;
-    if (whole) name = group_of_types({types.begin(), types.end()});
-    else {
-      name = unique(wanted);
-      std::vector<int> ids;
-      for (const int i : members) ids.push_back(particles_.id(i));
-      std::sort(ids.begin(), ids.end());
-      std::vector<std::string> items;
-      for (const int id : ids) items.push_back(std::to_string(id));
-      group_text_ += fmt::format("\n[[group]]\nname = \"{}\"\nids = {}\n", name, list_of(items));
+    std::vector<std::string> items;
+    if (whole) {
+      for (const int t : types) items.push_back(fmt::format("\"type{}\"", t));
+      return fmt::format("of = {}\n", list_of(items));
     }
-    return groups_[members] = name;
+    std::vector<int> ids;
+    for (const int i : members) ids.push_back(particles_.id(i));
+    std::sort(ids.begin(), ids.end());
+    for (const int id : ids) items.push_back(std::to_string(id));
+    return fmt::format("ids = {}\n", list_of(items));
   }
 
   std::string group_of_types(const std::vector<int>& types) {
@@ -456,8 +461,8 @@ class Translation {
       if (atom(i).gone < runs()) gone[atom(i).gone].push_back(i);
     }
     for (const auto& [k, members] : born) {
-      const std::string of = group_of(members, "from_" + stage(k), k), name = unique("from_" + stage(k));
-      presence_text_ += fmt::format("\n[[group]]                       # made before the {} run\nname = \"{}\"\nof = \"{}\"\nfrom_stage = \"{}\"\n", ordinal(k + 1), name, of, stage(k));
+      presence_text_ += fmt::format("\n[[group]]                       # made before the {} run\nname = \"{}\"\n{}from_stage = \"{}\"\n", ordinal(k + 1),
+                                    unique("from_" + stage(k)), selection(members, k), stage(k));
     }
     for (const auto& [k, members] : gone)
       presence_text_ += fmt::format("\n[[remove]]                      # deleted before the {} run\ngroup = \"{}\"\nfrom_stage = \"{}\"\n", ordinal(k + 1),
