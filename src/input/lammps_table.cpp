@@ -15,7 +15,7 @@ void describe(Keys& keys, LammpsTable& t) {
              "Atom type 2 is the group \"type2\", and its label one too; ids are LAMMPS's own.");
   keys.may_file("data", t.data, "the data file");
   keys.may_file("bodies", t.bodies, "a data file of bodies beside it");
-  keys.may("input", t.input, "a LAMMPS input script instead: its particles, and as tables before those of this file what is in force in it");
+  keys.may_file("input", t.input, "a LAMMPS input script instead: its particles, and as tables before those of this file what is in force in it");
   keys.may("atom_style", t.atom_style, "LAMMPS's, where the comment behind \"Atoms\" does not say it");
   keys.one_or_more("ignore", t.ignore, "sections that are passed over, as [\"Dihedrals\", \"Impropers\"], with their coefficients");
   keys.may("bond_coefficients", t.bond_coefficients, "[[K, r0], …] of the bond types from 1, instead of those in the file");

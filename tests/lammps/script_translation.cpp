@@ -270,3 +270,24 @@ TEST_CASE("a hundred thousand lines are read in a second or so", "[script]") {
   CHECK(t.data.size() > 1000000);
   CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 10);   // 0.3 s; far more only if it grows with the square
 }
+
+TEST_CASE("a problem file takes a script with its own tables besides", "[script]") {
+  const std::string file = std::string(ELAMIN_ROOT) + "/tests/input/good/lammps_input.toml";
+  const Problem p = read_problem(file);
+  CHECK(p.title == "Three atoms in a row");                     // the file's own, and the script's
+  CHECK(p.path.steps == 4);
+  CHECK(p.path.when_unstable == WhenUnstable::jump);
+  REQUIRE(p.supports.size() == 2);
+  CHECK(p.supports[1].displacement == Vec3(0.1, 0, 0));
+  CHECK(p.observe.size() == 2);
+  const Model m = build_model(p);
+  CHECK(m.particles() == 3);
+  CHECK(m.bonds.size() == 2);
+  const ScratchDirectory scratch;
+  scratch.file("bad.lmp", "units si\nfoo\n");
+  CHECK_THROWS_WITH(read_problem(scratch.file("p.toml", "[lammps]\ninput = \"bad.lmp\"\n")), Catch::Matchers::Contains("bad.lmp:2:1: foo: "));
+  scratch.file("small.lmp", small_script_head + "create_atoms 1 single 0 0 0\n");
+  scratch.file("small.lmp.data", "mine\n");
+  CHECK_THROWS_WITH(read_problem(scratch.file("q.toml", "[lammps]\ninput = \"small.lmp\"\n")), Catch::Matchers::Contains("is in the way"));
+  CHECK(text_of(scratch / "small.lmp.data") == "mine\n");
+}
