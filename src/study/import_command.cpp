@@ -45,7 +45,8 @@ void import_command(const ImportOptions& o) {
   const std::string output = output_of(o);
   if (!output.ends_with(".toml")) throw InputError("-o: " + in_quotes(output) + " must end with .toml");
   const script::Reading reading = script::read_script(o.script, {.skip = o.skip, .include_anywhere = o.include_anywhere, .after = o.after});
-  if (reading.passes.empty()) throw InputError(o.script + ": makes no particle that is there at its end, and runs nothing; there is no problem in it");
+  if (reading.passes.empty())
+    throw InputError(o.script + ": makes no particle that is there at its end, and runs nothing; there is no problem in it");
   const fs::path base = fs::path(output).replace_extension();
   struct File { std::string name, text; };
   std::vector<File> files;

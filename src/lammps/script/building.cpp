@@ -128,7 +128,10 @@ void create_atoms(Interpreter& in) {
   const int type = static_cast<int>(in.integer(1, 1, w.atom_types));
   if (in.word(2) == "random") return create_random(in, type);
   if (in.word(2) != "single")
-    throw Wrong(2, in_quotes(in.word(2)) + " of a lattice is not made; write atoms one by one (single), or let LAMMPS write a data file (write_data FILE)", true);
+    throw Wrong(2,
+                in_quotes(in.word(2)) +
+                    " of a lattice is not made; write atoms one by one (single), or let LAMMPS write a data file (write_data FILE)",
+                true);
   Vec3 x(in.value(3), in.value(4), in.value(5));
   bool box = false;
   for (std::size_t i = 6; i < in.size(); ++i)
@@ -157,10 +160,12 @@ std::set<std::pair<int, int>> left_out(const World& w, const std::vector<int>& a
   if (deepest == 0 || w.bonds.empty() || among.empty()) return pairs;
   std::vector<std::vector<int>> to(w.atoms.size());
   const auto matters = [&](const Glue<2>& b) {
-    return deepest > 1 || std::binary_search(among.begin(), among.end(), b.atoms[0]) || std::binary_search(among.begin(), among.end(), b.atoms[1]);
+    return deepest > 1 || std::binary_search(among.begin(), among.end(), b.atoms[0]) ||
+           std::binary_search(among.begin(), among.end(), b.atoms[1]);
   };
   for (const auto& b : w.bonds)
-    if (b.gone == always && matters(b)) to[static_cast<std::size_t>(b.atoms[0])].push_back(b.atoms[1]), to[static_cast<std::size_t>(b.atoms[1])].push_back(b.atoms[0]);
+    if (b.gone == always && matters(b))
+      to[static_cast<std::size_t>(b.atoms[0])].push_back(b.atoms[1]), to[static_cast<std::size_t>(b.atoms[1])].push_back(b.atoms[0]);
   for (const int i : among) {
     std::vector<int> front{i}, all{i};
     for (int k = 0; k < deepest; ++k) {
@@ -252,7 +257,8 @@ void create_bonds(Interpreter& in) {
     end = 6;
   } else throw Wrong(1, in_quotes(style) + " is not made here; many, single/bond and single/angle are", true);
   if (in.size() > end) {
-    if (in.word(end) != "special" || in.size() != end + 2) throw Wrong(end, in_quotes(in.word(end)) + " is no keyword of create_bonds; special is");
+    if (in.word(end) != "special" || in.size() != end + 2)
+      throw Wrong(end, in_quotes(in.word(end)) + " is no keyword of create_bonds; special is");
     w.unspecial = !in.yes(end + 1);
   } else w.unspecial = false;
 }
@@ -308,7 +314,8 @@ void set(Interpreter& in) {
       for (const int a : list) in_list[static_cast<std::size_t>(a)] = true;
       const auto change = [&](auto& glue) {
         for (auto& g : glue)
-          if (g.gone == always && std::all_of(g.atoms.begin(), g.atoms.end(), [&](int a) { return in_list[static_cast<std::size_t>(a)]; })) {
+          if (g.gone == always &&
+              std::all_of(g.atoms.begin(), g.atoms.end(), [&](int a) { return in_list[static_cast<std::size_t>(a)]; })) {
             if (g.born < w.run_number()) throw Wrong(i, "changes glue that was there in an earlier run; glue keeps its kind", true);
             g.type = t;
           }
@@ -319,7 +326,10 @@ void set(Interpreter& in) {
     } else if (k == "charge") i += 2;
     else if (k == "image") i += 4;
     else if (k == "omega" || k == "angmom") i += 4;
-    else throw Wrong(i, in_quotes(k) + " is nothing that is set here; type, mol, x, y, z, diameter, density, mass, vx, vy, vz, bond and angle are", true);
+    else
+      throw Wrong(
+          i, in_quotes(k) + " is nothing that is set here; type, mol, x, y, z, diameter, density, mass, vx, vy, vz, bond and angle are",
+          true);
   }
 }
 
@@ -339,7 +349,13 @@ void mark_numbers(Interpreter& in, int bit, const auto& number_of_atom) {
     const long long a = in.integer(4, 0, largest_id), b = s == "<>" ? in.integer(5, 0, largest_id) : 0;
     return mark(w, bit, [&](const Atom& atom) {
       const long long v = number_of_atom(atom);
-      return s == "<" ? v < a : s == ">" ? v > a : s == "<=" ? v <= a : s == ">=" ? v >= a : s == "==" ? v == a : s == "!=" ? v != a : v >= a && v <= b;
+      return s == "<"    ? v < a
+             : s == ">"  ? v > a
+             : s == "<=" ? v <= a
+             : s == ">=" ? v >= a
+             : s == "==" ? v == a
+             : s == "!=" ? v != a
+                         : v >= a && v <= b;
     });
   }
   std::set<long long> singles;
@@ -388,13 +404,17 @@ void group(Interpreter& in) {
   if (style == "dynamic") throw Wrong(2, "groups that change as things move are not followed", true);
   if (style == "static") return;
   if (name == "all") throw Wrong(1, "the group all stays as it is");
-  static const std::vector<std::string> styles{"type", "id", "molecule", "region", "variable", "union", "subtract", "intersect", "include", "empty"};
+  static const std::vector<std::string> styles{"type",  "id",       "molecule",  "region",  "variable",
+                                               "union", "subtract", "intersect", "include", "empty"};
   if (std::find(styles.begin(), styles.end(), style) == styles.end())
-    throw Wrong(2, in_quotes(style) + " is no style of a group; there are: " + listed(styles) + ", clear, delete" + did_you_mean(style, styles), true);
+    throw Wrong(
+        2, in_quotes(style) + " is no style of a group; there are: " + listed(styles) + ", clear, delete" + did_you_mean(style, styles),
+        true);
   if (style != "empty") in.wants(4, "group NAME " + style + " …");
   // What it is made of comes first: a mistake leaves no half a group.
   std::vector<int> others;
-  for (std::size_t i = 3; i < in.size() && (style == "union" || style == "subtract" || style == "intersect"); ++i) others.push_back(w.group(in.word(i), i));
+  for (std::size_t i = 3; i < in.size() && (style == "union" || style == "subtract" || style == "intersect"); ++i)
+    others.push_back(w.group(in.word(i), i));
   int bit = -1;
   if (const auto found = w.find_group(name)) bit = *found;
   else {
@@ -416,10 +436,14 @@ void group(Interpreter& in) {
     const Value v = evaluate("v_" + in.word(3), w, in.names, 3, true);
     for (std::size_t k = 0; k < w.atoms.size(); ++k)
       if (World::there(w.atoms[k]) && v.at(k) != 0) w.atoms[k].groups |= 1u << bit;
-  } else if (style == "union") mark(w, bit, [&](const Atom& a) { return std::any_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
-  else if (style == "intersect") mark(w, bit, [&](const Atom& a) { return std::all_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
+  } else if (style == "union")
+    mark(w, bit, [&](const Atom& a) { return std::any_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
+  else if (style == "intersect")
+    mark(w, bit, [&](const Atom& a) { return std::all_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
   else if (style == "subtract")
-    mark(w, bit, [&](const Atom& a) { return w.in(a, others[0]) && std::none_of(others.begin() + 1, others.end(), [&](int g) { return w.in(a, g); }); });
+    mark(w, bit, [&](const Atom& a) {
+      return w.in(a, others[0]) && std::none_of(others.begin() + 1, others.end(), [&](int g) { return w.in(a, g); });
+    });
   else if (style == "include") {
     if (in.word(3) != "molecule") throw Wrong(3, in_quotes(in.word(3)) + " is nothing that a group includes; molecule is");
     std::set<int> molecules;
@@ -433,7 +457,8 @@ void delete_atoms(Interpreter& in) {
   in.wants(3, "delete_atoms group NAME, or region NAME");
   needs_box(in);
   World& w = in.world;
-  if (in.word(1) != "group" && in.word(1) != "region") throw Wrong(1, in_quotes(in.word(1)) + " is no way of choosing atoms that is taken; group and region are", true);
+  if (in.word(1) != "group" && in.word(1) != "region")
+    throw Wrong(1, in_quotes(in.word(1)) + " is no way of choosing atoms that is taken; group and region are", true);
   std::vector<bool> gone(w.atoms.size());
   std::size_t count = 0;
   for (const int a : chosen(in, in.word(1), 2)) gone[static_cast<std::size_t>(a)] = true, ++count;
@@ -450,7 +475,8 @@ void delete_atoms(Interpreter& in) {
     return;
   }
   w.remove(gone);
-  if (compress && !w.molecular && count > 0) in.note("LAMMPS numbers the atoms that are left anew (compress yes); here they keep their ids");
+  if (compress && !w.molecular && count > 0)
+    in.note("LAMMPS numbers the atoms that are left anew (compress yes); here they keep their ids");
 }
 
 void delete_bonds(Interpreter& in) {
@@ -463,12 +489,14 @@ void delete_bonds(Interpreter& in) {
   std::array<int, 2> types{1, always - 1};
   if (style == "bond" || style == "angle") types = in.range(i++, style == "bond" ? w.bond_types : w.angle_types);
   else if (style == "stats") return in.ignore("output: a run of elamin writes its own");
-  else if (style != "multi") throw Wrong(2, in_quotes(style) + " is no way of choosing glue that is taken; multi, bond and angle are", true);
+  else if (style != "multi")
+    throw Wrong(2, in_quotes(style) + " is no way of choosing glue that is taken; multi, bond and angle are", true);
   bool any = false, special = false;
   for (; i < in.size(); ++i)
     if (in.word(i) == "any") any = true;
     else if (in.word(i) == "special") special = true;
-    else if (in.word(i) != "remove") throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of delete_bonds that is taken; any, remove and special are", true);
+    else if (in.word(i) != "remove")
+      throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of delete_bonds that is taken; any, remove and special are", true);
   const auto inside = [&](int a) { return w.in(w.atoms[static_cast<std::size_t>(a)], g); };
   const auto meant = [&](const auto& glue) {
     return glue.gone == always && types[0] <= glue.type && glue.type <= types[1] &&
@@ -482,7 +510,8 @@ void delete_bonds(Interpreter& in) {
     for (const auto& b : w.bonds)
       if (b.gone == always && meant(b) != (style != "angle" && inside(b.atoms[0]) && inside(b.atoms[1]))) throw NeedsPositions{w.last_run};
     for (const auto& a : w.angles)
-      if (a.gone == always && (style != "bond" && meant(a)) != (r.angles ? inside(a.atoms[0]) && inside(a.atoms[1]) && inside(a.atoms[2]) : over_bond(a)))
+      if (a.gone == always &&
+          (style != "bond" && meant(a)) != (r.angles ? inside(a.atoms[0]) && inside(a.atoms[1]) && inside(a.atoms[2]) : over_bond(a)))
         throw NeedsPositions{w.last_run};
     for (std::size_t k = 0; k < w.atoms.size(); ++k)
       if (World::there(w.atoms[k]) && inside(static_cast<int>(k))) r.members.push_back(static_cast<int>(k));
@@ -494,7 +523,8 @@ void delete_bonds(Interpreter& in) {
   };
   if (style != "angle") end(w.bonds);
   if (style != "bond") end(w.angles);
-  if (!special && style != "angle") in.note("without `special` LAMMPS leaves pairs that were bonded out of contacts; here they touch as all others");
+  if (!special && style != "angle")
+    in.note("without `special` LAMMPS leaves pairs that were bonded out of contacts; here they touch as all others");
 }
 
 namespace {
@@ -562,7 +592,9 @@ void read_data(Interpreter& in) {
       if (k == "extra/bond/types") extra[1] = n;
       if (k == "extra/angle/types") extra[2] = n;
       i += 2;
-    } else throw Wrong(i, in_quotes(k) + " is no keyword of read_data that is taken; add append, offset, shift, group, nocoeff and extra/… are", true);
+    } else
+      throw Wrong(i, in_quotes(k) + " is no keyword of read_data that is taken; add append, offset, shift, group, nocoeff and extra/… are",
+                  true);
   }
   if (w.has_box && !add) throw Wrong(0, "there is a box already; `add append` adds to it");
   std::string style = w.atom_style;
@@ -590,8 +622,9 @@ void read_data(Interpreter& in) {
     short_numbers = short_numbers && six_digits(data.angle_types[t].stiffness);
   }
   if (short_numbers)
-    in.note("the coefficients in this data file have six digits, as write_data writes them: loads at which things buckle may be off by 0.3 %; "
-            "bond_coeff and angle_coeff behind read_data give all digits");
+    in.note(
+        "the coefficients in this data file have six digits, as write_data writes them: loads at which things buckle may be off by 0.3 %; "
+        "bond_coeff and angle_coeff behind read_data give all digits");
   if (!group_name.empty()) {
     const auto found = w.find_group(group_name);
     group_bit = found ? *found : static_cast<int>(w.groups.size());
@@ -618,7 +651,8 @@ void read_data(Interpreter& in) {
     if (data.velocity.cols() > 0) a.v = data.velocity.col(static_cast<Eigen::Index>(k));
     if (!w.sphere && data.mass.size() > k) w.mass[static_cast<std::size_t>(a.type - 1)] = data.mass[k];
   }
-  for (const Bond& b : data.bonds) w.bonds.push_back({b.type + 1 + offset[1], {b.particles[0] + base, b.particles[1] + base}, w.run_number()});
+  for (const Bond& b : data.bonds)
+    w.bonds.push_back({b.type + 1 + offset[1], {b.particles[0] + base, b.particles[1] + base}, w.run_number()});
   for (const Angle& a : data.angles)
     w.angles.push_back({a.type + 1 + offset[2], {a.particles[0] + base, a.particles[1] + base, a.particles[2] + base}, w.run_number()});
   if (data.bodies.empty()) return;
@@ -671,7 +705,8 @@ void compute(Interpreter& in) {
     c.mode = in.word(4);
     for (std::size_t i = 5; i < in.size() && in.word(i) != "replace"; ++i) c.inputs.push_back(in.word(i));
     static const std::vector<std::string> modes{"min", "max", "sum", "ave", "sumsq", "avesq"};
-    if (std::find(modes.begin(), modes.end(), c.mode) == modes.end()) throw Wrong(4, in_quotes(c.mode) + " is no mode of reduce; there are: " + listed(modes));
+    if (std::find(modes.begin(), modes.end(), c.mode) == modes.end())
+      throw Wrong(4, in_quotes(c.mode) + " is no mode of reduce; there are: " + listed(modes));
   }
   in.names.computes[in.word(1)] = std::move(c);
 }

@@ -123,7 +123,9 @@ void variable(Interpreter& in) {
     v.style = Variable::Style::format, v.words = rest();
   } else if (style == "getenv" || style == "file" || style == "atomfile" || style == "world" || style == "universe" || style == "uloop" ||
              style == "python" || style == "internal" || style == "timer" || style == "vector") {
-    throw Wrong(2, fmt::format("variables of style {} come from outside of the script; write the value itself: variable {} string …", style, name), true);
+    throw Wrong(
+        2, fmt::format("variables of style {} come from outside of the script; write the value itself: variable {} string …", style, name),
+        true);
   } else {
     const std::vector<std::string> known{"index", "loop", "string", "equal", "atom", "format", "delete"};
     throw Wrong(2, in_quotes(style) + " is no style of a variable; there are: " + listed(known) + did_you_mean(style, known), true);

@@ -89,16 +89,21 @@ struct Making {
       fix.trap_modulus = law.material && law.youngs_modulus > 0 && law.poissons_ratio != 0;
       fix.damping = law.damping();
       if (law.history || law.rolls)
-        in.note("friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without history)");
+        in.note(
+            "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
+            "history)");
       return i;
     }
     if (in.word(i) == "hertz/history") {
       modulus = 0.75 * in.number(i + 1);
-      fix.damping = fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(i + 3), in.number(i + 5));
+      fix.damping =
+          fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(i + 3), in.number(i + 5));
       if (modulus < 0) throw Wrong(i + 1, "is negative; 0 or more is taken");
       return i + 7;
     }
-    throw Wrong(i, in_quotes(in.word(i)) + " is no law of a wall that is known here; granular hertz, granular hertz/material and hertz/history are", true);
+    throw Wrong(
+        i, in_quotes(in.word(i)) + " is no law of a wall that is known here; granular hertz, granular hertz/material and hertz/history are",
+        true);
   }
 
   void add_wall(const Region& region, bool inside, double modulus, const std::string& suffix) {
@@ -113,7 +118,8 @@ struct Making {
     if (i + 1 >= in.size() || in.word(i) != "region") throw Wrong(std::min(i, in.size() - 1), "`region NAME` is wanted here");
     const auto found = in.world.regions.find(in.word(i + 1));
     if (found == in.world.regions.end()) throw Wrong(i + 1, in_quotes(in.word(i + 1)) + " is no region");
-    if (found->second.kind != ScriptRegion::Kind::shape) throw Wrong(i + 1, "a wall of several regions together is not taken; give each its own fix", true);
+    if (found->second.kind != ScriptRegion::Kind::shape)
+      throw Wrong(i + 1, "a wall of several regions together is not taken; give each its own fix", true);
     if (found->second.moves) throw Wrong(i + 1, "the region moves; where it goes is not followed", true);
     no_more(i + 2);
     add_wall(found->second.shape, found->second.inside, modulus, "");
@@ -131,7 +137,9 @@ struct Making {
       no_more(i + 2);
       return add_wall(tube, true, modulus, "");
     }
-    if (style != "xplane" && style != "yplane" && style != "zplane") throw Wrong(std::min(i, in.size() - 1), in_quotes(style) + " is no wall that is known here; xplane, yplane, zplane and zcylinder are", true);
+    if (style != "xplane" && style != "yplane" && style != "zplane")
+      throw Wrong(std::min(i, in.size() - 1), in_quotes(style) + " is no wall that is known here; xplane, yplane, zplane and zcylinder are",
+                  true);
     const int c = style[0] - 'x';
     for (const std::size_t end : {i + 1, i + 2}) {
       if (end >= in.size()) throw Wrong(i, "two coordinates are wanted behind this, or NULL");
@@ -170,8 +178,13 @@ struct Making {
 };
 
 struct Style { const char* name; void (Making::*make)(); };
-constexpr Style styles[]{{"move", &Making::move}, {"setforce", &Making::setforce}, {"gravity", &Making::gravity}, {"addforce", &Making::addforce},
-                         {"wall/gran/region", &Making::wall_region}, {"wall/gran", &Making::wall_gran}, {"wall/body/polyhedron", &Making::wall_body},
+constexpr Style styles[]{{"move", &Making::move},
+                         {"setforce", &Making::setforce},
+                         {"gravity", &Making::gravity},
+                         {"addforce", &Making::addforce},
+                         {"wall/gran/region", &Making::wall_region},
+                         {"wall/gran", &Making::wall_gran},
+                         {"wall/body/polyhedron", &Making::wall_body},
                          {"viscous", &Making::viscous}};
 
 struct Integrator { const char* name; const char* note; };
@@ -180,14 +193,22 @@ constexpr Integrator integrators[]{{"nve", ""}, {"nve/sphere", ""}, {"nve/body",
                                    {"nvt/sphere", cold}, {"nvt/body", cold}, {"nve/asphere", ""}};
 
 struct Other { const char* name; const char* why; };
-constexpr Other others[]{{"print", "output: a run of elamin writes its own"}, {"ave/time", "output: a run of elamin writes its own"},
-                         {"ave/atom", "output: a run of elamin writes its own"}, {"ave/chunk", "output: a run of elamin writes its own"},
-                         {"ave/histo", "output: a run of elamin writes its own"}, {"ave/correlate", "output: a run of elamin writes its own"},
-                         {"vector", "output: a run of elamin writes its own"}, {"store/state", "output: a run of elamin writes its own"},
-                         {"store/force", "output: a run of elamin writes its own"}, {"balance", "how LAMMPS uses the machine"},
-                         {"langevin", "there is no temperature here"}, {"temp/rescale", "there is no temperature here"},
-                         {"temp/berendsen", "there is no temperature here"}, {"dt/reset", "how LAMMPS minimises or steps: [solver] says how elamin does"},
-                         {"recenter", "rigid motions are held by supports"}, {"momentum", "rigid motions are held by supports"},
+constexpr Other others[]{{"print", "output: a run of elamin writes its own"},
+                         {"ave/time", "output: a run of elamin writes its own"},
+                         {"ave/atom", "output: a run of elamin writes its own"},
+                         {"ave/chunk", "output: a run of elamin writes its own"},
+                         {"ave/histo", "output: a run of elamin writes its own"},
+                         {"ave/correlate", "output: a run of elamin writes its own"},
+                         {"vector", "output: a run of elamin writes its own"},
+                         {"store/state", "output: a run of elamin writes its own"},
+                         {"store/force", "output: a run of elamin writes its own"},
+                         {"balance", "how LAMMPS uses the machine"},
+                         {"langevin", "there is no temperature here"},
+                         {"temp/rescale", "there is no temperature here"},
+                         {"temp/berendsen", "there is no temperature here"},
+                         {"dt/reset", "how LAMMPS minimises or steps: [solver] says how elamin does"},
+                         {"recenter", "rigid motions are held by supports"},
+                         {"momentum", "rigid motions are held by supports"},
                          {"halt", "how long LAMMPS runs"}};
 
 }  // namespace
@@ -222,7 +243,11 @@ void fix(Interpreter& in) {
       found = true;
       in.ignore(o.why);
     }
-  if (!found) throw Wrong(3, in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, " + listed(known) + did_you_mean(f.style, known), true);
+  if (!found)
+    throw Wrong(
+        3,
+        in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, " + listed(known) + did_you_mean(f.style, known),
+        true);
   if (f.kind == Fix::Kind::viscous) in.ignore("drag: matters in motion only (--dynamics)");
   f.serial = ++w.fix_serial;
   const auto same = std::find_if(w.fixes.begin(), w.fixes.end(), [&](const Fix& o) { return o.id == f.id; });
@@ -252,8 +277,11 @@ void record(Interpreter& in, bool minimize, long long steps) {
   const auto periodic = [&](int c) { return kind_of(w, static_cast<std::size_t>(c)).find('p') != std::string::npos; };
   for (int c = 0; c < 3; ++c)
     if (periodic(c) && !(c == 2 && w.dimension == 2))
-      throw Wrong(0, fmt::format("the box is periodic along {}: elamin has no periodic boxes. Write `boundary f f f` (or s) before the box is made, or "
-                                 "`change_box all boundary f f f` behind it, with walls or room around what there is", "xyz"[c]));
+      throw Wrong(
+          0, fmt::format(
+                 "the box is periodic along {}: elamin has no periodic boxes. Write `boundary f f f` (or s) before the box is made, or "
+                 "`change_box all boundary f f f` behind it, with walls or room around what there is",
+                 "xyz"[c]));
   if (steps == 0 && !minimize) return in.ignore("a run of no steps moves nothing");
   Run r;
   r.where = in.where, r.minimize = minimize, r.steps = steps, r.timestep = w.timestep;
@@ -292,7 +320,9 @@ void record(Interpreter& in, bool minimize, long long steps) {
     for (const auto& [now, before] : {std::pair(&r.bonds, &w.runs.back().bonds), {&r.angles, &w.runs.back().angles}})
       for (const auto& [type, c] : *now)
         if (const auto old = before->find(type); old != before->end() && !(old->second == c)) throw NeedsPositions{w.last_run};
-  if (w.unspecial) in.note("bonds made with `special no` are not known to LAMMPS's contacts: it lets bonded pairs touch, here they do as special_bonds says");
+  if (w.unspecial)
+    in.note(
+        "bonds made with `special no` are not known to LAMMPS's contacts: it lets bonded pairs touch, here they do as special_bonds says");
   if (minimize) std::fill(moving.begin(), moving.end(), 1);
   for (const int k : r.atoms) {
     const auto i = static_cast<std::size_t>(k);

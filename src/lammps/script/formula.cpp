@@ -25,7 +25,8 @@ bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c =
 
 class Formula {
  public:
-  Formula(const std::string& text, const World& world, const Names& names, std::size_t word, bool each, bool* timed, int& operands, int depth = 0)
+  Formula(const std::string& text, const World& world, const Names& names, std::size_t word, bool each, bool* timed, int& operands,
+          int depth = 0)
       : text_(text), world_(world), names_(names), word_(word), each_(each), timed_(timed), operands_(operands), depth_(depth) {
     if (depth > most_nested) wrong("goes through too many variables or brackets");
   }
@@ -187,14 +188,17 @@ class Formula {
     if (i_ < text_.size() && text_[i_] == '[') {
       if (v.style != Variable::Style::atom) wrong(in_quotes("v_" + n) + " is not of style atom");
       const double id = sub_number(arguments('[', ']').front());
-      value.number = Formula(v.words.front(), world_, names_, word_, true, timed_, operands_, depth_ + 1).whole().at(static_cast<std::size_t>(atom(id)));
+      value.number = Formula(v.words.front(), world_, names_, word_, true, timed_, operands_, depth_ + 1)
+                         .whole()
+                         .at(static_cast<std::size_t>(atom(id)));
       return value;
     }
     if (v.style == Variable::Style::atom && !each_) wrong(in_quotes("v_" + n) + " is of style atom");
     if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return sub(v.words.front());
     const std::string text = text_of(n, world_, names_);
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);
-    if (error != std::errc{} || last != text.data() + text.size()) wrong(fmt::format("{} is {}, no number", in_quotes("v_" + n), in_quotes(text)));
+    if (error != std::errc{} || last != text.data() + text.size())
+      wrong(fmt::format("{} is {}, no number", in_quotes("v_" + n), in_quotes(text)));
     return value;
   }
 
@@ -209,7 +213,8 @@ class Formula {
     const Compute& c = found->second;
     if (c.style != "reduce") needs_forces(word_, w);
     std::size_t which = 0;
-    if (i_ < text_.size() && text_[i_] == '[') which = static_cast<std::size_t>(std::clamp(sub_number(arguments('[', ']').front()), 1.0, 1e6)) - 1;
+    if (i_ < text_.size() && text_[i_] == '[')
+      which = static_cast<std::size_t>(std::clamp(sub_number(arguments('[', ']').front()), 1.0, 1e6)) - 1;
     if (which >= c.inputs.size()) wrong(in_quotes(w) + " has not so many values");
     std::string input = c.inputs[which];
     const Value v = Formula(input, world_, names_, word_, true, timed_, operands_, depth_ + 1).whole();
@@ -253,7 +258,8 @@ class Formula {
   Value of_atom(const std::string& w, const std::vector<std::string>& args) {
     Value v;
     if (w == "fx" || w == "fy" || w == "fz" || w == "q") needs_forces(word_, w);
-    if (!entry(w, world_.atoms.at(static_cast<std::size_t>(atom(sub_number(args.front())))), v.number)) wrong(in_quotes(w) + " is no atom vector");
+    if (!entry(w, world_.atoms.at(static_cast<std::size_t>(atom(sub_number(args.front())))), v.number))
+      wrong(in_quotes(w) + " is no atom vector");
     return v;
   }
 
@@ -277,7 +283,8 @@ class Formula {
     else if (w == "lx" || w == "ly" || w == "lz") out = (world_.hi - world_.lo)[w[1] - 'x'];
     else if (w == "vol") out = (world_.hi - world_.lo).prod();
     else {
-      static constexpr const char* unknown[]{"temp", "press", "pe", "ke", "etotal", "evdwl", "ecoul", "epair", "ebond", "eangle", "fmax", "fnorm", "cpu"};
+      static constexpr const char* unknown[]{"temp",  "press", "pe",     "ke",   "etotal", "evdwl", "ecoul",
+                                             "epair", "ebond", "eangle", "fmax", "fnorm",  "cpu"};
       for (const char* u : unknown)
         if (w == u) needs_forces(word_, w);
       return false;
@@ -289,7 +296,9 @@ class Formula {
   Value function(const std::string& w, const std::vector<std::string>& args) {
     const std::size_t n = args.size();
     const auto wants = [&](std::size_t least, std::size_t most) {
-      if (n < least || n > most) wrong(fmt::format("{}() has {} arguments, {} wanted", w, n, least == most ? std::to_string(least) : fmt::format("{} to {}", least, most)));
+      if (n < least || n > most)
+        wrong(fmt::format("{}() has {} arguments, {} wanted", w, n,
+                          least == most ? std::to_string(least) : fmt::format("{} to {}", least, most)));
     };
     struct One { const char* name; double (*call)(double); };
     static constexpr One ones[]{{"sqrt", std::sqrt}, {"exp", std::exp},   {"ln", std::log},     {"log", std::log10}, {"abs", std::abs},
@@ -311,12 +320,14 @@ class Formula {
         for (std::size_t k = 0; k < world_.atoms.size(); ++k) r.each.push_back(std::atan2(y.at(k), x.at(k)));
       return r;
     }
-    if (w == "random" || w == "normal") throw Wrong(word_, w + "() draws LAMMPS's own random numbers, which are not followed; write the numbers it gave", true);
+    if (w == "random" || w == "normal")
+      throw Wrong(word_, w + "() draws LAMMPS's own random numbers, which are not followed; write the numbers it gave", true);
     if (w == "ramp" || w == "vdisplace" || w == "swiggle" || w == "cwiggle") return in_time(w, args);
     if (w == "gmask" || w == "rmask" || w == "grmask") return mask(w, args);
     Value v;
     if (group_function(w, args, v.number)) return v;
-    if (w == "is_active" || w == "is_available" || w == "is_defined" || w == "is_file") throw Wrong(word_, w + "() is not known here", true);
+    if (w == "is_active" || w == "is_available" || w == "is_defined" || w == "is_file")
+      throw Wrong(word_, w + "() is not known here", true);
     wrong(in_quotes(w + "()") + " is no function that is known here");
   }
 
@@ -363,7 +374,8 @@ class Formula {
     const std::string region = args.size() > least ? args.back() : "", what = args.size() > 1 ? args[1] : "";
     int axis = -1;
     if (w == "xcm" && (what == "x" || what == "y" || what == "z")) axis = what[0] - 'x';
-    if (w == "bound" && what.size() == 4 && what[0] >= 'x' && what[0] <= 'z' && (what.ends_with("min") || what.ends_with("max"))) axis = what[0] - 'x';
+    if (w == "bound" && what.size() == 4 && what[0] >= 'x' && what[0] <= 'z' && (what.ends_with("min") || what.ends_with("max")))
+      axis = what[0] - 'x';
     if (axis < 0 && (w == "xcm" || w == "bound"))
       wrong(fmt::format("{} is no {}", in_quotes(what), w == "xcm" ? "direction; x, y and z are" : "end; xmin, xmax, ymin, … are"));
     double count = 0, mass = 0, moment = 0, least_x = 1e20, most_x = -1e20;
@@ -375,7 +387,11 @@ class Formula {
       const double x = world_.at(a)[axis];
       moment += m * x, least_x = std::min(least_x, x), most_x = std::max(most_x, x);
     }
-    out = w == "count" ? count : w == "mass" ? mass : w == "xcm" ? (mass > 0 ? moment / mass : 0) : what.ends_with("min") ? least_x : most_x;
+    out = w == "count"            ? count
+          : w == "mass"           ? mass
+          : w == "xcm"            ? (mass > 0 ? moment / mass : 0)
+          : what.ends_with("min") ? least_x
+                                  : most_x;
     return true;
   }
 
@@ -412,11 +428,13 @@ class Condition {
     return o.number != 0;
   }
   Operand operation(int least) {
-    static constexpr std::pair<const char*, int> all[]{{"||", 1}, {"|^", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<=", 4}, {">=", 4}, {"<", 4}, {">", 4}};
+    static constexpr std::pair<const char*, int> all[]{{"||", 1}, {"|^", 1}, {"&&", 2}, {"==", 3}, {"!=", 3},
+                                                       {"<=", 4}, {">=", 4}, {"<", 4},  {">", 4}};
     Operand left = operand();
     while (true) {
       blanks();
-      const auto* o = std::find_if(std::begin(all), std::end(all), [&](const auto& a) { return text_.compare(i_, std::strlen(a.first), a.first) == 0; });
+      const auto* o = std::find_if(std::begin(all), std::end(all),
+                                   [&](const auto& a) { return text_.compare(i_, std::strlen(a.first), a.first) == 0; });
       if (o == std::end(all) || o->second < least) return left;
       i_ += std::strlen(o->first);
       const Operand right = operation(o->second + 1);
@@ -498,7 +516,9 @@ std::string formatted(const std::string& format, double value, std::size_t word)
   while (k < format.size() && std::strchr("-+ #0", format[k])) ++k;
   std::size_t digits = 0;
   while (k < format.size() && (std::isdigit(static_cast<unsigned char>(format[k])) || format[k] == '.')) ++k, ++digits;
-  if (k >= format.size() || !std::strchr("fFgGeE", format[k]) || digits > 6 || format.find('%', k) != std::string::npos || format.size() > 200) refuse();
+  if (k >= format.size() || !std::strchr("fFgGeE", format[k]) || digits > 6 || format.find('%', k) != std::string::npos ||
+      format.size() > 200)
+    refuse();
   char buffer[2000];
   const int n = std::snprintf(buffer, sizeof buffer, format.c_str(), value);
   if (n < 0 || n >= static_cast<int>(sizeof buffer)) refuse();

@@ -35,10 +35,11 @@ struct Value {
   double at(std::size_t i) const { return each.empty() ? number : each[i]; }
 };
 
-/// What a formula says now. With LAMMPS's operators by rising precedence || |^, &&, == !=, < <= > >=, + −, * / %, ^ (from the left), and before
-/// all of these − and ! of one operand. `each`: an atom-style formula, with x, y, z, id, type, … of every particle. `timed`, if given, is set if
-/// it depends on time. Throws Wrong at `word`, or NeedsPositions.
-Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each = false, bool* timed = nullptr);
+/// What a formula says now. With LAMMPS's operators by rising precedence || |^, &&, == !=, < <= > >=, + −, * / %, ^ (from the left), and
+/// before all of these − and ! of one operand. `each`: an atom-style formula, with x, y, z, id, type, … of every particle. `timed`, if
+/// given, is set if it depends on time. Throws Wrong at `word`, or NeedsPositions.
+Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each = false,
+               bool* timed = nullptr);
 
 /// The same of a formula that is one number.
 double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, bool* timed = nullptr);

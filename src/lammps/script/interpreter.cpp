@@ -72,7 +72,8 @@ class Reader {
     if (in_.label) {
       const auto found = file.labels.find(*in_.label);
       if (found == file.labels.end()) {
-        tell({file.path, file.lines.empty() ? 1 : file.lines.back().place(0).line, 1, "jump", fmt::format("there is no label {}", in_quotes(*in_.label))});
+        tell({file.path, file.lines.empty() ? 1 : file.lines.back().place(0).line, 1, "jump",
+              fmt::format("there is no label {}", in_quotes(*in_.label))});
         in_.ended = true;
         return;
       }
@@ -87,7 +88,8 @@ class Reader {
     const int number = frame.file;
     in_.where = {number, line.place(line.text.find_first_not_of(" \t\r\f\v\n")).line};
     if (++in_.reading.commands > in_.options.most_commands) {
-      tell({file.path, in_.where.line, 1, "", fmt::format("more than {} commands have been gone through; a loop may have no end", in_.options.most_commands)});
+      tell({file.path, in_.where.line, 1, "",
+            fmt::format("more than {} commands have been gone through; a loop may have no end", in_.options.most_commands)});
       in_.ended = true;
       return;
     }
@@ -141,7 +143,11 @@ class Reader {
       if (m.file == mistake.file && m.line == mistake.line && m.column == mistake.column) return;
     mistakes_.push_back(std::move(mistake));
     if (mistakes_.size() < most_mistakes) return;
-    mistakes_.push_back({mistakes_.back().file, mistakes_.back().line, mistakes_.back().column, {}, fmt::format("{} mistakes; there may be more", most_mistakes)});
+    mistakes_.push_back({mistakes_.back().file,
+                         mistakes_.back().line,
+                         mistakes_.back().column,
+                         {},
+                         fmt::format("{} mistakes; there may be more", most_mistakes)});
     throw InputError(mistakes_);
   }
 
@@ -150,8 +156,10 @@ class Reader {
     stopped_ = true;
     const std::string command = in_.words.empty() ? "a formula" : in_.words[0].text;
     if (in_.world.runs.empty()) return tell({file.path, in_.where.line, 1, command, "needs positions behind a run that is not there"});
-    in_.note(fmt::format("{} needs to know where particles are behind the run of {}; the import ends here. Run the problem, then give its last state: "
-                         "--after DIR/states/final.data", command, in_.reading.place(needs.run)));
+    in_.note(fmt::format(
+        "{} needs to know where particles are behind the run of {}; the import ends here. Run the problem, then give its last state: "
+        "--after DIR/states/final.data",
+        command, in_.reading.place(needs.run)));
     in_.world.last_run = needs.run;
     in_.reading.passes.push_back({in_.world, {}, in_.where});
     in_.world = World();
@@ -215,7 +223,8 @@ long long Interpreter::integer(std::size_t i, long long lo, long long hi) const 
   long long v = 0;
   const auto [end, error] = std::from_chars(w.data() + (w.starts_with('+') ? 1 : 0), w.data() + w.size(), v);
   if (error == std::errc{} && end == w.data() + w.size()) {
-    if (v < lo || v > hi) throw Wrong(i, fmt::format("{} is out of range; {} is allowed", w, hi < lo ? "nothing" : fmt::format("{} to {}", lo, hi)));
+    if (v < lo || v > hi)
+      throw Wrong(i, fmt::format("{} is out of range; {} is allowed", w, hi < lo ? "nothing" : fmt::format("{} to {}", lo, hi)));
     return v;
   }
   // LAMMPS's own formulas print large integers as numbers such as 1e+06.
@@ -291,7 +300,9 @@ void Interpreter::run_command() {
   }
   if (const std::string why = ignored_command(command); !why.empty()) return tell(Told::Fate::ignored, why);
   if (const std::string why = refused_command(command); !why.empty()) throw Wrong(0, why, true);
-  throw Wrong(0, in_quotes(command) + " is no command that is known here" + did_you_mean(command, known_commands()) + "; --skip leaves it out", true);
+  throw Wrong(0,
+              in_quotes(command) + " is no command that is known here" + did_you_mean(command, known_commands()) + "; --skip leaves it out",
+              true);
 }
 
 void Interpreter::execute(const std::string& line_text, const Where& at) {

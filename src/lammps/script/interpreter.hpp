@@ -103,16 +103,17 @@ std::vector<std::string> known_commands();
 // The commands, by what they are about.
 namespace command {
 // control.cpp
-void include(Interpreter&), jump(Interpreter&), label(Interpreter&), next(Interpreter&), condition_of_if(Interpreter&), variable(Interpreter&),
-    print(Interpreter&), quit(Interpreter&), clear(Interpreter&);
+void include(Interpreter&), jump(Interpreter&), label(Interpreter&), next(Interpreter&), condition_of_if(Interpreter&),
+    variable(Interpreter&), print(Interpreter&), quit(Interpreter&), clear(Interpreter&);
 // settings.cpp
-void units(Interpreter&), dimension(Interpreter&), boundary(Interpreter&), atom_style(Interpreter&), lattice(Interpreter&), region(Interpreter&),
-    create_box(Interpreter&), change_box(Interpreter&), timestep(Interpreter&), reset_timestep(Interpreter&), special_bonds(Interpreter&),
-    bond_style(Interpreter&), bond_coeff(Interpreter&), angle_style(Interpreter&), angle_coeff(Interpreter&), mass(Interpreter&),
-    pair_style(Interpreter&), pair_coeff(Interpreter&), pair_modify(Interpreter&);
+void units(Interpreter&), dimension(Interpreter&), boundary(Interpreter&), atom_style(Interpreter&), lattice(Interpreter&),
+    region(Interpreter&), create_box(Interpreter&), change_box(Interpreter&), timestep(Interpreter&), reset_timestep(Interpreter&),
+    special_bonds(Interpreter&), bond_style(Interpreter&), bond_coeff(Interpreter&), angle_style(Interpreter&), angle_coeff(Interpreter&),
+    mass(Interpreter&), pair_style(Interpreter&), pair_coeff(Interpreter&), pair_modify(Interpreter&);
 // building.cpp
 void create_atoms(Interpreter&), create_bonds(Interpreter&), set(Interpreter&), group(Interpreter&), delete_atoms(Interpreter&),
-    delete_bonds(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&), compute(Interpreter&), uncompute(Interpreter&);
+    delete_bonds(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&), compute(Interpreter&),
+    uncompute(Interpreter&);
 // fixes.cpp
 void fix(Interpreter&), unfix(Interpreter&), run(Interpreter&), minimize(Interpreter&);
 }  // namespace command

@@ -31,10 +31,12 @@ PairStyle style_from(const Interpreter& in, std::size_t from, std::size_t to) {
     wants(6, 7, "Kn Kt gamma_n gamma_t xmu dampflag");
     s.gran_modulus = 0.75 * in.number(from + 1);
     if (s.gran_modulus < 0) throw Wrong(from + 1, "is negative; 0 or more is taken");
-    s.damping = fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(from + 3), in.number(from + 5));
+    s.damping =
+        fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(from + 3), in.number(from + 5));
   } else if (s.name == "body/rounded/polyhedron") {
     wants(5, 5, "c_n c_t mu delta_ua cut_inner");
-    s.c_n = in.number(from + 1), s.c_t = in.number(from + 2), s.mu = in.number(from + 3), s.delta_ua = in.number(from + 4), s.cut_inner = in.number(from + 5);
+    s.c_n = in.number(from + 1), s.c_t = in.number(from + 2), s.mu = in.number(from + 3), s.delta_ua = in.number(from + 4),
+    s.cut_inner = in.number(from + 5);
   }
   return s;
 }
@@ -111,8 +113,11 @@ void pair_style(Interpreter& in) {
   std::size_t i = mixed ? 2 : 1;
   while (i < in.size()) {
     if (!known_style(in.word(i)))
-      throw Wrong(i, in_quotes(in.word(i)) + " is no pair style that is known here; granular, gran/hertz/history, lj/cut, body/rounded/polyhedron, hybrid "
-                     "and hybrid/overlay of them are", true);
+      throw Wrong(i,
+                  in_quotes(in.word(i)) +
+                      " is no pair style that is known here; granular, gran/hertz/history, lj/cut, body/rounded/polyhedron, hybrid "
+                      "and hybrid/overlay of them are",
+                  true);
     std::size_t end = i + 1;
     while (end < in.size() && !(mixed && known_style(in.word(end)))) ++end;
     p.styles.push_back(style_from(in, i, end));
@@ -132,10 +137,12 @@ void pair_modify(Interpreter& in) {
       for (PairStyle& s : in.world.pairs.styles) s.shift = in.yes(i + 1);
     } else if (k == "mix") {
       const std::string& m = in.word(i + 1);
-      if (m != "geometric" && m != "arithmetic" && m != "sixthpower") throw Wrong(i + 1, in_quotes(m) + " is no way of mixing; geometric, arithmetic and sixthpower are");
+      if (m != "geometric" && m != "arithmetic" && m != "sixthpower")
+        throw Wrong(i + 1, in_quotes(m) + " is no way of mixing; geometric, arithmetic and sixthpower are");
       for (PairStyle& s : in.world.pairs.styles)
         s.mix = m == "geometric" ? PairStyle::Mix::geometric : m == "arithmetic" ? PairStyle::Mix::arithmetic : PairStyle::Mix::sixthpower;
-    } else if (k != "tail" && k != "table" && k != "compute") throw Wrong(i, in_quotes(k) + " is no keyword of pair_modify that is taken; shift and mix are", true);
+    } else if (k != "tail" && k != "table" && k != "compute")
+      throw Wrong(i, in_quotes(k) + " is no keyword of pair_modify that is taken; shift and mix are", true);
     else if (k == "tail" && in.yes(i + 1)) throw Wrong(i, "corrections for a cut tail are of periodic boxes", true);
     i += 2;
   }
@@ -149,7 +156,8 @@ void pair_coeff(Interpreter& in) {
   c.where = in.where, c.text = in.text();
   bool any = false;
   for (int a = c.first[0]; a <= c.first[1] && !any; ++a) any = std::max(c.second[0], a) <= c.second[1];
-  if (!any) throw Wrong(1, fmt::format("there is no pair I J with I up to J in {} {}; write the smaller type first", in.word(1), in.word(2)));
+  if (!any)
+    throw Wrong(1, fmt::format("there is no pair I J with I up to J in {} {}; write the smaller type first", in.word(1), in.word(2)));
   if (w.pairs.styles.empty()) throw Wrong(0, "stands before pair_style");
   std::size_t i = 3;
   const PairStyle* style = &w.pairs.styles.front();
@@ -157,7 +165,8 @@ void pair_coeff(Interpreter& in) {
     in.wants(4, "pair_coeff TYPES TYPES STYLE …");
     if (in.word(3) == "none") style = nullptr;
     else {
-      const auto found = std::find_if(w.pairs.styles.begin(), w.pairs.styles.end(), [&](const PairStyle& s) { return s.name == in.word(3); });
+      const auto found =
+          std::find_if(w.pairs.styles.begin(), w.pairs.styles.end(), [&](const PairStyle& s) { return s.name == in.word(3); });
       if (found == w.pairs.styles.end()) throw Wrong(3, in_quotes(in.word(3)) + " is none of the styles of pair_style");
       style = &*found;
     }
@@ -173,7 +182,9 @@ void pair_coeff(Interpreter& in) {
     if (!law.material) c.effective_modulus = law.effective_modulus;
     c.damping = law.damping();
     if (law.history || law.rolls)
-      in.note("friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without history)");
+      in.note(
+          "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
+          "history)");
   } else if (name == "gran/hertz/history") {
     c.law = PairCoefficient::Law::hertz, c.effective_modulus = style->gran_modulus, c.damping = style->damping;
     end = i;
@@ -188,18 +199,22 @@ void pair_coeff(Interpreter& in) {
     if (c.k_n < 0 || c.k_na < 0) throw Wrong(i, "a number is negative; 0 or more is taken");
     end = i + 2;
   } else end = i;                                // zero, none
-  if (end != in.size() && name != "zero" && name != "none") throw Wrong(end, fmt::format("{} is no word of pair_coeff for {} that is known here", in_quotes(in.word(end)), name), true);
+  if (end != in.size() && name != "zero" && name != "none")
+    throw Wrong(end, fmt::format("{} is no word of pair_coeff for {} that is known here", in_quotes(in.word(end)), name), true);
   if (w.pairs.hybrid || name == "none") {        // one style a pair: others are forgotten
     std::erase_if(w.pairs.coefficients, [&](const PairCoefficient& o) {
-      return o.law != c.law && c.first[0] <= o.first[0] && o.first[1] <= c.first[1] && c.second[0] <= o.second[0] && o.second[1] <= c.second[1];
+      return o.law != c.law && c.first[0] <= o.first[0] && o.first[1] <= c.first[1] && c.second[0] <= o.second[0] &&
+             o.second[1] <= c.second[1];
     });
     for (const PairCoefficient& o : w.pairs.coefficients)
       for (int a = c.first[0]; a <= c.first[1] && o.law != c.law && o.law != PairCoefficient::Law::none && a - c.first[0] < 1000; ++a)
         for (int b = std::max(a, c.second[0]); b <= c.second[1] && b - c.second[0] < 1000; ++b)
-          if (o.covers(a, b)) throw Wrong(1, fmt::format("types {} {} have another style already; write each pair of types once", a, b), true);
+          if (o.covers(a, b))
+            throw Wrong(1, fmt::format("types {} {} have another style already; write each pair of types once", a, b), true);
   }
   // A later line holds; what it covers altogether is forgotten.
-  std::erase_if(w.pairs.coefficients, [&](const PairCoefficient& o) { return o.law == c.law && o.first == c.first && o.second == c.second; });
+  std::erase_if(w.pairs.coefficients,
+                [&](const PairCoefficient& o) { return o.law == c.law && o.first == c.first && o.second == c.second; });
   w.pairs.coefficients.push_back(std::move(c));
 }
 

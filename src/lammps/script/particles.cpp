@@ -44,9 +44,12 @@ Particles::Particles(const World& world) : world_(world), id_(world.atoms.size()
 
 std::string Particles::data(const std::string& title, const std::map<int, double>& stiffer, bool velocities) const {
   fmt::memory_buffer text;
-  const auto put = [&](fmt::string_view format, const auto&... values) { fmt::vformat_to(std::back_inserter(text), format, fmt::make_format_args(values...)); };
+  const auto put = [&](fmt::string_view format, const auto&... values) {
+    fmt::vformat_to(std::back_inserter(text), format, fmt::make_format_args(values...));
+  };
   std::vector<int> order;
-  std::copy_if(atoms_.begin(), atoms_.end(), std::back_inserter(order), [&](int i) { return !world_.atoms[static_cast<std::size_t>(i)].is_body; });
+  std::copy_if(atoms_.begin(), atoms_.end(), std::back_inserter(order),
+               [&](int i) { return !world_.atoms[static_cast<std::size_t>(i)].is_body; });
   std::sort(order.begin(), order.end(), [&](int i, int j) { return id(i) < id(j); });
   Field x(3, static_cast<Eigen::Index>(order.size()));
   std::vector<double> diameter;
@@ -74,16 +77,19 @@ std::string Particles::data(const std::string& title, const std::map<int, double
     return c;
   };
   bool straight = true;
-  for (const auto& [type, number] : angle_types) straight = straight && coefficient(&Run::angles, world_.angle_coefficients, type, "angle").rest == pi;
+  for (const auto& [type, number] : angle_types)
+    straight = straight && coefficient(&Run::angles, world_.angle_coefficients, type, "angle").rest == pi;
 
-  put("{}\n\n{} atoms\n{} bonds\n{} angles\n{} atom types\n{} bond types\n{} angle types\n\n", title, order.size(), bonds, angles, types_.back(),
-      bond_types.size(), angle_types.size());
+  put("{}\n\n{} atoms\n{} bonds\n{} angles\n{} atom types\n{} bond types\n{} angle types\n\n", title, order.size(), bonds, angles,
+      types_.back(), bond_types.size(), angle_types.size());
   const Box box = box_around(x, diameter);
   for (int c = 0; c < 3; ++c) put("{:.17g} {:.17g} {}lo {}hi\n", box.lo[c], box.hi[c], "xyz"[c], "xyz"[c]);
-  const bool masses = !world_.sphere && std::all_of(types_.begin(), types_.end(), [&](int t) { return world_.mass[static_cast<std::size_t>(t - 1)] > 0; });
+  const bool masses =
+      !world_.sphere && std::all_of(types_.begin(), types_.end(), [&](int t) { return world_.mass[static_cast<std::size_t>(t - 1)] > 0; });
   if (masses) {
     put("\nMasses\n\n");
-    for (int t = 1; t <= types_.back(); ++t) put("{} {:.17g}\n", t, world_.mass[static_cast<std::size_t>(t - 1)] > 0 ? world_.mass[static_cast<std::size_t>(t - 1)] : 1.0);
+    for (int t = 1; t <= types_.back(); ++t)
+      put("{} {:.17g}\n", t, world_.mass[static_cast<std::size_t>(t - 1)] > 0 ? world_.mass[static_cast<std::size_t>(t - 1)] : 1.0);
   }
   if (!bond_types.empty()) put("\nBond Coeffs # harmonic\n\n");
   for (const auto& [type, number] : bond_types) {
@@ -103,11 +109,13 @@ std::string Particles::data(const std::string& title, const std::map<int, double
   for (const int i : order) {
     const Atom& a = world_.atoms[static_cast<std::size_t>(i)];
     const Vec3& p = a.start;
-    if (world_.sphere) put("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {}\n", id(i), a.type, p[0], p[1], p[2], a.diameter, a.density, a.molecule);
+    if (world_.sphere)
+      put("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {}\n", id(i), a.type, p[0], p[1], p[2], a.diameter, a.density, a.molecule);
     else if (world_.molecular) put("{} {} {} {:.17g} {:.17g} {:.17g}\n", id(i), a.molecule, a.type, p[0], p[1], p[2]);
     else put("{} {} {:.17g} {:.17g} {:.17g}\n", id(i), a.type, p[0], p[1], p[2]);
   }
-  const bool move = velocities && std::any_of(order.begin(), order.end(), [&](int i) { return !world_.atoms[static_cast<std::size_t>(i)].v.isZero(0); });
+  const bool move =
+      velocities && std::any_of(order.begin(), order.end(), [&](int i) { return !world_.atoms[static_cast<std::size_t>(i)].v.isZero(0); });
   if (move) {
     put("\nVelocities # {}\n\n", style);
     for (const int i : order) {

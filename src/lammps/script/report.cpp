@@ -47,7 +47,8 @@ std::string report(const Reading& reading, const std::vector<Note>& notes) {
     else ++same->second;
   }
   for (const auto& [n, count] : told)
-    text += fmt::format("    {}{}{}\n", n.where.line > 0 ? reading.place(n.where) + ": " : "", count > 1 ? fmt::format("and {} more: ", count - 1) : "", n.text);
+    text += fmt::format("    {}{}{}\n", n.where.line > 0 ? reading.place(n.where) + ": " : "",
+                        count > 1 ? fmt::format("and {} more: ", count - 1) : "", n.text);
   return text;
 }
 

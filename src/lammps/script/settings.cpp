@@ -43,7 +43,10 @@ void units(Interpreter& in) {
   if (!in.world.timestep_set) in.world.timestep = in.word(1) == "si" ? 1e-8 : in.word(1) == "lj" ? 0.005 : 1;
   in.ignore("numbers are taken as they are; elamin's units are any that go together");
   if (in.word(1) != "lj" && in.word(1) != "si" && in.word(1) != "cgs" && in.word(1) != "micro" && in.word(1) != "nano")
-    throw Wrong(1, fmt::format("in units {} forces are not mass times acceleration in the same units; lj, si, cgs, micro and nano are taken", in.word(1)), true);
+    throw Wrong(1,
+                fmt::format("in units {} forces are not mass times acceleration in the same units; lj, si, cgs, micro and nano are taken",
+                            in.word(1)),
+                true);
 }
 
 void dimension(Interpreter& in) {
@@ -81,7 +84,11 @@ void atom_style(Interpreter& in) {
       w.atom_style += (w.atom_style.empty() ? "" : " ") + s;
       break;
     } else if (s.find_first_not_of("0123456789") == std::string::npos) continue;   // as `sphere 1` has
-    else throw Wrong(i, in_quotes(s) + " is no atom style that is known here; atomic, sphere, bond, angle, molecular, full, body and hybrids of them are", true);
+    else
+      throw Wrong(
+          i,
+          in_quotes(s) + " is no atom style that is known here; atomic, sphere, bond, angle, molecular, full, body and hybrids of them are",
+          true);
     w.atom_style += (w.atom_style.empty() ? "" : " ") + s;
   }
 }
@@ -89,7 +96,10 @@ void atom_style(Interpreter& in) {
 void lattice(Interpreter& in) {
   in.wants(3, "lattice STYLE SCALE");
   if (in.word(1) != "none")
-    throw Wrong(1, "atoms on a lattice are not made; write them one by one (create_atoms … single), or let LAMMPS write a data file (write_data FILE)", true);
+    throw Wrong(
+        1,
+        "atoms on a lattice are not made; write them one by one (create_atoms … single), or let LAMMPS write a data file (write_data FILE)",
+        true);
   in.world.lattice = in.positive(2);
 }
 
@@ -159,7 +169,9 @@ void region(Interpreter& in) {
       r.parts.push_back(in.word(i));
     }
   } else
-    throw Wrong(2, in_quotes(style) + " is no style of a region that is known here; block, cylinder, cone, sphere, plane, union and intersect are", true);
+    throw Wrong(
+        2, in_quotes(style) + " is no style of a region that is known here; block, cylinder, cone, sphere, plane, union and intersect are",
+        true);
   if ((style == "cylinder" || style == "sphere") && !(s.radius > 0)) throw Wrong(6, "the radius is not above 0");
   bool box_units = false;
   for (std::size_t i = next; i < in.size();) {
@@ -170,7 +182,8 @@ void region(Interpreter& in) {
     else if (k == "units" && (v == "box" || v == "lattice")) box_units = v == "box", i += 2;
     else if (k == "open") {
       const bool block = s.shape == Shape::block;
-      if (r.kind != ScriptRegion::Kind::shape || s.shape == Shape::sphere || s.shape == Shape::plane) throw Wrong(i, "is of blocks, cylinders and cones");
+      if (r.kind != ScriptRegion::Kind::shape || s.shape == Shape::sphere || s.shape == Shape::plane)
+        throw Wrong(i, "is of blocks, cylinders and cones");
       s.open[static_cast<std::size_t>(in.integer(i + 1, 1, block ? 6 : 3) - 1)] = true, i += 2;
     } else if (k == "move" && i + 3 < in.size()) r.moves = true, i += 4;
     else if (k == "rotate" || k == "move") throw Wrong(i, "turning regions are not followed", true);
@@ -201,7 +214,8 @@ void create_box(Interpreter& in) {
     const int n = static_cast<int>(in.integer(i + 1, 0, most_types));
     if (k == "bond/types") bonds = n;
     else if (k == "angle/types") angles = n;
-    else if (!k.starts_with("extra/") && k != "dihedral/types" && k != "improper/types") throw Wrong(i, in_quotes(k) + " is no keyword of create_box");
+    else if (!k.starts_with("extra/") && k != "dihedral/types" && k != "improper/types")
+      throw Wrong(i, in_quotes(k) + " is no keyword of create_box");
   }
   w.atom_types = types, w.bond_types = bonds, w.angle_types = angles;
   w.lo = r.lo, w.hi = r.hi, w.has_box = true;
@@ -220,7 +234,8 @@ void change_box(Interpreter& in) {
       if (i + 3 >= in.size()) throw Wrong(i, "is followed by three words");
       for (std::size_t c = 0; c < 3; ++c) {
         const std::string& b = in.word(i + 1 + c);
-        if (b.empty() || b.size() > 2 || b.find_first_not_of("pfsm") != std::string::npos) throw Wrong(i + 1 + c, in_quotes(b) + " is no kind of boundary; f, s, m and p are");
+        if (b.empty() || b.size() > 2 || b.find_first_not_of("pfsm") != std::string::npos)
+          throw Wrong(i + 1 + c, in_quotes(b) + " is no kind of boundary; f, s, m and p are");
         w.boundary[c] = b;
       }
       w.boundary_where = in.where;
@@ -300,7 +315,8 @@ void bond_coeff(Interpreter& in) {
     if (in.size() != i + 2) throw Wrong(0, "a harmonic bond has two numbers: K and r0");
     c.stiffness = in.number(i), c.rest = in.number(i + 1);
     if (c.stiffness < 0 || c.rest < 0) throw Wrong(c.stiffness < 0 ? i : i + 1, "is negative; 0 or more is taken");
-  } else if (style != "zero" && style != "none") throw Wrong(0, style.empty() ? "stands before bond_style" : in_quotes(style) + " is no bond style that is known here", true);
+  } else if (style != "zero" && style != "none")
+    throw Wrong(0, style.empty() ? "stands before bond_style" : in_quotes(style) + " is no bond style that is known here", true);
   for (int t = types[0]; t <= types[1]; ++t) in.world.bond_coefficients[static_cast<std::size_t>(t - 1)] = c;
 }
 
@@ -319,7 +335,8 @@ void angle_coeff(Interpreter& in) {
     const double degrees = in.number(i + 1);
     if (degrees < 0 || degrees > 180) throw Wrong(i + 1, "must be from 0 to 180 degrees");
     c.rest = degrees == 180 ? pi : degrees * (pi / 180);
-  } else if (style != "zero" && style != "none") throw Wrong(0, style.empty() ? "stands before angle_style" : in_quotes(style) + " is no angle style that is known here", true);
+  } else if (style != "zero" && style != "none")
+    throw Wrong(0, style.empty() ? "stands before angle_style" : in_quotes(style) + " is no angle style that is known here", true);
   if (c.stiffness < 0) throw Wrong(i, "is negative; 0 or more is taken");
   for (int t = types[0]; t <= types[1]; ++t) in.world.angle_coefficients[static_cast<std::size_t>(t - 1)] = c;
 }

@@ -122,7 +122,8 @@ class Translation {
     if (const auto found = type_groups_.find(types); found != type_groups_.end()) return found->second;
     std::vector<std::string> items, parts;
     for (const int t : types) items.push_back(fmt::format("\"type{}\"", t)), parts.push_back(std::to_string(t));
-    const std::string name = unique(types.size() < 5 ? fmt::format("types_{}", fmt::join(parts, "_")) : fmt::format("types_{}_to_{}", types.front(), types.back()));
+    const std::string name = unique(types.size() < 5 ? fmt::format("types_{}", fmt::join(parts, "_"))
+                                                     : fmt::format("types_{}_to_{}", types.front(), types.back()));
     group_text_ += fmt::format("\n[[group]]\nname = \"{}\"\nof = {}\n", name, list_of(items));
     return type_groups_[types] = name;
   }
@@ -151,7 +152,14 @@ class Translation {
         if (a.fix.kind == Fix::Kind::gravity || a.fix.kind == Fix::Kind::force) load(k, a);
         if (a.fix.kind == Fix::Kind::wall) wall(k, a);
         if (a.fix.kind == Fix::Kind::viscous && options_.dynamics)
-          put(k, {"viscosity", "", fmt::format("group = \"{}\"\ncoefficient = {}\n", group_of(a.members, a.fix.group, k), a.fix.coefficient), a.fix.where, a.fix.text, a.fix.serial, {}, false});
+          put(k, {"viscosity",
+                  "",
+                  fmt::format("group = \"{}\"\ncoefficient = {}\n", group_of(a.members, a.fix.group, k), a.fix.coefficient),
+                  a.fix.where,
+                  a.fix.text,
+                  a.fix.serial,
+                  {},
+                  false});
       }
       contacts(k, run);
     }
@@ -203,8 +211,12 @@ class Translation {
       }
       if (moves && a.fix.directions != whole && options_.dynamics)
         for (const Run::Active& other : run.fixes)
-          if (other.fix.kind == Fix::Kind::integrate && std::any_of(a.members.begin(), a.members.end(), [&](int i) { return std::binary_search(other.members.begin(), other.members.end(), i); }))
-            note(a.fix.where, fmt::format("the free coordinates of these atoms are integrated twice by LAMMPS, by this fix and by {}; here once", other.fix.id));
+          if (other.fix.kind == Fix::Kind::integrate && std::any_of(a.members.begin(), a.members.end(), [&](int i) {
+                return std::binary_search(other.members.begin(), other.members.end(), i);
+              }))
+            note(a.fix.where,
+                 fmt::format("the free coordinates of these atoms are integrated twice by LAMMPS, by this fix and by {}; here once",
+                             other.fix.id));
     }
     std::map<Held, Members> by;
     for (const int i : run.atoms)
@@ -221,7 +233,8 @@ class Translation {
         if (h.directions[c]) letters += "xyz"[c];
       if (letters != "xyz") body += fmt::format("directions = \"{}\"\n", letters);
       if (!h.velocity.isZero(0))
-        body += options_.dynamics ? fmt::format("velocity = {}\n", vec(h.velocity)) : fmt::format("displacement = {}\n", vec(h.velocity * unit_time_));
+        body += options_.dynamics ? fmt::format("velocity = {}\n", vec(h.velocity))
+                                  : fmt::format("displacement = {}\n", vec(h.velocity * unit_time_));
       put(k, {"support", fix ? fix->id : "still", body, fix ? fix->where : run.where,
               fix ? fix->text : "no fix integrates these, so that they stay where they are", fix ? fix->serial : 0, {}});
       if (!h.velocity.isZero(0)) {
@@ -243,7 +256,8 @@ class Translation {
         if (!holds(b.atoms[0]) || !holds(b.atoms[1])) continue;
         clamp_told_ = true;
         return note(h.fix < 0 ? run.where : run.fixes[static_cast<std::size_t>(h.fix)].fix.where,
-                    "bonded particles are held beside each other: a clamp. It sits in the middle of the innermost held bond, so that a beam of N free "
+                    "bonded particles are held beside each other: a clamp. It sits in the middle of the innermost held bond, so that a "
+                    "beam of N free "
                     "particles bends over N + 2 spacings (docs/column.md)");
       }
     }
@@ -252,9 +266,14 @@ class Translation {
   void load(int k, const Run::Active& a) {
     if (a.fix.vector.isZero(0)) return;
     const bool gravity = a.fix.kind == Fix::Kind::gravity;
-    put(k, {gravity ? "gravity" : "load", a.fix.id,
-            fmt::format("group = \"{}\"\n{} = {}\n{}", group_of(a.members, a.fix.group, k), gravity ? "acceleration" : "force", vec(a.fix.vector), gravity ? "" : "constant = true\n"),
-            a.fix.where, a.fix.text, a.fix.serial, {}});
+    put(k, {gravity ? "gravity" : "load",
+            a.fix.id,
+            fmt::format("group = \"{}\"\n{} = {}\n{}", group_of(a.members, a.fix.group, k), gravity ? "acceleration" : "force",
+                        vec(a.fix.vector), gravity ? "" : "constant = true\n"),
+            a.fix.where,
+            a.fix.text,
+            a.fix.serial,
+            {}});
   }
 
   void wall(int k, const Run::Active& a) {
@@ -268,20 +287,29 @@ class Translation {
       }
       const bool either = a.fix.style == "wall/gran" && w.region.shape == Shape::plane;
       if (!beyond.empty() && !either)
-        note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they are left out of its group", beyond.size(), a.members.size()));
-      if (!members.empty()) one_wall(k, a, w, w.inside, a.fix.id + w.suffix, beyond.empty() ? group_of(members, a.fix.group, k) : group_of(members, a.fix.id + w.suffix + "_before", k));
-      if (!beyond.empty() && either) one_wall(k, a, w, !w.inside, a.fix.id + w.suffix + "_back", group_of(beyond, a.fix.id + w.suffix + "_behind", k));
+        note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they "
+                                      "are left out of its group",
+                                      beyond.size(), a.members.size()));
+      if (!members.empty())
+        one_wall(k, a, w, w.inside, a.fix.id + w.suffix,
+                 beyond.empty() ? group_of(members, a.fix.group, k) : group_of(members, a.fix.id + w.suffix + "_before", k));
+      if (!beyond.empty() && either)
+        one_wall(k, a, w, !w.inside, a.fix.id + w.suffix + "_back", group_of(beyond, a.fix.id + w.suffix + "_behind", k));
       if (w.region.shape == Shape::cone && w.region.radius_lo != w.region.radius_hi)
-        note(a.fix.where, "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
+        note(a.fix.where,
+             "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
       if (a.fix.trap_modulus)
-        note(a.fix.where, "LAMMPS gives walls of hertz/material the modulus E/(2(1 - nu)), and contacts between particles E/(2(1 - nu^2)); that is kept");
+        note(
+            a.fix.where,
+            "LAMMPS gives walls of hertz/material the modulus E/(2(1 - nu)), and contacts between particles E/(2(1 - nu^2)); that is kept");
     }
   }
 
   void one_wall(int k, const Run::Active& a, const Fix::Wall& w, bool inside, const std::string& name, const std::string& group) {
     std::string body = fmt::format("group = \"{}\"\n", group) + region_text(w.region, inside);
     const bool round = w.region.shape != Shape::plane && w.region.shape != Shape::block;
-    if (a.fix.body.empty()) body += fmt::format("effective_modulus = {}\n", w.effective_modulus) + (round ? "effective_radius = \"curved\"\n" : "");
+    if (a.fix.body.empty())
+      body += fmt::format("effective_modulus = {}\n", w.effective_modulus) + (round ? "effective_radius = \"curved\"\n" : "");
     else body += a.fix.body + (options_.dynamics ? "formulation = \"lammps\"\n" : "");
     if (options_.dynamics) body += a.fix.damping;
     put(k, {"wall", name, body, a.fix.where, a.fix.text, a.fix.serial, {}});
@@ -302,7 +330,8 @@ class Translation {
       case Shape::cylinder:
       case Shape::cone:
         t += fmt::format("axis = \"{}\"\ncenter = {}\n", "xyz"[r.axis], vec(r.center));
-        t += r.shape == Shape::cylinder ? fmt::format("radius = {}\n", r.radius) : fmt::format("radius_lo = {}\nradius_hi = {}\n", r.radius_lo, r.radius_hi);
+        t += r.shape == Shape::cylinder ? fmt::format("radius = {}\n", r.radius)
+                                        : fmt::format("radius_lo = {}\nradius_hi = {}\n", r.radius_lo, r.radius_hi);
         if (r.axial_lo > -1e20) t += fmt::format("lo = {}\n", r.axial_lo);
         if (r.axial_hi < 1e20) t += fmt::format("hi = {}\n", r.axial_hi);
         break;
@@ -330,25 +359,35 @@ class Translation {
     using Law = PairCoefficient::Law;
     std::string keys;
     if (c.law == Law::hertz) {
-      keys = c.effective_modulus || c.youngs_modulus == 0 ? fmt::format("effective_modulus = {}\n", c.effective_modulus.value_or(0))
-                                                          : fmt::format("youngs_modulus = {}\npoissons_ratio = {}\n", c.youngs_modulus, c.poissons_ratio);
+      keys = c.effective_modulus || c.youngs_modulus == 0
+                 ? fmt::format("effective_modulus = {}\n", c.effective_modulus.value_or(0))
+                 : fmt::format("youngs_modulus = {}\npoissons_ratio = {}\n", c.youngs_modulus, c.poissons_ratio);
       if (options_.dynamics) keys += c.damping;
     } else if (c.law == Law::lj) {
       keys = fmt::format("law = \"lj\"\nepsilon = {}\nsigma = {}\ncutoff = {}\n", c.epsilon, c.sigma, c.cutoff);
       if (style.shift) keys += "cutoff_style = \"shifted\"\n";
     } else {
       keys = fmt::format("law = \"rounded\"\nk_n = {}\nk_na = {}\ncutoff = {}\n", c.k_n, c.k_na, style.cut_inner);
-      if (options_.dynamics) keys += fmt::format("formulation = \"lammps\"\ndelta_ua = {}\nmu = {}\nc_n = {}\nc_t = {}\n", style.delta_ua, style.mu, style.c_n, style.c_t);
-      else note(c.where, "LAMMPS's forces of rounded bodies have no potential; equilibria are those of the sum over features (formulation = \"multi\")");
+      if (options_.dynamics)
+        keys += fmt::format("formulation = \"lammps\"\ndelta_ua = {}\nmu = {}\nc_n = {}\nc_t = {}\n", style.delta_ua, style.mu, style.c_n,
+                            style.c_t);
+      else
+        note(
+            c.where,
+            "LAMMPS's forces of rounded bodies have no potential; equilibria are those of the sum over features (formulation = \"multi\")");
       return keys;
     }
     if (world_.bonds.empty()) return keys;
     bool partial = false;
     const int bonds = excluded(run.special_lj, run.special_coul, c.law == Law::hertz, partial);
     if (bonds < 0 || (partial && c.law == Law::lj))
-      refuse(run.where, "special_bonds", fmt::format("the weights {} {} {} cannot be said of such contacts; 0 for the first neighbours along bonds and 1 for the rest can",
-                                                     run.special_lj[0], run.special_lj[1], run.special_lj[2]));
-    if (partial) note(c.where, "weights of special_bonds between 0 and 1 are ignored by granular contacts: LAMMPS takes them in full, and so does this");
+      refuse(
+          run.where, "special_bonds",
+          fmt::format("the weights {} {} {} cannot be said of such contacts; 0 for the first neighbours along bonds and 1 for the rest can",
+                      run.special_lj[0], run.special_lj[1], run.special_lj[2]));
+    if (partial)
+      note(c.where,
+           "weights of special_bonds between 0 and 1 are ignored by granular contacts: LAMMPS takes them in full, and so does this");
     return keys + fmt::format("exclude_bonds = {}\n", bonds);
   }
 
@@ -380,13 +419,22 @@ class Translation {
         if (!over) continue;
       } else acting.push_back(&c);
       PairCoefficient shown = c;
-      if (nothing(c) && c.law == Law::lj) shown.epsilon = 0, shown.sigma = c.sigma > 0 ? c.sigma : 1, shown.cutoff = c.cutoff > 0 ? c.cutoff : 1;
+      if (nothing(c) && c.law == Law::lj)
+        shown.epsilon = 0, shown.sigma = c.sigma > 0 ? c.sigma : 1, shown.cutoff = c.cutoff > 0 ? c.cutoff : 1;
       const PairStyle* style = style_of(run, c.law);
       const std::string keys = contact_keys(shown, *style, run);
       if (c.law == Law::lj && !nothing(c) && !style->shift)
-        note(c.where, "the energy of this cohesion jumps where it is cut off, as LAMMPS's does (cutoff_style = \"cut\"); \"shifted\" and \"smooth\" do not");
+        note(c.where,
+             "the energy of this cohesion jumps where it is cut off, as LAMMPS's does (cutoff_style = \"cut\"); \"shifted\" and \"smooth\" "
+             "do not");
       const auto add = [&](const std::vector<int>& a, const std::vector<int>& b) {
-        put(k, {"contact", "", fmt::format("between = [\"{}\", \"{}\"]\n", group_of_types(a), group_of_types(b)) + keys, c.where, c.text, 0, {}});
+        put(k, {"contact",
+                "",
+                fmt::format("between = [\"{}\", \"{}\"]\n", group_of_types(a), group_of_types(b)) + keys,
+                c.where,
+                c.text,
+                0,
+                {}});
       };
       // LAMMPS sets pairs I ≤ J; a table of two groups means both ways.
       bool symmetric = true;
@@ -432,8 +480,10 @@ class Translation {
           m.text = "mixed of types " + std::to_string(types[a]) + " and " + std::to_string(types[b]);
           const auto mean = [&](double x, double y) { return style.mix == PairStyle::Mix::geometric ? std::sqrt(x * y) : (x + y) / 2; };
           if (law == Law::hertz) {
-            if (p->effective_modulus && q->effective_modulus) m.effective_modulus = std::sqrt(*p->effective_modulus * *q->effective_modulus);
-            else if (!p->effective_modulus && !q->effective_modulus && (p->youngs_modulus == 0 || q->youngs_modulus == 0)) m.youngs_modulus = 0;
+            if (p->effective_modulus && q->effective_modulus)
+              m.effective_modulus = std::sqrt(*p->effective_modulus * *q->effective_modulus);
+            else if (!p->effective_modulus && !q->effective_modulus && (p->youngs_modulus == 0 || q->youngs_modulus == 0))
+              m.youngs_modulus = 0;
             else if (!p->effective_modulus && !q->effective_modulus) {
               const auto soft = [](const PairCoefficient& c) { return (1 - c.poissons_ratio * c.poissons_ratio) / c.youngs_modulus; };
               m.effective_modulus = 1 / (soft(*p) + soft(*q));
@@ -444,7 +494,8 @@ class Translation {
               const double s = std::pow(p->sigma, 6) + std::pow(q->sigma, 6);
               m.epsilon = s > 0 ? 2 * std::sqrt(p->epsilon * q->epsilon) * std::pow(p->sigma * q->sigma, 3) / s : 0;
               m.sigma = std::pow(s / 2, 1.0 / 6), m.cutoff = std::pow((std::pow(p->cutoff, 6) + std::pow(q->cutoff, 6)) / 2, 1.0 / 6);
-            } else m.epsilon = std::sqrt(p->epsilon * q->epsilon), m.sigma = mean(p->sigma, q->sigma), m.cutoff = mean(p->cutoff, q->cutoff);
+            } else
+              m.epsilon = std::sqrt(p->epsilon * q->epsilon), m.sigma = mean(p->sigma, q->sigma), m.cutoff = mean(p->cutoff, q->cutoff);
           } else m.k_n = std::sqrt(p->k_n * q->k_n), m.k_na = std::sqrt(p->k_na * q->k_na);
           all.push_back(std::move(m));
         }
@@ -461,16 +512,17 @@ class Translation {
       if (atom(i).gone < runs()) gone[atom(i).gone].push_back(i);
     }
     for (const auto& [k, members] : born) {
-      presence_text_ += fmt::format("\n[[group]]                       # made before the {} run\nname = \"{}\"\n{}from_stage = \"{}\"\n", ordinal(k + 1),
-                                    unique("from_" + stage(k)), selection(members, k), stage(k));
+      presence_text_ += fmt::format("\n[[group]]                       # made before the {} run\nname = \"{}\"\n{}from_stage = \"{}\"\n",
+                                    ordinal(k + 1), unique("from_" + stage(k)), selection(members, k), stage(k));
     }
     for (const auto& [k, members] : gone)
-      presence_text_ += fmt::format("\n[[remove]]                      # deleted before the {} run\ngroup = \"{}\"\nfrom_stage = \"{}\"\n", ordinal(k + 1),
-                                    group_of(members, "gone", k - 1), stage(k));
+      presence_text_ += fmt::format("\n[[remove]]                      # deleted before the {} run\ngroup = \"{}\"\nfrom_stage = \"{}\"\n",
+                                    ordinal(k + 1), group_of(members, "gone", k - 1), stage(k));
     for (const Removal& r : world_.removals)
       if (r.run < runs())
-        presence_text_ += fmt::format("\n[[remove]]                      # {} {}\ngroup = \"{}\"\nfrom_stage = \"{}\"\nwhat = \"{}\"\n", reading_.short_place(r.where), r.text,
-                                      group_of(r.members, r.group, r.run), stage(r.run), r.angles ? "angles" : "bonds");
+        presence_text_ += fmt::format("\n[[remove]]                      # {} {}\ngroup = \"{}\"\nfrom_stage = \"{}\"\nwhat = \"{}\"\n",
+                                      reading_.short_place(r.where), r.text, group_of(r.members, r.group, r.run), stage(r.run),
+                                      r.angles ? "angles" : "bonds");
   }
 
   static std::string ordinal(int k) { return std::to_string(k) + (k == 1 ? "st" : k == 2 ? "nd" : k == 3 ? "rd" : "th"); }
@@ -490,8 +542,13 @@ class Translation {
       if (options_.correct)
         for (const int t : types) stiffer_[t] = factor;
       if (!options_.compat)
-        result_.notes.push_back({{0, 0}, fmt::format("{}: the bending stiffness of such sheets of LAMMPSStructures is 3 sqrt(3) = 5.2 times smaller than its derivation has it; {}", file,
-                                                     options_.correct ? "it is mended here (--correct)" : "it is kept as it is (--compat lwp keeps it without this note, --correct mends it)")});
+        result_.notes.push_back(
+            {{0, 0},
+             fmt::format("{}: the bending stiffness of such sheets of LAMMPSStructures is 3 sqrt(3) = 5.2 times smaller than its "
+                         "derivation has it; {}",
+                         file,
+                         options_.correct ? "it is mended here (--correct)"
+                                          : "it is kept as it is (--compat lwp keeps it without this note, --correct mends it)")});
     }
   }
 
@@ -513,9 +570,11 @@ class Translation {
       const double at = atom(particles_.atoms().front()).start[c];
       const auto keeps = [&](const Fix& f) {
         if (f.kind == Fix::Kind::gravity || f.kind == Fix::Kind::force || f.kind == Fix::Kind::move) return f.vector[c] == 0;
-        return f.kind != Fix::Kind::wall || std::all_of(f.walls.begin(), f.walls.end(), [&](const Fix::Wall& w) { return symmetric(w, c, at); });
+        return f.kind != Fix::Kind::wall ||
+               std::all_of(f.walls.begin(), f.walls.end(), [&](const Fix::Wall& w) { return symmetric(w, c, at); });
       };
-      bool flat = std::all_of(particles_.atoms().begin(), particles_.atoms().end(), [&](int i) { return atom(i).start[c] == at && atom(i).v[c] == 0; });
+      bool flat = std::all_of(particles_.atoms().begin(), particles_.atoms().end(),
+                              [&](int i) { return atom(i).start[c] == at && atom(i).v[c] == 0; });
       for (const Run& run : world_.runs)
         flat = flat && std::all_of(run.fixes.begin(), run.fixes.end(), [&](const Run::Active& a) { return keeps(a.fix); });
       if (flat) return c;
@@ -534,7 +593,8 @@ class Translation {
       case Shape::block: return w.inside && !r.any_open() && faces(r.lo[c], r.hi[c]);
       case Shape::sphere: return r.center[c] == at;
       case Shape::cylinder:
-      case Shape::cone: return r.axis == c ? w.inside && !r.any_open() && r.shape == Shape::cylinder && faces(r.axial_lo, r.axial_hi) : r.center[c] == at;
+      case Shape::cone:
+        return r.axis == c ? w.inside && !r.any_open() && r.shape == Shape::cylinder && faces(r.axial_lo, r.axial_hi) : r.center[c] == at;
     }
     return false;
   }
@@ -549,7 +609,11 @@ class Translation {
     for (const Run& run : world_.runs)
       for (const Run::Active& a : run.fixes)
         if (a.fix.kind == Fix::Kind::plane) plane = 2;
-    if (plane >= 0) t += fmt::format("plane = \"{}\"                       # all of it lies in this plane, and nothing pushes it out\n", plane == 0 ? "yz" : plane == 1 ? "xz" : "xy");
+    if (plane >= 0)
+      t += fmt::format("plane = \"{}\"                       # all of it lies in this plane, and nothing pushes it out\n", plane == 0 ? "yz"
+                                                                                                                           : plane == 1
+                                                                                                                               ? "xz"
+                                                                                                                               : "xy");
     t += "\n[lammps]\n";
     if (particles_.particles() > 0) t += fmt::format("data = \"{}\"\n", data_name_);
     if (!world_.body_file.empty()) t += fmt::format("bodies = \"{}\"\n", escaped(std::filesystem::absolute(world_.body_file).string()));
@@ -596,7 +660,8 @@ class Translation {
     const auto first = static_cast<int>(std::find(t.in_run.begin(), t.in_run.end(), true) - t.in_run.begin());
     if (first > 0) text += fmt::format("from_stage = \"{}\"\n", stage(first));
     for (int k = first + 1; k < runs(); ++k)
-      if (!t.in_run[static_cast<std::size_t>(k)]) off_[k].push_back(quoted(t.name.empty() ? fmt::format("{}.{}", t.kind, number) : fmt::format("{}.{}", t.kind, t.name)));
+      if (!t.in_run[static_cast<std::size_t>(k)])
+        off_[k].push_back(quoted(t.name.empty() ? fmt::format("{}.{}", t.kind, number) : fmt::format("{}.{}", t.kind, t.name)));
     return text;
   }
 
@@ -608,13 +673,18 @@ class Translation {
       if (!start_from.empty()) t += fmt::format("\n[path]\nstart = \"{}\"\n", escaped(start_from));
       t += fmt::format("\n# {} {}\n[study]\ntype = \"dynamics\"\n\n[dynamics]\n", reading_.short_place(run.where), run.text);
       if (run.minimize) return t + "relax = true\nsteps = 1000000\n" + observations();
-      return t + fmt::format("timestep = {}\nsteps = {}\nevery = {}\nallow_unstable = true           # the script's timestep, whatever it is\n", run.timestep,
-                             std::min(run.steps, 2000000000LL), std::max(1LL, run.steps / 100)) + observations();
+      return t +
+             fmt::format("timestep = {}\nsteps = {}\nevery = {}\nallow_unstable = true           # the script's timestep, whatever it is\n",
+                         run.timestep, std::min(run.steps, 2000000000LL), std::max(1LL, run.steps / 100)) +
+             observations();
     }
     if (!staged()) {
       const Run& run = world_.runs.front();
       t += fmt::format("\n# {} {}\n", reading_.short_place(run.where), run.text);
-      if (driven_.front()) t += fmt::format("[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\nwhen_unstable = \"jump\"\n", run.time());
+      if (driven_.front())
+        t += fmt::format(
+            "[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\nwhen_unstable = \"jump\"\n",
+            run.time());
       else t += "[study]\ntype = \"equilibrium\"\n";
       return t + observations();
     }
@@ -679,7 +749,8 @@ std::vector<Translated> in_time(const Reading& reading, const Pass& pass, const 
       for (const Atom& a : pass.world.atoms)
         if (number > 0 && (a.born == number || a.gone == number))
           throw InputError({Mistake{reading.files[static_cast<std::size_t>(runs[k].where.file)], runs[k].where.line, 1, "run",
-                                    "atoms have come or gone since the run before, and a motion goes on with the same; run the one before, then import with --after"}});
+                                    "atoms have come or gone since the run before, and a motion goes on with the same; run the one before, "
+                                    "then import with --after"}});
       one.world.runs = {runs[k]};
     }
     Translation t(reading, one, options, data_names[k]);

@@ -49,7 +49,8 @@ std::string_view without_comment(std::string_view text);
 /// the one it came from.
 std::string substituted(std::string_view text, const Substitution& by, std::vector<std::size_t>* offsets = nullptr);
 
-/// The words of a text: what stands between blanks, or in '', "" or """""". Throws Wrong where quotes are not closed, or where no blank follows.
+/// The words of a text: what stands between blanks, or in '', "" or """""". Throws Wrong where quotes are not closed, or where no blank
+/// follows.
 std::vector<Word> split(std::string_view text);
 
 /// The words of a line of a script: its comment left out, its variables put in, split.

@@ -36,7 +36,8 @@ bool World::matches(const std::string& name, const Vec3& x, std::size_t word, in
   if (found == regions.end()) {
     std::vector<std::string> names;
     for (const auto& [known, region] : regions) names.push_back(known);
-    throw Wrong(word, in_quotes(name) + " is no region; " + (names.empty() ? "there is none" : "there are: " + listed(names)) + did_you_mean(name, names));
+    throw Wrong(word, in_quotes(name) + " is no region; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
+                          did_you_mean(name, names));
   }
   if (depth > 20) throw Wrong(word, in_quotes(name) + " is made of too many regions in each other");
   const ScriptRegion& r = found->second;
@@ -53,7 +54,8 @@ bool World::matches(const std::string& name, const Vec3& x, std::size_t word, in
 }
 
 int World::with_id(long long id, std::size_t word) const {
-  if (id >= 1 && id < static_cast<long long>(of_id.size()) && of_id[static_cast<std::size_t>(id)] >= 0) return of_id[static_cast<std::size_t>(id)];
+  if (id >= 1 && id < static_cast<long long>(of_id.size()) && of_id[static_cast<std::size_t>(id)] >= 0)
+    return of_id[static_cast<std::size_t>(id)];
   throw Wrong(word, fmt::format("there is no atom {}", id));
 }
 
@@ -85,7 +87,8 @@ void World::remove(const std::vector<bool>& gone) {
     if (gone[i] && there(atoms[i])) remove(atoms[i]);
   const auto end = [&](auto& list) {
     for (auto& glue : list)
-      if (glue.gone == always && std::any_of(glue.atoms.begin(), glue.atoms.end(), [&](int i) { return gone[static_cast<std::size_t>(i)]; }))
+      if (glue.gone == always &&
+          std::any_of(glue.atoms.begin(), glue.atoms.end(), [&](int i) { return gone[static_cast<std::size_t>(i)]; }))
         glue.gone = run_number();
   };
   end(bonds), end(angles);
