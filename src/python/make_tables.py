@@ -27,7 +27,12 @@ class Tables:
         raise NotImplementedError
 
 '''
-OWN = {"modes", "particles", "bonds", "angles"}           # of Problem itself: written there
+CONSTANTS = '''
+    def constants(self: _Self, **numbers: Union[float, str]) -> _Self:
+        """[constants] Numbers with names of your own: `p.constants(t=1e-3).beam(thickness="t/2", …)`; each may be an expression of those before it."""
+        return self.table("constants", **numbers)
+'''
+OWN = {"constants", "modes", "particles", "bonds", "angles"}   # of Problem itself, or written here
 
 
 def name_of(key):
@@ -37,8 +42,11 @@ def name_of(key):
 def type_of(key):
     if "enum" in key:
         return "Literal[" + ", ".join(json.dumps(word) for word in key["enum"]) + "]"
-    return {"string": "str", "number": "float", "integer": "int", "boolean": "bool", "array": "Values",
-            "object": "Mapping[str, object]"}.get(key.get("type"), "object")
+    types = {"string": "str", "number": "float", "integer": "int", "boolean": "bool", "array": "Values", "object": "Mapping[str, object]"}
+    given = key.get("type")
+    if isinstance(given, list):                           # a number, or an expression of constants
+        return "Union[" + ", ".join(types[one] for one in given) + "]"
+    return types.get(given, "object")
 
 
 def wrapped(text, indent):
@@ -78,6 +86,7 @@ def main():
     text += "    def _ids(self, particles: ArrayLike) -> List[int]:\n        raise NotImplementedError\n\n"
     text += "    def _path(self, keys: Dict[str, object]) -> Path:\n        raise NotImplementedError\n\n"
     text += "\n".join(method(name, spec) for name, spec in tables.items() if name not in OWN)
+    text += CONSTANTS
     text += "\n\nMANY = " + repr(frozenset(name for name, spec in tables.items() if spec.get("type") == "array")) + "\n"
     with open(out, "w", encoding="utf-8") as file:
         file.write(text)
