@@ -12,7 +12,7 @@ packages() {
 # missing NAME…: those of them that are not installed.
 missing() {
   for name; do
-    case $(dpkg-query -W -f '${db:Status-Status} ' "$name" 2>/dev/null) in *installed\ *) ;; *) echo "$name" ;; esac
+    case $(dpkg-query -W -f '${db:Status-Status} ' "$name" 2>/dev/null) in installed\ *|*\ installed\ *) ;; *) echo "$name" ;; esac
   done
 }
 

@@ -16,7 +16,7 @@ int main() {
     box.name = "box " + std::to_string(i + 1);
     box.core = box_core(Vec3(1 - 0.2 * i, 1 - 0.2 * i, height - 2 * rounding)), box.radius = rounding, box.density = 1;
     box.pose.position.hi = Vec3(0, 0, (i + 0.5) * height);
-    box.pose.rotation = turn(Vec3(0, 0, 0.1 * i));
+    box.pose.rotation = quaternion(Vec3(0, 0, 0.1 * i));
     boxes.push_back(box);
   }
   Model model;

@@ -117,7 +117,7 @@ std::vector<std::pair<std::string, Table>> field_tables(const Model& model, cons
   }
   if (!bonds.rows.empty()) all.emplace_back(".bonds.csv", std::move(bonds));
 
-  Table angles{{"first", "middle", "third", "angle", "curvature", "moment", "mx", "my", "mz"}, {}};
+  Table angles{{"first", "middle", "third", "turn", "curvature", "moment", "mx", "my", "mz"}, {}};
   for (std::size_t a = 0; a < fields.angles.size(); ++a) {
     const auto& p = model.angles[a].particles;
     const AngleField& f = fields.angles[a];

@@ -290,12 +290,12 @@ def test_laws_go_into_processes():
 
 
 def test_small_strains_keep_their_digits():
-    """Of a translation-invariant law x is relative to the first site: far from the origin a stretch is known by the tails."""
+    """Of a translation-invariant law x is relative to the first site: far from the origin a stretch is known by the low words."""
     p = elamin.Problem()
     p.particles([[1e6, 0, 0], [1e6 + 1, 0, 0]], 1.0)
     p.group(name="first", particles=[0]).group(name="last", particles=[1])
     p.support(group="first").support(group="last", directions="yz").load(group="last", force=[2e-11, 0, 0])
     p.law("own", [[0, 1]], formula="(r01 - 1)**2")
     m = elamin.minimise(p, load_factor=1)
-    stretch = (m.x - p.x0)[1, 0] + m.state.tail[1, 0]
+    stretch = (m.x - p.x0)[1, 0] + m.state.low[1, 0]
     assert (m.x - p.x0)[1, 0] != stretch and stretch == pytest.approx(1e-11, rel=1e-4)     # of lengths of order one: ε/1e-11

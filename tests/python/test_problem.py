@@ -32,7 +32,9 @@ def test_tables_as_toml_read_back(root):
     assert len(files) > 50
     for file in files:
         p = elamin.Problem(file)
-        assert tomllib.loads(p.toml()) == p.tables == tomllib.loads(file.read_text(encoding="utf-8")), file
+        written = tomllib.loads(file.read_text(encoding="utf-8"))
+        assert tomllib.loads(p.toml()) == p.tables, file
+        assert p.tables == written or "input" in written.get("lammps", {}), file      # a LAMMPS script is more tables
 
 
 def test_arrays_make_what_a_beam_makes():
