@@ -122,6 +122,21 @@ TEST_CASE("loops, jumps, conditions and included files are followed", "[script]"
   CHECK(r.told.size() > 5);
 }
 
+TEST_CASE("a data file has the columns of the atom style that the script names", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string head = "one\n\n1 atoms\n1 atom types\n\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms";
+  const auto read = [&](const std::string& style, const std::string& row) {
+    scratch.file("one.data", head + "\n\n" + row + "\n");
+    return script::read_script(scratch.file("in.lmp", "atom_style " + style + "\nread_data one.data\n"), {}).passes.at(0).world.atoms.at(0);
+  };
+  for (const auto& [style, row] : {std::pair("hybrid sphere angle", "7 1 0.1 0.2 0.3 0.5 2 4"), std::pair("hybrid angle sphere", "7 1 0.1 0.2 0.3 4 0.5 2"),
+                                   std::pair("sphere", "7 1 0.5 2 0.1 0.2 0.3"), std::pair("hybrid sphere", "7 1 0.1 0.2 0.3 0.5 2")}) {
+    INFO(style);
+    const script::Atom atom = read(style, row);
+    CHECK((atom.id == 7 && atom.x == Vec3(0.1, 0.2, 0.3) && atom.diameter == 0.5 && atom.density == 2));
+  }
+}
+
 TEST_CASE("what lies outside of the script's folder is not read", "[script]") {
   const ScratchDirectory scratch;
   std::filesystem::create_directories(scratch / "inner");

@@ -597,9 +597,7 @@ void read_data(Interpreter& in) {
                   true);
   }
   if (w.has_box && !add) throw Wrong(0, "there is a box already; `add append` adds to it");
-  std::string style = w.atom_style;
-  if (style.find(' ') != std::string::npos) style = "hybrid " + style;
-  const LammpsData data = read_lammps_data(file, style);
+  const LammpsData data = read_lammps_data(file, w.atom_style);
   const Header header = header_of(file);
   in.reading.data_files.push_back(file);
   if (!w.has_box) w.lo = header.lo + shift, w.hi = header.hi + shift, w.has_box = true;
