@@ -158,7 +158,7 @@ std::unique_ptr<ElementGroup> sheet_pressure_group(const Model& model) {
   for (std::size_t k = 0; k < model.pressures.size(); ++k)
     for (const auto& triangle : model.pressures[k].triangles) kind.push_back(static_cast<int>(k)), stencils.push_back(triangle);
   if (kind.empty()) return std::make_unique<LawGroup<TrianglePressure>>(std::vector<TrianglePressure>{}, kind, stencils);
-  const auto course = [&model](const State& state) {
+  const auto schedule = [&model](const State& state) {
     Schedule<TrianglePressure> now;
     for (const Pressure& p : model.pressures) {
       now.laws.push_back({p.scaling.at(state.load_factor) * p.pressure, p.tip});
@@ -166,7 +166,7 @@ std::unique_ptr<ElementGroup> sheet_pressure_group(const Model& model) {
     }
     return now;
   };
-  return std::make_unique<LawGroup<TrianglePressure>>(course, std::move(kind), std::move(stencils));
+  return std::make_unique<LawGroup<TrianglePressure>>(schedule, std::move(kind), std::move(stencils));
 }
 
 HertzContact hertz_contact(const Model& model, int table, int i, int j) {

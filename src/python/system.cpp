@@ -113,13 +113,13 @@ Rows both_triangles(const Energy& energy, bool free) {
   for (int d = 0; d < energy.dofs(); ++d) at[d] = free ? d : 3 * k.site_of(d) + k.coordinate_of(d);
   Rows out{{}, {}, std::vector<int>(static_cast<std::size_t>(rows) + 1), rows};
   auto& [data, indices, indptr, n] = out;
-  std::vector<bool> idle(energy.dofs());
-  for (const int d : energy.null_dofs()) idle[d] = true;    // what stands there keeps grains that fly from flying far; it is no stiffness
+  std::vector<bool> null(energy.dofs());
+  for (const int d : energy.null_dofs()) null[d] = true;    // what stands there keeps grains that fly from flying far; it is no stiffness
   int row = 0;
   for (int d = 0; d < energy.dofs(); ++d) {
     for (; row <= at[d]; ++row) indptr[row] = static_cast<int>(data.size());
     for (SparseMatrix::InnerIterator it(full, d); it; ++it)
-      data.push_back(idle[d] && it.row() == d ? 0.0 : it.value()), indices.push_back(at[it.row()]);
+      data.push_back(null[d] && it.row() == d ? 0.0 : it.value()), indices.push_back(at[it.row()]);
   }
   for (; row <= rows; ++row) indptr[row] = static_cast<int>(data.size());
   return out;

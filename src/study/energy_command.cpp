@@ -31,7 +31,7 @@ Forces forces_of(Energy& energy, const State& state) {
   Forces forces{all.leftCols(model.particles()), Field(3, n), Field(3, n)};
   for (int b = 0; b < n; ++b) {
     forces.bodies.col(b) = all.col(kinematics.place_of(b));
-    forces.torques.col(b) = kinematics.characteristic_length(b) * all.col(kinematics.rotation_of(b));   // of a turn ℓθ the force is the torque over ℓ
+    forces.torques.col(b) = kinematics.characteristic_length(b) * all.col(kinematics.rotation_of(b));   // of a rotation ℓθ the force is the torque over ℓ
   }
   return forces;
 }

@@ -39,7 +39,7 @@ std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics
 
 SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, bool force, Progress::Style style) {
   const Stopwatch total;
-  std::optional<StateSupplement> stored;                             // it may be in the directory that is emptied now
+  std::optional<StateSupplement> stored;                       // it may be in the directory that is emptied now
   if (!problem.path.start.empty()) stored = read_supplement(problem.path.start);
   RunDirectory results(directory, problem, model, resolved_toml(problem), force);
   Teller teller(problem, results, style);
