@@ -1,5 +1,5 @@
 #pragma once
-// What a direct factorisation of sparse symmetric matrices does; CHOLMOD's and MUMPS's are `cholesky` and `pivoted`.
+// What a direct factorisation of sparse symmetric matrices does; CHOLMOD's is `cholesky`, MUMPS's and LAPACK's are `pivoted`.
 #include "core/types.hpp"
 
 namespace elamin {

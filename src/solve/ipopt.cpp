@@ -5,6 +5,7 @@
 #include "energy/step_limits.hpp"
 #include "solve/ipopt_problem.hpp"
 #include "solve/limits.hpp"
+#include "solve/mumps.hpp"
 
 #include <IpIpoptApplication.hpp>
 

@@ -1,125 +1,34 @@
 #include "solve/pivoted.hpp"
 
-#include "core/heartbeat.hpp"
 #include "core/timing.hpp"
+#include "solve/bunch_kaufman.hpp"
+#include "solve/limits.hpp"
+#include "solve/mumps.hpp"
 
-#include <dmumps_c.h>
-
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace elamin {
 
-namespace {
-
-constexpr int fortran_communicator = -987654;              // MPI_COMM_WORLD of the sequential build
-
-}  // namespace
-
-std::recursive_mutex& one_at_a_time() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
-struct PivotedFactor::Mumps {
-  DMUMPS_STRUC_C id{};
-  std::vector<int> rows, columns;
-  std::vector<double> values;
-  bool started = false;
-
-  int& icntl(int i) { return id.icntl[i - 1]; }
-  void call(int job) {
-    id.job = job;
-    dmumps_c(&id);
-  }
-  void stop() {
-    if (started) call(-2);
-    started = false;
-  }
-};
-
-PivotedFactor::PivotedFactor() : mumps_(std::make_unique<Mumps>()) {}
-
-PivotedFactor::~PivotedFactor() {
-  const std::lock_guard lock(one_at_a_time());
-  mumps_->stop();
-}
-
 void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
   const Timed timed(seconds_);
-  const std::lock_guard lock(one_at_a_time());
-  Mumps& m = *mumps_;
-  m.stop();
-  m.rows.clear(), m.columns.clear();
-  for (int j = 0; j < pattern.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(pattern, j); it; ++it)
-      m.rows.push_back(static_cast<int>(it.row()) + 1), m.columns.push_back(j + 1);
-  const int n = static_cast<int>(pattern.rows());
-  for (int b = 0; b < borders; ++b)
-    for (int j = 0; j <= n; ++j) m.rows.push_back(n + b + 1), m.columns.push_back(j < n ? j + 1 : n + b + 1);
-  m.values.assign(m.rows.size(), 0.0);
-  m.id = {};
-  m.id.comm_fortran = fortran_communicator;
-  m.id.par = 1, m.id.sym = 2;
-  m.call(-1);
-  m.started = true;
-  for (int i = 1; i <= 4; ++i) m.icntl(i) = i == 4 ? 0 : -1;   // silent
-  m.icntl(13) = 1;                                         // no parallel root: its pivots would not be counted
-  m.icntl(14) = 50;                                        // % of memory for delayed pivots
-  m.icntl(10) = 0;                                         // Newton on exact residuals refines, not the solver
-  m.id.n = n + borders;
-  m.id.nnz = static_cast<std::int64_t>(m.rows.size());
-  m.id.irn = m.rows.data(), m.id.jcn = m.columns.data(), m.id.a = m.values.data();
-  const Doing doing("ordering the unknowns");
-  m.call(1);
-  if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the analysis failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
+  if (pattern.rows() + borders <= limits::dense) factor_ = std::make_unique<BunchKaufman>();
+  else factor_ = std::make_unique<Mumps>();
+  factor_->analyze(pattern, borders);
 }
 
 bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
+  assert(factor_);
   const Timed timed(seconds_);
-  const std::lock_guard lock(one_at_a_time());
-  Mumps& m = *mumps_;
-  const std::size_t entries = static_cast<std::size_t>(hessian.nonZeros());
-  assert(entries <= m.values.size() && (borders.cols() == 0 || borders.rows() == hessian.rows()));    // analysed with as many borders
-  double largest = std::numeric_limits<double>::min();
-  for (std::size_t k = 0; k < entries; ++k) {
-    m.values[k] = hessian.valuePtr()[k] + (m.rows[k] == m.columns[k] ? shift : 0.0);
-    largest = std::max(largest, std::abs(m.values[k]));
-  }
-  for (std::size_t k = entries; k < m.values.size(); ++k) {
-    const Eigen::Index i = m.columns[k] - 1, b = m.rows[k] - 1 - hessian.rows();
-    m.values[k] = i < hessian.rows() ? largest * borders(i, b) : 0.0;
-  }
-  const Doing doing("factorising");
-  for (int attempt = 0; attempt < 6; ++attempt) {
-    m.call(2);
-    if (m.id.infog[0] != -8 && m.id.infog[0] != -9) break;   // workspace too small for the delayed pivots
-    m.icntl(14) *= 3;
-  }
-  if (m.id.infog[0] == -10) return false;                  // numerically singular
-  if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the factorisation failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
-  return true;
+  return factor_->factorize(hessian, shift, borders);
 }
 
-int PivotedFactor::negative() const { return mumps_->id.infog[11]; }
+int PivotedFactor::negative() const { return factor_->negative(); }
 
 Eigen::MatrixXd PivotedFactor::solve(const Eigen::MatrixXd& b) {
   if (b.size() == 0) return b;
-  assert(b.rows() <= mumps_->id.n);
+  assert(factor_);
   const Timed timed(seconds_);
-  const std::lock_guard lock(one_at_a_time());
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mumps_->id.n, b.cols());
-  x.topRows(b.rows()) = b;
-  mumps_->id.rhs = x.data(), mumps_->id.nrhs = static_cast<int>(x.cols()), mumps_->id.lrhs = static_cast<int>(x.rows());
-  mumps_->call(3);
-  if (mumps_->id.infog[0] < 0) throw std::runtime_error("MUMPS: the solve failed");
-  return x.topRows(b.rows());
+  return factor_->solve(b);
 }
 
 }  // namespace elamin

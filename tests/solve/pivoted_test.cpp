@@ -1,0 +1,79 @@
+#include "catch.hpp"
+#include "solve/bunch_kaufman.hpp"
+#include "solve/mumps.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <memory>
+#include <random>
+#include <vector>
+
+using namespace elamin;
+
+namespace {
+
+// A random symmetric band of n unknowns, indefinite, or with a zero diagonal.
+SparseMatrix random_band(int n, bool hollow, std::mt19937& random) {
+  std::uniform_real_distribution<double> entry(-1, 1);
+  SparseMatrix h(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = j; i < std::min(n, j + 6); ++i) h.insert(i, j) = i == j && hollow ? 0.0 : entry(random);
+  h.makeCompressed();
+  return h;
+}
+
+// What `factor` factorises, as a dense matrix.
+Eigen::MatrixXd bordered(const SparseMatrix& h, double shift, const Eigen::MatrixXd& borders) {
+  const Eigen::Index n = h.rows(), m = borders.cols();
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
+  whole.topLeftCorner(n, n) = Eigen::MatrixXd(h).selfadjointView<Eigen::Lower>();
+  whole.topLeftCorner(n, n).diagonal().array() += shift;
+  const double largest = whole.cwiseAbs().maxCoeff();
+  whole.bottomLeftCorner(m, n) = largest * borders.transpose();
+  whole.topRightCorner(n, m) = largest * borders;
+  return whole;
+}
+
+}  // namespace
+
+TEST_CASE("factors of indefinite matrices have their inertia and solve to rounding", "[solve][pivoted]") {
+  std::mt19937 random(7);
+  for (const int n : {1, 2, 3, 17, 64, 65, 150, 320})
+    for (const int borders : {0, 1, 3})
+      for (const bool hollow : {false, true})
+        for (const bool small : {true, false}) {
+          if (n <= borders || (n == 1 && hollow)) continue;
+          CAPTURE(n, borders, hollow, small);
+          std::unique_ptr<Factorization> factor;
+          if (small) factor = std::make_unique<BunchKaufman>();
+          else factor = std::make_unique<Mumps>();
+          const SparseMatrix h = random_band(n, hollow, random);
+          const Eigen::MatrixXd z = Eigen::MatrixXd::Random(n, borders).householderQr().householderQ() * Eigen::MatrixXd::Identity(n, borders);
+          const double shift = hollow ? 0.0 : 0.1;
+          const Eigen::MatrixXd whole = bordered(h, shift, z);
+          factor->analyze(h, borders);
+          REQUIRE(factor->factorize(h, shift, z));
+          const Vector values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(whole).eigenvalues();
+          CHECK(factor->negative() == (values.array() < 0).count());
+          const Eigen::MatrixXd b = Eigen::MatrixXd::Random(n, 2);
+          Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + borders, 2);
+          right.topRows(n) = b;
+          const Eigen::MatrixXd x = factor->solve(b), exact = whole.fullPivLu().solve(right).topRows(n);
+          // Both are wrong by the condition times what a backward-stable elimination adds to the matrix.
+          const double condition = values.cwiseAbs().maxCoeff() / values.cwiseAbs().minCoeff();
+          CHECK((x - exact).norm() <= 10 * (n + borders) * epsilon * condition * exact.norm());
+        }
+}
+
+TEST_CASE("a singular matrix has no factor", "[solve][pivoted]") {
+  SparseMatrix h(3, 3);
+  h.insert(0, 0) = 1, h.insert(1, 1) = 0, h.insert(2, 2) = -2;
+  h.makeCompressed();
+  BunchKaufman dense;
+  Mumps sparse;
+  dense.analyze(h), sparse.analyze(h);
+  CHECK_FALSE(dense.factorize(h));
+  CHECK_FALSE(sparse.factorize(h));
+  REQUIRE(dense.factorize(h, 0.5));
+  CHECK(dense.negative() == 1);
+}
