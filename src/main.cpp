@@ -12,6 +12,7 @@
 #include "study/energy_command.hpp"
 #include "study/export_command.hpp"
 #include "study/import_command.hpp"
+#include "study/resume.hpp"
 #include "study/run.hpp"
 #include "study/verify_command.hpp"
 
@@ -58,10 +59,11 @@ const char* const description =
     "  elamin import in.lmp           a LAMMPS input script as a problem file; what was taken, ignored, not understood\n"
     "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
     "  elamin plot DIR                a figure of what a run has left in its directory\n"
+    "  elamin resume DIR              a run or sweep that was stopped goes on where it was, with the same bits\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
-    "130 interrupted (Ctrl-C; a second one ends at once).\n"
+    "130 interrupted (Ctrl-C; a second one ends at once; elamin resume DIR goes on).\n"
     "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: docs/keys.md, and problems/.\n";
 
 // What is wrong with words that no option, command or file has taken, of which the problem file may have become the first; "": nothing.
@@ -89,10 +91,11 @@ std::string not_understood(const CLI::App& app, const std::string& file) {
 }
 
 // What to do with results, in words that a shell understands.
-std::string next_steps(const std::string& directory, bool has_report) {
+std::string next_steps(const std::string& directory, bool has_report, bool stopped) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./,+=", c); };
   const std::string name = std::all_of(directory.begin(), directory.end(), plain) ? directory : "'" + directory + "'";
   const std::string report = has_report ? "" : "elamin report " + name + " (a page to look at), ";
+  if (stopped) return "elamin resume " + name + " goes on\n";
   return "next: " + report + "elamin plot " + name + " (a figure)\n";
 }
 
@@ -122,12 +125,17 @@ int main(int argc, char** argv) {
   const auto common = [&](CLI::App* command) {
     command->add_option("--set", set, "KEY=VALUE: change a key of the file, as beam.column.particles=40; may be repeated")->allow_extra_args(false);
   };
+  const auto checkpointed = [&](CLI::App* command) {
+    command->add_option("--checkpoint", options.checkpoint, "seconds between two checkpoints, from which elamin resume goes on (default: 1; 0: one at every row)")
+        ->check(CLI::Range(0.0, 1e9).description(""));
+  };
   const auto running = [&](CLI::App* command) {
     common(command);
     command->add_option("-o,--output", options.directory, "directory of the results (default: the file's name without .toml)");
     command->add_option("--threads", options.threads, "threads to use (default: all cores)")->check(positive("integer"));
     command->add_flag("--force", options.force, "write to a directory that holds something else than results, too");
     command->add_flag("--quiet", options.quiet, "print nothing but errors");
+    checkpointed(command);
   };
   app.add_option("problem", file, "the problem file")->type_name("FILE");
   running(&app);
@@ -166,6 +174,13 @@ int main(int argc, char** argv) {
   report_app->add_option("directories", report.directories, "directories of results")->type_name("DIR")->required();
   report_app->add_option("-o,--output", report.file, "the page (default: report.html in the directory; of several directories, here)")->type_name("FILE");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
+  ResumeOptions stopped;
+  CLI::App* resume_app = app.add_subcommand("resume", "a run or sweep that was stopped goes on where it was");
+  resume_app->add_option("directory", stopped.directory, "the directory of its results")->type_name("DIR")->required();
+  resume_app->add_option("--threads", stopped.threads, "threads to use (default: all cores)")->check(positive("integer"));
+  resume_app->add_flag("--quiet", stopped.quiet, "print nothing but errors");
+  resume_app->add_flag("--report", and_report, "then write report.html into the directory");
+  checkpointed(resume_app);
   FigureOptions figure;
   CLI::App* plot_app = app.add_subcommand("plot", "a figure of a run's results: the diagram, and states below it");
   plot_app->add_option("directory", figure.directory, "the directory of the results")->type_name("DIR")->required();
@@ -207,13 +222,20 @@ int main(int argc, char** argv) {
     if (*import_app) return import_command(import), exit_done;
     if (*report_app) return report_command(report), exit_done;
     if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
+    if (*resume_app) {
+      stopped.checkpoint = options.checkpoint;
+      const RunResult result = resume(stopped);
+      if (and_report) report_command({{result.directory}, "", stopped.quiet});
+      if (!stopped.quiet && result.exit_status == exit_interrupted) fmt::print("{}", next_steps(result.directory, true, true));
+      return result.exit_status;
+    }
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
     options.report = and_report;
     const RunResult result = run(options);
     figure.directory = result.directory;
     if (and_plot) fmt::print("{}", terminal_figure(figure, terminal_width(stdout)));
     if (and_report) report_command({{result.directory}, "", options.quiet});
-    if (!options.quiet) fmt::print("{}", next_steps(result.directory, and_report));
+    if (!options.quiet) fmt::print("{}", next_steps(result.directory, and_report, result.exit_status == exit_interrupted));
     return result.exit_status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_wrong_input;

@@ -1,5 +1,6 @@
 #pragma once
 // Balls that come near each other, whatever their sizes: a grid for every power of two.
+#include "core/archive.hpp"
 #include "core/types.hpp"
 
 #include <functional>
@@ -11,6 +12,7 @@ namespace elamin {
 struct IndexPair {
   int first, second;
   auto operator<=>(const IndexPair&) const = default;
+  void carry(Archive& archive) { archive(first, second); }
 };
 
 /// All pairs with |c_i − c_j| ≤ ρ_i + ρ_j that `wanted` keeps (called from several threads), ascending. Balls of radius 0

@@ -1,5 +1,6 @@
 #include "dynamics/body_forces.hpp"
 
+#include "dynamics/carry.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/body_groups.hpp"
 #include "laws/rounded/closest.hpp"
@@ -103,12 +104,22 @@ void BodyForces::put(int entity, const Wrench& elastic, const Wrench& resistance
   if (rubs_particles_) pushes.torque.add(entity, triple(resistance.torque));
 }
 
+void BodyForces::list_pairs() {
+  const BodyRules& rules = neighbours_.rules();
+  pairs_.clear();
+  for (const auto& [i, j] : neighbours_.pairs()) pairs_.push_back({i, j, rules.table(i, j), rules.cutoff_radius(i) + rules.cutoff_radius(j)});
+}
+
+void BodyForces::carry(Archive& archive) {
+  archive(neighbours_, on_, resistance_);
+  if (archive.reads()) list_pairs();
+}
+
 void BodyForces::meet(Pushes& pushes) {
   const BodyRules& rules = neighbours_.rules();
   if (!neighbours_.covers(state_)) {
     neighbours_.refresh(state_);
-    pairs_.clear();
-    for (const auto& [i, j] : neighbours_.pairs()) pairs_.push_back({i, j, rules.table(i, j), rules.cutoff_radius(i) + rules.cutoff_radius(j)});
+    list_pairs();
   }
   const auto position = [&](int e) -> Vec3 {
     return e < model_.particles() ? Vec3(state_.position.col(e)) : state_.bodies[e - model_.particles()].position.hi;

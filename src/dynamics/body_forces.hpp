@@ -33,8 +33,10 @@ class BodyForces {
   /// Of the last find(): every force on each body, torques about the positions; and of these what resists the motion.
   const std::vector<Wrench>& on() const { return on_; }
   const std::vector<Wrench>& resistance() const { return resistance_; }
+  void carry(Archive& archive);
 
  private:
+  void list_pairs();
   struct Pair { int i, j, table; double cutoff; };   // beyond which they feel nothing
   struct Table { bool lammps, closest, damps; RoundedFriction friction; };
   struct At { int wall; bool damps; RoundedWall law; RoundedFriction friction; std::vector<LammpsWall> lammps; };

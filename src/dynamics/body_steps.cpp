@@ -1,5 +1,7 @@
 #include "dynamics/body_steps.hpp"
 
+#include "dynamics/carry.hpp"
+
 #include <algorithm>
 
 namespace elamin {
@@ -63,6 +65,8 @@ double BodySteps::finish(bool last) {
   else start();
   return taken;
 }
+
+void BodySteps::carry(Archive& archive) { archive(bodies_, wrench_); }
 
 void BodySteps::gather() {
   wrench_ = forces_.bodies()->on();

@@ -34,6 +34,7 @@ class BodySteps {
   double work_rate() const { return bodies_.work_rate(wrench_); }
   double kinetic() const { return bodies_.kinetic(places()); }
   void write(Motion& motion) const;
+  void carry(Archive& archive);
 
  private:
   BodyPlaces& places() const { return forces_.places(); }

@@ -1,5 +1,6 @@
 #pragma once
 // A vector for every particle in the two layouts that moving needs.
+#include "core/archive.hpp"
 #include "core/types.hpp"
 #include "dynamics/lanes.hpp"
 
@@ -39,6 +40,7 @@ struct Columns {
   void store(int i, const Triple<Lanes>& a) { a.x.store(&x[i]), a.y.store(&y[i]), a.z.store(&z[i]); }
   Vec3 at(int i) const { return {x[i], y[i], z[i]}; }
   double& at(int coordinate, int i) { return (coordinate == 0 ? x : coordinate == 1 ? y : z)[i]; }
+  void carry(Archive& archive) { archive(x, y, z); }
   void copy_to(Field& f) const {
     for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) << x[i], y[i], z[i];
   }
@@ -58,6 +60,14 @@ struct Rows {
   }
   Triple<double> at(int i) const { return {row[i][0], row[i][1], row[i][2]}; }
   void add(int i, const Triple<double>& a) { row[i] += Lanes(a.x, a.y, a.z, 0); }
+  void carry(Archive& archive) {
+    for (Lanes& l : row)
+      for (int k = 0; k < Lanes::count; ++k) {
+        double number = l[k];
+        archive(number);
+        l.v[k] = number;
+      }
+  }
   void clear() { std::fill(row.begin(), row.end(), Lanes(0.0)); }
 };
 

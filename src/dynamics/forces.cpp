@@ -1,5 +1,7 @@
 #include "dynamics/forces.hpp"
 
+#include "dynamics/carry.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -74,6 +76,15 @@ void Forces::find_near(const Columns& x) {
   travelled_ = 0;
   if (pairs_) pairs_->find(x);
   if (walls_) walls_->find(x);
+}
+
+void Forces::carry(Archive& archive) {
+  archive(travelled_, listed_, places_.pose, places_.motion);
+  for (Rows* rows : {&movement_.position, &movement_.velocity, &movement_.angular_velocity, &pushes_.force, &pushes_.damping, &pushes_.torque}) archive(*rows);
+  if (bodies_) archive(*bodies_);
+  if (!archive.reads() || !std::isfinite(travelled_)) return;
+  if (pairs_) pairs_->find(listed_);
+  if (walls_) walls_->find(listed_);
 }
 
 void Forces::prepare(const Columns& x) {

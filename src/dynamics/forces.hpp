@@ -42,6 +42,8 @@ class Forces {
   /// Damping and friction on them; only if damped().
   Triple<Lanes> damping_on(int block) const { return pushes_.damping.load(4 * block); }
   Triple<double> damping_at(int particle) const { return pushes_.damping.at(particle); }
+  /// All that goes on from step to step.
+  void carry(Archive& archive);
   /// The torque on a particle; only if rubs().
   Lanes torque_on(int particle) const { return pushes_.torque.row[particle]; }
 

@@ -1,6 +1,7 @@
 #include "dynamics/moving_bodies.hpp"
 
 #include "core/exact.hpp"
+#include "dynamics/carry.hpp"
 #include "model/entities.hpp"
 
 #include <fmt/format.h>
@@ -122,6 +123,10 @@ void MovingBodies::kick(const std::vector<Wrench>& on) {
     }
     elamin::kick(one.state, one.mass, w, dt_);
   }
+}
+
+void MovingBodies::carry(Archive& archive) {
+  for (One& one : bodies_) archive(one.state);
 }
 
 void MovingBodies::drift() {

@@ -35,6 +35,7 @@ class MovingBodies {
   double kinetic(const BodyPlaces& now) const;
   /// State and velocities of the bodies, angular momenta without what they carry.
   void write(const BodyPlaces& now, Motion& motion) const;
+  void carry(Archive& archive);
 
  private:
   struct One {

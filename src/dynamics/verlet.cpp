@@ -3,6 +3,7 @@
 #include "core/exact.hpp"
 #include "core/interrupt.hpp"
 #include "dynamics/body_steps.hpp"
+#include "dynamics/carry.hpp"
 #include "dynamics/forces.hpp"
 #include "energy/kinematics.hpp"
 
@@ -67,6 +68,11 @@ class Verlet::Engine {
     }
     if (done > 0) write_motion();
     return done;
+  }
+
+  void carry(Archive& archive) {
+    archive(motion_, x_, v_, f_, steps_, finite_, fastest_, working_, dissipating_, forces_);
+    if (bodies_) archive(*bodies_);
   }
 
   bool finite() const { return finite_; }
@@ -266,6 +272,7 @@ Verlet::Verlet(const Model& model, Motion start, double timestep)
 Verlet::~Verlet() = default;
 Verlet::Verlet(Verlet&&) noexcept = default;
 std::int64_t Verlet::advance(std::int64_t steps) { return engine_->advance(steps); }
+void Verlet::carry(Archive& archive) { engine_->carry(archive); }
 bool Verlet::finite() const { return engine_->finite(); }
 const Motion& Verlet::motion() const { return engine_->motion(); }
 double Verlet::timestep() const { return engine_->timestep(); }

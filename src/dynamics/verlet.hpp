@@ -1,5 +1,6 @@
 #pragma once
 // Newton's equations of motion, step by step.
+#include "core/archive.hpp"
 #include "dynamics/motion.hpp"
 
 #include <memory>
@@ -42,6 +43,8 @@ class Verlet {
   double timestep() const;
   /// Σ ½ m v² + ½ I ω² (spins: of bodies, and where friction acts) [energy].
   double kinetic() const;
+  /// All that goes on from step to step. One made of the same start that reads it goes on with the same bits.
+  void carry(Archive& archive);
 
  private:
   class Engine;

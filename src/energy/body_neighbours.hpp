@@ -2,6 +2,7 @@
 // The pairs with a rigid body in them that are near enough to feel each other before anything has moved far.
 #include "core/near_pairs.hpp"
 #include "energy/body_rules.hpp"
+#include "core/archive.hpp"
 
 namespace elamin {
 
@@ -19,6 +20,7 @@ class BodyNeighbours {
   bool refresh(const State& state);
   /// The list by entities, ascending.
   const std::vector<IndexPair>& pairs() const { return pairs_; }
+  void carry(Archive& archive) { archive(listed_, pairs_); }
 
  private:
   BodyRules rules_;

@@ -333,6 +333,11 @@ double Energy::gap(int particle, int other, int wall, const State& state) const 
   return wall < 0 ? pair_gap(model_, particle, other, state) : wall_gap(model_, particle, wall, state);
 }
 
+void Energy::carry(Archive& archive) {
+  archive(neighbours_, body_neighbours_);
+  if (archive.reads()) assemble_groups();
+}
+
 Field Energy::forces(const State& state) {
   evaluate(state, false);
   return -site_gradient_;

@@ -113,6 +113,9 @@ class Energy {
   /// body's has it too.
   Field forces(const State& state);
 
+  /// The candidates of contact, whose order sums follow: all that the past leaves behind.
+  void carry(Archive& archive);
+
  private:
   double external(const State& state) const;
   void finish_gradient(const State& state);

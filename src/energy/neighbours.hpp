@@ -1,6 +1,7 @@
 #pragma once
 // The pairs that are near enough to feel each other before anything has moved far.
 #include "core/near_pairs.hpp"
+#include "model/carry.hpp"
 #include "energy/contact_rules.hpp"
 
 #include <array>
@@ -27,6 +28,8 @@ class Neighbours {
   const std::vector<IndexPair>& hard() const { return pairs_[2]; }
   /// How far every particle may move before the list must be looked at anew; infinity without tables. [length]
   double freedom() const { return rules_.any() ? skin_ / 2 : std::numeric_limits<double>::infinity(); }
+  /// The list, whose order sums follow.
+  void carry(Archive& archive) { archive(listed_, pairs_); }
 
  private:
   const Model& model_;

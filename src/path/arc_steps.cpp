@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "path/carry.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 
@@ -70,6 +71,13 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
   least_length_ = std::min(metric_.length, arc_steps::least_length * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
   shortest_ = options_.shortest > 0 ? options_.shortest : arc_steps::least_part * step_;
+}
+
+void ArcSteps::carry(Archive& archive) {
+  Branch::carry(archive);
+  auto& [load_step, rotation, contacts, stops, user_events, patience, step, shortest] = options_;     // the observables of user events come with the problem
+  archive(load_step, rotation, contacts, stops, patience, step, shortest, contacts_);
+  archive(metric_, direction_, just_made_, last_stop_, step_, shortest_, least_length_, taken_, refused_);
 }
 
 // The step that neither the load factor nor the bonds forbid.

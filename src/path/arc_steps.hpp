@@ -35,6 +35,7 @@ class ArcSteps final : public Branch {
   ArcSteps(Newton& newton, Departure from, Direction direction, Metric metric, ArcOptions options);
 
   std::optional<Waypoint> next() override;
+  void carry(Archive& archive) override;
 
   const Direction& direction() const { return direction_; }
   /// As it is now: L falls to the least Λ |dx/dλ| that is met.

@@ -1,5 +1,6 @@
 #include "path/branch.hpp"
 
+#include "path/carry.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 
@@ -16,6 +17,10 @@ Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEv
       at_contact_(from.at_contact), closed_(std::move(from.closed)), contacts_(contacts), user_events_(std::move(user_events)), side_(std::move(from.sides)) {
   for (std::size_t k = side_.size(); k < user_events_.size(); ++k) side_.push_back(user_events_[k].side(current_.point.state));
   newton_.factors().expect(negative_ > 0);
+}
+
+void Branch::carry(Archive& archive) {
+  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, side_, status_, why_);
 }
 
 const Event* Branch::deciding(const Candidate& c) {

@@ -1,5 +1,6 @@
 #pragma once
 // A branch as an iterator over its equilibria, with what happens between them located.
+#include "core/archive.hpp"
 #include "path/event.hpp"
 #include "path/options.hpp"
 
@@ -45,6 +46,9 @@ class Branch {
   const Equilibrium& at() const { return current_; }
   int negative() const { return negative_; }
   const ContactSet& closed() const { return closed_; }
+
+  /// What goes on from step to step, but for what the options tell.
+  virtual void carry(Archive& archive);
 
  protected:
   Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEvent> user_events);

@@ -1,6 +1,7 @@
 #include "path/continuation.hpp"
 
 #include "model/entities.hpp"
+#include "path/carry.hpp"
 #include "path/cause.hpp"
 #include "path/jump.hpp"
 #include "path/limits.hpp"
@@ -37,6 +38,16 @@ Continuation::Continuation(Newton& newton, SideBranch side, std::string parent, 
     : Path(numbering), newton_(newton), options_(std::move(options)), side_(std::move(side)), known_(known), metric_(metric) {
   options_.method = PathMethod::arc_length;
   parent_ = std::move(parent);
+}
+
+void Continuation::carry(Archive& archive) {
+  Path::carry(archive);
+  bool begun = steps_ != nullptr;
+  archive(begun, metric_);
+  if (archive.reads()) steps_.reset();
+  if (archive.reads() && begun) set_out({.closed = {}, .sides = std::vector<double>(options_.user_events.size())}, {}, 1);
+  archive(first_, first_direction_, left_, travelled_, points_, arrived_at_, arrival_);
+  if (begun) archive(*steps_);
 }
 
 void Continuation::advance() {

@@ -25,6 +25,8 @@ class Continuation : public Path {
   /// Of the known branch points the one that this branch ended at, and along what it arrived; else −1.
   int arrived_at() const { return arrived_at_; }
   const Vector& arrival() const { return arrival_; }
+  /// Of a branch that has begun, or of the first one.
+  void carry(Archive& archive) override;
 
  protected:
   void advance() override;

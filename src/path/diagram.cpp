@@ -1,3 +1,4 @@
+#include "path/carry.hpp"
 #include "path/continuation.hpp"
 #include "path/deflation.hpp"
 #include "path/hard_contact_steps.hpp"
@@ -27,6 +28,13 @@ class Diagram final : public Path {
     }
   }
 
+  void carry(Archive& archive) override {
+    Path::carry(archive);
+    archive(metric_, side_, done_, deflated_, known_, switched_, waiting_, arrivals_, points_, worst_, why_);
+    if (archive.reads() && side_) begin_side({}, "");
+    archive(*now_);
+  }
+
  protected:
   void advance() override {
     if (std::optional<PathPoint> point = now_->next()) {
@@ -46,6 +54,7 @@ class Diagram final : public Path {
   struct Waiting {
     std::size_t point;                   // which branch point
     SideBranch side;
+    void carry(Archive& archive) { archive(point, side.at, side.direction, side.leaving, side.step); }
   };
 
   void pass_notes() {
@@ -85,10 +94,14 @@ class Diagram final : public Path {
     for (const auto& [point, along] : arrivals_)
       if (point == next.point && along.size() > 0 && along.dot(next.side.leaving.normalized()) > 0.9)
         return note(fmt::format("{}: one of its side branches has arrived there already", label));
+    begin_side(std::move(next.side), label);
+    side_ = true, done_ = false;
+  }
+
+  void begin_side(SideBranch side, const std::string& label) {
     PathOptions side_options = options_;
     side_options.when_unstable = WhenUnstable::follow;
-    now_ = std::make_unique<Continuation>(newton_, std::move(next.side), label, known_, metric_, side_options, &numbering());
-    done_ = false;
+    now_ = std::make_unique<Continuation>(newton_, std::move(side), label, known_, metric_, side_options, &numbering());
   }
 
   void look_for_others() {
@@ -107,7 +120,7 @@ class Diagram final : public Path {
   PathOptions options_;
   Metric metric_;
   std::unique_ptr<Path> now_;
-  bool done_ = false, deflated_ = false;
+  bool side_ = false, done_ = false, deflated_ = false;       // now_ is a side branch; it has ended; …
   std::vector<Event> known_;             // branch points of all branches so far, in order
   std::size_t switched_ = 0;             // of these have been switched at
   std::deque<Waiting> waiting_;

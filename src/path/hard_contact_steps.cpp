@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "model/entities.hpp"
+#include "path/carry.hpp"
 #include "path/limits.hpp"
 #include "path/load_steps.hpp"
 #include "path/locate.hpp"
@@ -52,6 +53,11 @@ std::string told(const Model& model, const HardForce& h, bool made) {
 HardContactSteps::HardContactSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
     : Path(numbering), newton_(newton), equilibrium_(newton.energy()), options_(std::move(options)), start_(start),
       targets_(load_targets(options_)) {}
+
+void HardContactSteps::carry(Archive& archive) {
+  Path::carry(archive);
+  archive(interval_, halvings_, current_, closed_, slack_, side_, changes_, begun_);
+}
 
 void HardContactSteps::advance() {
   if (!begun_) begin();

@@ -16,6 +16,7 @@ namespace elamin {
 class HardContactSteps final : public Path {
  public:
   HardContactSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering = nullptr);
+  void carry(Archive& archive) override;
 
  protected:
   void advance() override;

@@ -1,4 +1,6 @@
 #pragma once
+#include "core/archive.hpp"
+
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +24,7 @@ class LoadGrid {
   void arrive();
   /// Something happened at a load factor: the way to the next target counts from there.
   void restart(double load_factor, int halvings = 0);
+  void carry(Archive& archive) { archive(next_target_, start_, done_, halvings_); }
 
  private:
   std::vector<double> targets_;

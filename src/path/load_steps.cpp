@@ -1,6 +1,7 @@
 #include "path/load_steps.hpp"
 
 #include "core/interrupt.hpp"
+#include "path/carry.hpp"
 #include "path/limits.hpp"
 
 #include <fmt/format.h>
@@ -33,6 +34,15 @@ LoadSteps::LoadSteps(Newton& newton, Departure from, const PathOptions& options)
   grid_.restart(current_.point.state.load_factor);
   patience_.since = current_.point.state.load_factor, patience_.creep = load_steps::creep * std::abs(options.to - options.from) / options.steps;
   if (options.when_unstable == WhenUnstable::jump && !options.contacts && may_touch(newton.energy().model())) patience_.most = load_steps::patience;
+}
+
+void LoadSteps::carry(Archive& archive) {
+  Branch::carry(archive);
+  bool detour = detour_.has_value();
+  archive(grid_, critical_, goal_, taken_, patience_, detour);
+  if (archive.reads()) detour_.reset();
+  if (archive.reads() && detour) detour_.emplace(newton_, Departure{.closed = {}, .sides = side_}, Direction{}, Metric{}, ArcOptions{.user_events = user_events_, .step = 1});
+  if (detour) archive(*detour_);
 }
 
 std::optional<Waypoint> LoadSteps::next() {

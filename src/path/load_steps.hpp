@@ -16,6 +16,7 @@ class LoadSteps final : public Branch {
   LoadSteps(Newton& newton, Departure from, const PathOptions& options);
 
   std::optional<Waypoint> next() override;
+  void carry(Archive& archive) override;
   /// Where the next step would lead.
   double goal() const { return grid_.done() ? current_.point.state.load_factor : grid_.next(); }
 
@@ -37,6 +38,7 @@ class LoadSteps final : public Branch {
     int most = 0;                        // 0: without end
     double creep = 0, since = 0;
     int refused = 0;
+    void carry(Archive& archive) { archive(most, creep, since, refused); }
   } patience_;
 };
 

@@ -1,5 +1,7 @@
 #include "path/path.hpp"
 
+#include "path/carry.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +14,15 @@ std::optional<PathPoint> Path::next() {
   PathPoint point = std::move(ready_.front());
   ready_.pop_front();
   return point;
+}
+
+void carry(Archive& archive, Numbering& x) {
+  auto& [steps, branches, limits, branch_points, contacts, jumps, user_events] = x;
+  archive(steps, branches, limits, branch_points, contacts, jumps, user_events);
+}
+
+void Path::carry(Archive& archive) {
+  archive(numbering_, branch_, parent_, ended_, ready_, branch_points_, status_, why_, notes_);
 }
 
 void Path::end(Status status, std::string why) { ended_ = true, status_ = status, why_ = std::move(why); }

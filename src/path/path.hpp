@@ -1,5 +1,6 @@
 #pragma once
 // What a path is to those who trace it: an iterator over equilibria and, between them, located events.
+#include "core/archive.hpp"
 #include "path/event.hpp"
 #include "path/options.hpp"
 
@@ -34,6 +35,10 @@ class Path {
   std::vector<std::string> notes() { return std::exchange(notes_, {}); }
   /// Branch points found so far, for who wants to switch at them.
   const std::vector<Event>& branch_points() const { return branch_points_; }
+
+  /// What goes on from point to point. A path made of the same start and options that reads it goes on where the other one stood, with the same bits
+  /// if its energy and factors carry on too.
+  virtual void carry(Archive& archive);
 
  protected:
   /// Goes on: emits any number of points, or ends.

@@ -7,12 +7,35 @@
 
 namespace elamin {
 
+namespace {
+
+const char* header(const std::string& end) {
+  return end == ".pvd" ? "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" : "";
+}
+const char* footer(const std::string& end) { return end == ".pvd" ? "</Collection>\n</VTKFile>\n" : ""; }
+
+}  // namespace
+
 Film::Film(ResultsDirectory& directory, std::string name, const std::vector<std::string>& words, std::string title)
     : directory_(directory), name_(std::move(name)), title_(std::move(title)), words_(words.begin(), words.end()) {}
 
-Reel& Film::reel(const std::string& end, const std::string& header, const std::string& footer) {
+Reel& Film::reel(const std::string& end) {
   const auto found = reels_.find(end);
-  return found != reels_.end() ? found->second : reels_.try_emplace(end, directory_.file(name_ + end), header, footer).first->second;
+  return found != reels_.end() ? found->second : reels_.try_emplace(end, directory_.file(name_ + end), header(end), footer(end)).first->second;
+}
+
+void carry(Archive& archive, Box& x) {
+  auto& [lo, hi] = x;
+  archive(lo, hi);
+}
+
+void Film::carry(Archive& archive, bool dropping) {
+  std::vector<std::string> ends;
+  for (const auto& [end, reel] : reels_) ends.push_back(end);
+  archive(boxes_, ends);
+  for (const std::string& end : ends)
+    if (archive.reads()) reels_.try_emplace(end, directory_.file(name_ + end), header(end), footer(end), archive, dropping);
+    else archive(reels_.at(end));
 }
 
 void Film::add_dump(const std::string& end, const Shot& shot, bool of_bodies) {
@@ -35,8 +58,7 @@ void Film::add(const Shot& shot) {
     const std::string file = fmt::format("frames/{}.vtu", shot.step);
     write_vtu(directory_.file(file), shot);
     const std::string line = shot.motion ? fmt::format("{}", shot.parameter) : fmt::format("{}", shot.step);
-    reel(".pvd", "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n", "</Collection>\n</VTKFile>\n")
-        .add(shot.step, fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", line, file));
+    reel(".pvd").add(shot.step, fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", line, file));
   }
 }
 

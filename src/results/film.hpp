@@ -20,11 +20,13 @@ class Film {
   void drop(const std::set<std::int64_t>& steps);
   /// The same, and no more frames will come: those of the .lammpstrj get one and the same box, around all of them.
   void finish(const std::set<std::int64_t>& dropped);
+  /// Reading, `dropping` as Reel has it.
+  void carry(Archive& archive, bool dropping = false);
   explicit operator bool() const { return !words_.empty(); }
 
  private:
   void add_dump(const std::string& end, const Shot& shot, bool of_bodies);
-  Reel& reel(const std::string& end, const std::string& header = "", const std::string& footer = "");
+  Reel& reel(const std::string& end);
 
   ResultsDirectory& directory_;
   std::string name_, title_;

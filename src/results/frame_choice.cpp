@@ -1,5 +1,7 @@
 #include "results/frame_choice.hpp"
 
+#include "model/carry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -53,6 +55,8 @@ bool FrameChoice::take(const PathPoint& point) {
   }
   return std::erase(dropped_, point.step) == 0;               // it may have gone at once
 }
+
+void FrameChoice::carry(Archive& archive) { archive(piece_, last_, branch_, at_, spares_, candidates_, dropped_); }
 
 std::vector<int> FrameChoice::dropped() { return std::exchange(dropped_, {}); }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Which points of a path keep their shape beside those that have a label: [path] frames and every.
+#include "core/archive.hpp"
 #include "input/path_table.hpp"
 #include "path/point.hpp"
 
@@ -16,8 +17,8 @@ class FrameChoice {
   /// stages: how many the path has.
   FrameChoice(const PathTable& path, double size, int stages);
 
-  /// The points that come belong to this stage.
-  void enter(const PathTable& stage) { stage_ = stage, branch_ = -1; }
+  /// The points that come belong to this stage; goes_on: some before belong to it, too.
+  void enter(const PathTable& stage, bool goes_on = false) { stage_ = stage, branch_ = goes_on ? branch_ : -1; }
 
   /// Whether the shape of the next point is kept, for now.
   bool take(const PathPoint& point);
@@ -27,12 +28,16 @@ class FrameChoice {
   /// The same at the end of the path: what is left are the frames.
   std::vector<int> dropped_at_end();
 
+  /// But for the stage, which is entered again.
+  void carry(Archive& archive);
+
  private:
   static constexpr int spare = 4;
   struct Candidate {
     int step;
     double at;
     bool labelled;
+    void carry(Archive& archive) { archive(step, at, labelled); }
   };
   double way_to(const PathPoint& point) const;
   double piece(double at) const;

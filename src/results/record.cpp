@@ -1,9 +1,12 @@
 #include "results/record.hpp"
 
+#include "core/error.hpp"
 #include "model/entities.hpp"
 #include "results/columns.hpp"
 
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace elamin {
 
@@ -45,6 +48,18 @@ void Record::add(const PathPoint& point, const Field& forces, const std::vector<
   for (std::size_t k = 0; k < model_->own.size(); ++k) values.push_back(point.energy.own[k].second);
   path_.rows.push_back(path_row(point, values, stage_));
   if (is_event(point.label)) events_.rows.push_back(event_row(point, values, stage_));
+}
+
+void Record::take_up(Table path, Table events) {
+  const std::set<std::string> whole{"step", "branch", "multiplicity", "iterations", "negative", "negative_rigid", "negative_before", "negative_after"};
+  for (auto [from, to] : {std::pair(&path, &path_), {&events, &events_}}) {
+    if (from->columns.empty()) continue;
+    if (from->columns != to->columns) throw InputError("its tables have other columns than those that the problem asks for");
+    for (Row& row : from->rows)
+      for (std::size_t c = 0; c < row.size(); ++c)
+        if (const int* number = std::get_if<int>(&row[c]); number && !whole.count(to->columns[c])) row[c] = static_cast<double>(*number);
+    to->rows = std::move(from->rows);
+  }
 }
 
 void Record::add(const Moment& moment, const std::vector<Touch>& touches) {

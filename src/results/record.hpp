@@ -27,6 +27,9 @@ class Record {
   /// A moment of a motion; touches as above.
   void add(const Moment& moment, const std::vector<Touch>& touches);
 
+  /// The rows so far of a run that was stopped, as they were read again.
+  void take_up(Table path, Table events);
+
   const Problem& problem() const { return problem_; }
   const Table& path() const { return path_; }
   const Table& events() const { return events_; }

@@ -1,16 +1,30 @@
 #include "results/reel.hpp"
 
 #include "core/error.hpp"
+#include "results/table.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 namespace elamin {
 
 Reel::Reel(std::string file, const std::string& header, std::string footer)
     : file_(std::move(file)), header_(header), footer_(std::move(footer)), end_(header.size()), out_(file_, std::ios::binary) {
   out_ << header_ << footer_ << std::flush;
+  check();
+}
+
+Reel::Reel(std::string file, const std::string& header, std::string footer, Archive& archive, bool dropping)
+    : file_(std::move(file)), header_(header), footer_(std::move(footer)) {
+  carry(archive);
+  std::error_code error;
+  dropped_ = dropping && std::filesystem::file_size(file_, error) != end_ + footer_.size();
+  if (!dropped_) cut(file_, end_);
+  out_.open(file_, std::ios::binary | std::ios::in | std::ios::out);
+  out_.seekp(0, std::ios::end);
+  if (!dropped_) out_ << footer_ << std::flush;
   check();
 }
 
@@ -30,6 +44,11 @@ void Reel::drop(const std::set<std::int64_t>& steps) {
 }
 
 void Reel::drop(const std::set<std::int64_t>& steps, const std::function<std::string(const std::string&)>& changed) {
+  if (std::exchange(dropped_, false)) {
+    std::erase_if(frames_, [&](const Frame& f) { return steps.count(f.step) > 0; });
+    end_ = std::filesystem::file_size(file_) - footer_.size();
+    return;
+  }
   const std::string file = file_ + ".new";
   std::ifstream in(file_, std::ios::binary);
   out_.close(), out_.open(file, std::ios::binary);

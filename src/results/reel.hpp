@@ -1,5 +1,7 @@
 #pragma once
 // A file of frames, one behind the other, of which some may go again.
+#include "core/archive.hpp"
+
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -14,6 +16,10 @@ class Reel {
  public:
   /// Creates the file. Throws InputError if it cannot be written, as the others do.
   explicit Reel(std::string file, const std::string& header = "", std::string footer = "");
+  /// The same of a file that is there, with the frames that the archive tells of: what came later is cut off. `dropping`: the run was stopped while it
+  /// dropped frames, as its size tells or not; the same call of drop() comes next.
+  Reel(std::string file, const std::string& header, std::string footer, Archive& archive, bool dropping);
+  void carry(Archive& archive) { archive(frames_, end_); }
   void add(std::int64_t step, const std::string& text);
   void drop(const std::set<std::int64_t>& steps);
   /// The same, and what is left is changed.
@@ -23,12 +29,14 @@ class Reel {
   struct Frame {
     std::int64_t step;
     std::size_t bytes;
+    void carry(Archive& archive) { archive(step, bytes); }
   };
   void check() const;
 
   std::string file_, header_, footer_;
   std::vector<Frame> frames_;
-  std::size_t end_;                    // of the frames, from the beginning of the file
+  std::size_t end_ = 0;                    // of the frames, from the beginning of the file
+  bool dropped_ = false;               // the next call of drop() has been carried out already
   std::ofstream out_;
 };
 

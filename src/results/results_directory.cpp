@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* list_name = ".elamin";
+constexpr const char *list_name = ".elamin", *checkpoint_name = ".elamin.checkpoint";
 constexpr const char* first_line = "# elamin has written these files. The next run into this directory removes them, and nothing else.";
 
 std::string place(const std::string& directory, const std::string& name) { return (fs::path(directory) / name).string(); }
@@ -47,6 +48,8 @@ fs::path located(const fs::path& file) {
   return fs::weakly_canonical(file, error);
 }
 
+std::string checkpoint_file(const std::string& directory) { return place(directory, checkpoint_name); }
+
 void require_results(const std::string& directory) {
   constexpr std::ptrdiff_t most_shown = 3;
   std::error_code error;
@@ -70,7 +73,9 @@ void list_also(const std::string& directory, const std::string& name) {
 ResultsDirectory::ResultsDirectory(std::string directory, bool force, const Files& kept) : directory_(std::move(directory)), kept_(kept) {
   if (!force) require_results(directory_);
   create(directory_);
+  lock_.emplace(directory_);
   std::error_code error;
+  fs::remove(checkpoint_file(directory_), error);
   Files folders;
   for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) {
     const fs::path file = place(directory_, name);
@@ -86,6 +91,22 @@ ResultsDirectory::ResultsDirectory(std::string directory, bool force, const File
   if (fs::exists(place(directory_, ".gitignore"), error)) return;
   write_text(file(".gitignore"), "*\n");
 }
+
+ResultsDirectory::ResultsDirectory(std::string directory, const Files& kept, std::optional<std::uintmax_t> bytes) : directory_(std::move(directory)), kept_(kept) {
+  lock_.emplace(directory_);
+  const std::string list = place(directory_, list_name);
+  std::error_code error;
+  const std::uintmax_t listed = bytes.value_or(fs::file_size(list, error));
+  if (listed < std::strlen(first_line) || fs::file_size(list, error) < listed || error) throw InputError(list + ": is not as the run has left it");
+  const std::vector<std::string> all = listed_in(directory_).value_or(std::vector<std::string>{});
+  fs::resize_file(list, listed, error);
+  for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) listed_.insert(name);
+  for (const std::string& name : all)
+    if (const fs::path file = place(directory_, name); !listed_.count(name) && !kept_.count(located(file)) && !fs::is_directory(fs::symlink_status(file, error)))
+      fs::remove(file, error);
+}
+
+std::uintmax_t ResultsDirectory::listed() const { return fs::file_size(place(directory_, list_name)); }
 
 void ResultsDirectory::list(const std::string& name) {
   if (!listed_.insert(name).second) return;

@@ -6,6 +6,7 @@
 #include "path/arc.hpp"
 #include "results/body_picture.hpp"
 #include "results/columns.hpp"
+#include "results/stored_run.hpp"
 #include "lammps/state.hpp"
 #include "core/text_file.hpp"
 
@@ -39,7 +40,7 @@ void append(Row& row, const Eigen::Ref<const Eigen::VectorXd>& numbers) {
 
 }  // namespace
 
-ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& problem) {
+std::vector<std::string> inputs_of(const Problem& problem) {
   std::vector<std::string> all;
   const auto add = [&](const std::string& data) {
     if (data.empty()) return;
@@ -49,10 +50,14 @@ ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& p
   if (problem.lammps) add(problem.lammps->data), add(problem.lammps->bodies);
   for (const GrainsTable& t : problem.grains) all.push_back(t.file);
   for (const BodyTable& t : problem.bodies) all.push_back(t.molecule);
+  std::erase_if(all, [](const std::string& file) { return file.empty() || !fs::exists(file); });
+  return all;
+}
+
+ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& problem) {
   ResultsDirectory::Files inside;
   const fs::path top = located(directory);
-  for (const std::string& file : all) {
-    if (file.empty() || !fs::exists(file)) continue;
+  for (const std::string& file : inputs_of(problem)) {
     const fs::path path = located(file);
     if (std::mismatch(top.begin(), top.end(), path.begin(), path.end()).first == top.end()) inside.insert(path);
   }
@@ -76,11 +81,44 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
   for (const fs::path& file : inputs_) log(file.string() + " is read by this run and stays as it is");
 }
 
+RunDirectory::RunDirectory(std::string directory, const Problem& problem, const Model& model, Archive& stopped, bool dropping)
+    : RunDirectory(std::move(directory), problem, model, stopped, dropping, Sizes(stopped)) {}
+
+RunDirectory::RunDirectory(std::string directory, const Problem& problem, const Model& model, Archive& stopped, bool dropping, const Sizes& sizes)
+    : inputs_(inputs_in(directory, problem)),
+      record_(problem, model),
+      model_(model),
+      results_(std::move(directory), inputs_, sizes.listed),
+      title_(problem.title.empty() ? "elamin" : problem.title),
+      log_(results_.file("log.txt"), std::ios::binary | std::ios::app),
+      path_(results_.file(problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns, sizes.path),
+      contacts_(results_.file("contacts.csv"), contact_columns, sizes.contacts),
+      frames_(problem.path, span(model), std::max(1, static_cast<int>(problem.stages.size()))),
+      film_(results_, problem.in_time() ? "trajectory" : "path", films_of(problem), title_) {
+  if (!problem.in_time()) events_.emplace(results_.file("events.csv"), record_.events().columns, sizes.events);
+  record_.take_up(read_table(results_.file(problem.in_time() ? "trajectory.csv" : "path.csv")), events_ ? read_table(results_.file("events.csv")) : Table{});
+  stopped(frames_, dropped_, keeps_);
+  film_.carry(stopped, dropping);
+  goes_on_ = true;
+}
+
+void RunDirectory::carry(Archive& archive) {
+  Sizes s{results_.listed(), path_.size(), contacts_.size(), events_ ? events_->size() : 0};
+  archive(s.listed, s.path, s.contacts, s.events, frames_, dropped_, keeps_);
+  film_.carry(archive);
+}
+
+void RunDirectory::settle() {
+  drop_files(dropped_);
+  film_.drop(dropped_);
+  dropped_.clear();
+}
+
 void RunDirectory::enter(const Stage& stage, const Model& model) {
   record_.enter(stage, model);
   stage_.reset();
   if (!stage.name.empty()) stage_ = StoredStage{stage.name, stage.path.from, stage.scaling};
-  frames_.enter(stage.path);
+  frames_.enter(stage.path, std::exchange(goes_on_, false));
   varied_ = varied(record_.problem(), stage), rising_ = stage.path.to > stage.path.from;
 }
 
@@ -109,7 +147,8 @@ void RunDirectory::add_point(const std::string& name, const std::string& called,
 bool RunDirectory::is_frame(const PathPoint& point) {
   if (record_.problem().study != StudyType::path) return false;
   const bool is = frames_.take(point);
-  film_.drop(drop_frames(frames_.dropped()));
+  for (const int step : frames_.dropped()) dropped_.insert(step);
+  if (!keeps_) settle();
   return is;
 }
 
@@ -122,9 +161,8 @@ void RunDirectory::add_frame(const PathPoint& point, const Model& model, const F
   add_contacts(contacts, "", point.state, touches);
 }
 
-std::set<std::int64_t> RunDirectory::drop_frames(const std::vector<int>& steps) {
-  for (const int step : steps) results_.remove(fmt::format("frames/{}.", step)), results_.remove(fmt::format("frames/{}-again.", step));
-  return {steps.begin(), steps.end()};
+void RunDirectory::drop_files(const std::set<std::int64_t>& steps) {
+  for (const std::int64_t step : steps) results_.remove(fmt::format("frames/{}.", step)), results_.remove(fmt::format("frames/{}-again.", step));
 }
 
 void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) {
@@ -230,7 +268,11 @@ void RunDirectory::log(const std::string& line) {
 }
 
 void RunDirectory::finish(const Summary& summary) {
-  film_.finish(drop_frames(frames_.dropped_at_end()));
+  if (summary.status != status_name(Status::interrupted)) {
+    for (const int step : frames_.dropped_at_end()) dropped_.insert(step);
+    drop_files(dropped_);
+    film_.finish(dropped_);
+  }
   write_summary(results_.file("summary.json"), summary, record_.path(), record_.events());
 }
 

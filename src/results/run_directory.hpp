@@ -13,7 +13,8 @@
 
 namespace elamin {
 
-/// The files that the problem reads and that lie in the directory.
+/// The files that the problem reads; those of them that lie in the directory.
+std::vector<std::string> inputs_of(const Problem& problem);
 ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& problem);
 
 /// path.csv, events.csv, contacts.csv, states/, log.txt, resolved.toml and summary.json of one run, modes.csv and modes/ of
@@ -26,6 +27,17 @@ class RunDirectory {
   /// problem and model must outlive this. Throws InputError if something cannot be written, or if without `force` the directory has something
   /// in it and is not results of elamin.
   RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml, bool force = false);
+
+  /// The directory of a run that was stopped, as the archive tells of it: rows and files that came later go. `dropping`: it was stopped while frames
+  /// were dropped; settle() comes next.
+  RunDirectory(std::string directory, const Problem& problem, const Model& model, Archive& stopped, bool dropping);
+  void carry(Archive& archive);
+  /// Writes the summary of a run that has not ended.
+  void begin(const std::string& title) { write_running(results_.file("summary.json"), title); }
+  /// From here on frames that are no longer wanted stay until settle(): where a checkpoint knows of them they must not go before it is told.
+  void keep_dropped_frames() { keeps_ = true; }
+  bool settled() const { return dropped_.empty(); }
+  void settle();
 
   /// See Record::enter.
   void enter(const Stage& stage, const Model& model);
@@ -74,7 +86,7 @@ class RunDirectory {
   /// A line of log.txt, with the time.
   void log(const std::string& line);
 
-  /// Writes summary.json; the frames are chosen for good.
+  /// Writes summary.json; the frames are chosen for good, unless the run is one that may go on.
   void finish(const Summary& summary);
 
   const Record& record() const { return record_; }
@@ -84,6 +96,12 @@ class RunDirectory {
   std::string state_file(const std::string& label) const;
 
  private:
+  struct Sizes {                                      // of what grows, in bytes
+    std::uintmax_t listed = 0, path = 0, contacts = 0, events = 0;
+    explicit Sizes(Archive& archive) { archive(listed, path, contacts, events); }
+    Sizes(std::uintmax_t l, std::uintmax_t p, std::uintmax_t c, std::uintmax_t e) : listed(l), path(p), contacts(c), events(e) {}
+  };
+  RunDirectory(std::string directory, const Problem& problem, const Model& model, Archive& stopped, bool dropping, const Sizes& sizes);
   std::string state_name(const std::string& label) const;                                 // "states/branch-1"
   std::string frame_name(int step) const;                                                 // "frames/12"
   void add_state_file(const std::string& name, const Model& model, const State& state, const std::string& called);
@@ -91,7 +109,7 @@ class RunDirectory {
   void add_point(const std::string& name, const std::string& called, const PathPoint& point);
   void add_fields_as(const std::string& name, const Model& model, const State& state, const Fields& fields);
   void add_contacts(CsvFile& file, const std::string& label, const State& state, const std::vector<Touch>& touches);
-  std::set<std::int64_t> drop_frames(const std::vector<int>& steps);
+  void drop_files(const std::set<std::int64_t>& steps);
 
   ResultsDirectory::Files inputs_;                    // that lie in the directory
   Record record_;
@@ -107,6 +125,8 @@ class RunDirectory {
   std::optional<CsvFile> modes_;                      // made with the first mode
   FrameChoice frames_;
   Film film_;
+  std::set<std::int64_t> dropped_;                    // frames that are no longer wanted and still there
+  bool keeps_ = false, goes_on_ = false;              // … until settle(); the stage that is entered next is the one that it was stopped in
   int mode_ = 0;
 };
 

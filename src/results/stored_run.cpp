@@ -176,6 +176,12 @@ StoredRun read_run(const std::string& directory) {
   return run;
 }
 
+bool has_ended(const std::string& directory) {
+  StoredRun run;
+  read_summary(in(directory, "summary.json"), run);
+  return run.summary && run.summary->status != "running" && run.summary->status != status_name(Status::interrupted);
+}
+
 std::vector<std::string> runs_in(const std::string& directory) {
   if (fs::exists(in(directory, "resolved.toml"))) return {directory};
   std::vector<std::string> runs;

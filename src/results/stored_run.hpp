@@ -33,6 +33,9 @@ struct StoredRun {
 /// Reads the directory of one run. Throws InputError if it is none, or if a file in it cannot be understood.
 StoredRun read_run(const std::string& directory);
 
+/// Whether the run in a directory has come to its end, whatever that was: its summary says so.
+bool has_ended(const std::string& directory);
+
 /// The directory itself if it is that of a run (it holds a resolved.toml), of a sweep its runs in their order. Throws InputError if
 /// it is neither.
 std::vector<std::string> runs_in(const std::string& directory);

@@ -3,6 +3,13 @@
 #include "core/text_file.hpp"
 #include "results/json.hpp"
 
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include <unistd.h>
+
 namespace elamin {
 namespace {
 
@@ -31,6 +38,20 @@ std::string status_name(Status status) {
 
 std::string version() { return ELAMIN_VERSION; }
 
+void write_running(const std::string& file, const std::string& title) {
+  std::tm utc{};
+  const std::time_t now = std::time(nullptr);
+  gmtime_r(&now, &utc);
+  Json all;
+  all["title"] = title;
+  all["status"] = "running";
+  all["message"] = "not ended yet, or stopped where it could not say so; then elamin resume goes on";
+  all["process"] = getpid();
+  all["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
+  all["version"] = version();
+  write_text(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events) {
   Json all;
   all["title"] = summary.title;
@@ -47,8 +68,9 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["input"] = summary.input;
   all["input_sha256"] = summary.input_sha256;
   all["tolerances"] = object(summary.tolerances);
+  if (summary.resumed > 0) all["resumed"] = summary.resumed;
   if (summary.imperfection > 0) all["imperfection"] = {{"max_displacement", json_of(summary.imperfection)}};
-  write_text(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");   // replace: text that is not UTF-8
+  write_to_disk(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");   // replace: text that is not UTF-8
 }
 
 }  // namespace elamin

@@ -16,11 +16,15 @@ struct Summary {
   std::vector<std::pair<std::string, double>> tolerances;
   std::vector<std::string> zero_modes;                         // of the last equilibrium, by name: rattlers, rigid motions
   double imperfection = 0;                                     // how far a particle was moved at most before all [length]; 0: none was
+  int resumed = 0;                                             // how often the run was stopped and went on
   std::vector<std::string> warnings = {};                      // what is doubtful about the model or the result, a sentence each
 };
 
 /// "done", "not_converged" or "interrupted".
 std::string status_name(Status status);
+
+/// Writes the summary of a run that has not ended: "status": "running", process, started. Throws InputError as write_summary does.
+void write_running(const std::string& file, const std::string& title);
 
 /// The version of this program.
 std::string version();

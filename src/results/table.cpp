@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 namespace elamin {
 namespace {
@@ -63,11 +64,27 @@ CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, Digi
   add(Row(columns.begin(), columns.end()));
 }
 
+CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, std::uintmax_t bytes)
+    : file_(std::move(file)), columns_(columns.size()), digits_(Digits::shortest), bytes_(bytes) {
+  cut(file_, bytes);
+  out_.open(file_, std::ios::binary | std::ios::app);
+  if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
+}
+
+void cut(const std::string& file, std::uintmax_t bytes) {
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) < bytes || error) throw InputError(file + ": is not as the run has left it");
+  std::filesystem::resize_file(file, bytes, error);
+  if (error) throw InputError(fmt::format("{}: cannot be written: {}", file, error.message()));
+}
+
 void CsvFile::add(const Row& row) {
   if (row.size() != columns_)
     throw std::logic_error(fmt::format("{}: a row of {} entries for {} columns", file_, row.size(), columns_));
-  out_ << csv_line(row, digits_) << std::flush;
+  const std::string line = csv_line(row, digits_);
+  out_ << line << std::flush;
   if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
+  bytes_ += line.size();
 }
 
 }  // namespace elamin

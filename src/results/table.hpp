@@ -1,5 +1,6 @@
 #pragma once
 // Tables of results: kept in memory, and written row by row to a CSV file.
+#include <cstdint>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -32,18 +33,26 @@ std::string csv_text(const Cell& cell, Digits digits = Digits::shortest);
 /// Writes a whole table as a CSV file. Throws InputError if it cannot be written.
 void write_csv(const std::string& file, const Table& table);
 
+/// Cuts a file to its first bytes. Throws InputError if it has fewer.
+void cut(const std::string& file, std::uintmax_t bytes);
+
 /// A CSV file with a header; every row is on the disk before add returns.
 class CsvFile {
  public:
   /// Creates the file and writes the header. Throws InputError if it cannot be written, as add does.
   CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits = Digits::shortest);
+  /// The same of a file that is there, cut to its first bytes: rows come behind them.
+  CsvFile(std::string file, const std::vector<std::string>& columns, std::uintmax_t bytes);
   void add(const Row& row);
+  /// Bytes so far.
+  std::uintmax_t size() const { return bytes_; }
 
  private:
   std::string file_;
   std::size_t columns_;
   Digits digits_;
   std::ofstream out_;
+  std::uintmax_t bytes_ = 0;
 };
 
 }  // namespace elamin

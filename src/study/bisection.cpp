@@ -29,7 +29,7 @@ class Halving {
  public:
   Halving(const PreparedRuns& prepared, const RunOptions& options)
       : prepared_(prepared), b_(*prepared.bisection), first_(prepared.runs.front()), options_(options),
-        directory_(options.directory, options.force, inputs_in(options.directory, first_.problem)) {}
+        directory_(results_of_runs(options, first_.problem)) {}
 
   Side run(const PreparedRun& prepared, double value) {
     const std::string name = run_name(++count_, 10, prepared.swept);
@@ -38,7 +38,7 @@ class Halving {
     std::optional<Heartbeat> at_work(std::in_place, heartbeat, [&](const auto&) {
       progress.wait(fmt::format("run {}: {}: at work for {:.0f} s", count_, name, watch.seconds()));
     });
-    const SingleResult r = run_single(prepared.problem, prepared.model, options_.directory + "/" + name, options_.force, Progress::Style::silent);
+    const SingleResult r = run_part(prepared, options_.directory + "/" + name, options_, RunRecord::not_alone);
     at_work.reset(), progress.finish();
     rows_[value] = sweep_row(swept_values(prepared), status_name(r.status), r.path, r.events, first_.problem);
     status_ = std::max(status_, exit_status(r));
@@ -54,17 +54,21 @@ class Halving {
                  observed ? fmt::format("is {:.10g}, {} {:.10g}", *observed, name_of(outcome), b_.level) : "is missing: " + why);
     return outcome;
   }
-  Side run(double value) { return run(prepare_run(prepared_.document, options_.settings, b_.settings(value), prepared_.own), value); }
+  Side run(double value) {
+    PreparedRun next = prepare_run(prepared_.document, options_.settings, b_.settings(value), prepared_.own);
+    next.problem.file = first_.problem.file;
+    return run(next, value);
+  }
 
   int count() const { return count_; }
   int status() const { return status_; }
   std::vector<Verdict>& verdicts() { return verdicts_; }
-  ResultsDirectory& directory() { return directory_; }
+  ResultsDirectory& directory() { return *directory_; }
 
  private:
   // All rows anew: they stand in the order of the key.
   void write_table() {
-    CsvFile table(directory_.file("sweep.csv"), sweep_columns(swept_keys(first_), first_.problem, prepared_.own));
+    CsvFile table(directory_->file("sweep.csv"), sweep_columns(swept_keys(first_), first_.problem, prepared_.own));
     for (const auto& [value, row] : rows_) table.add(row);
   }
 
@@ -72,7 +76,7 @@ class Halving {
   const Bisection& b_;
   const PreparedRun& first_;
   const RunOptions& options_;
-  ResultsDirectory directory_;
+  std::unique_ptr<ResultsDirectory> directory_;
   int count_ = 0, status_ = exit_done;
   std::map<double, Row> rows_;
   std::vector<Verdict> verdicts_;
@@ -125,6 +129,7 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
   all["version"] = version();
   all["input"] = options.file, all["input_sha256"] = prepared.runs.front().problem.sha256;
   write_text(runs.directory().file("summary.json"), all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (!interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
     fmt::print("{}\n{} runs in {:.2f} s\nwritten: {}/sweep.csv\n", message, runs.count(), watch.seconds(), options.directory);
   else if (!changes) fmt::print(stderr, "{}\n", message);

@@ -2,9 +2,11 @@
 
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
+#include "dynamics/carry.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "dynamics/verlet.hpp"
 #include "input/check.hpp"
+#include "path/carry.hpp"
 
 #include <fmt/format.h>
 
@@ -57,7 +59,7 @@ EnergyTerms terms(Energy& energy, const Motion& m) {
 
 }  // namespace
 
-Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& sink) {
+Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& sink, Archive* stopped) {
   Energy energy(model);
   sink.stage(Stage{}, energy);
   const Marks marks(problem);
@@ -74,7 +76,9 @@ Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& s
   const auto line = [&](const Motion& m) {
     return fmt::format("step {:9}  time {:<12.7g}  kinetic energy {:<12.6g}", m.step, m.time, verlet.kinetic());
   };
-  look();
+  const auto carry = [&](Archive& archive) { archive(energy, verlet, held.label, held.motion, held.energy, held.kinetic); };
+  if (stopped) carry(*stopped);
+  else look();
   if (!finite(held.motion)) return {Status::not_converged, "the forces of the starting state are not finite: particles coincide, or do not fit into a curved wall"};
   std::int64_t stride = 1;                     // steps in one go
   while (held.motion.step < marks.last) {
@@ -89,6 +93,7 @@ Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& s
         tell("final");
         return {Status::not_converged, fmt::format("the motion goes beyond all numbers between steps {} and {}; take a smaller timestep", held.motion.step, step)};
       }
+      if (sink.checkpoint) sink.checkpoint(carry);
       if (interrupted()) {
         if (step > held.motion.step) tell(first ? "initial" : ""), look();
         tell("final");

@@ -1,5 +1,6 @@
 #pragma once
 // The lowest eigenvalues at the points of a path.
+#include "path/carry.hpp"
 #include "solve/factors.hpp"
 
 namespace elamin {
@@ -14,6 +15,7 @@ class LowestEigenvalues {
   /// search begins at the eigenvectors of the state before, with more of them than are asked for: a mode that has become
   /// lower than the others must have been among these.
   std::vector<double> at(const State& state);
+  void carry(Archive& archive) { archive(energy_, factors_, before_); }
 
  private:
   Energy energy_;

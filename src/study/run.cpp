@@ -35,7 +35,8 @@ std::string closing(StudyType study, const SingleResult& result, const Ink& ink)
 }
 
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
-  const SingleResult result = run_single(run.problem, run.model, options.directory, options.force, Progress::style_for(stdout, options.quiet));
+  const SingleResult result = run_single(run.problem, run.model, {options.directory, options.force, Progress::style_for(stdout, options.quiet), options.record,
+                                                                  options.checkpoint, options.resumes});
   if (!options.quiet) fmt::print("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory);
   else if (result.status != Status::converged) fmt::print(stderr, "{}: {}\n", status_name(result.status), result.why);
   return {exit_status(result), options.directory, result.verdicts};
@@ -60,6 +61,7 @@ RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   if (options.directory.empty()) options.directory = default_directory(options.file);
   if (options.report)
     for (PreparedRun& run : prepared.runs) keep_frames(run.problem);
+  if (!options.record) options.record = record_of(prepared.document, options.settings, options.report, input_hashes(prepared));
   if (prepared.bisection) return run_bisection(prepared, options);
   const bool single = prepared.runs.size() == 1 && prepared.runs.front().swept.empty();
   return single ? run_one(prepared.runs.front(), options) : run_sweep(prepared, options);

@@ -3,6 +3,7 @@
 #include "input/problem.hpp"
 #include "input/settings.hpp"
 #include "results/expectations.hpp"
+#include "study/checkpoint.hpp"
 
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct RunOptions {
   bool force = false;                  // write to a directory that is not results of elamin, too
   bool quiet = false;
   bool report = false;                 // a page is made of it: a path that says nothing of frames keeps 50, without films
+  double checkpoint = 1;               // seconds between two checkpoints; 0: one wherever it could go on from
+  bool resumes = false;                // it was stopped and goes on, if there is anything to go on from; else it begins
+  std::optional<RunRecord> record = {};     // of what was asked for then
 };
 
 /// What a run came to.

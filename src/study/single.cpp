@@ -1,8 +1,10 @@
 #include "study/single.hpp"
 
+#include "core/text_file.hpp"
 #include "core/timing.hpp"
 #include "input/resolved.hpp"
 #include "results/run_directory.hpp"
+#include "results/stored_run.hpp"
 #include "study/eigenvalues.hpp"
 #include "study/observed.hpp"
 #include "study/run.hpp"
@@ -37,20 +39,44 @@ std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics
 
 }  // namespace
 
-SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, bool force, Progress::Style style) {
+SingleResult run_single(const Problem& problem, const Model& model, const SingleOptions& options) {
   const Stopwatch total;
   std::optional<StateSupplement> stored;                       // it may be in the directory that is emptied now
   if (!problem.path.start.empty()) stored = read_supplement(problem.path.start);
-  RunDirectory results(directory, problem, model, resolved_toml(problem), force);
-  Teller teller(problem, results, style);
-  teller.log(fmt::format("elamin {}: {}", version(), problem.file));
+  std::optional<Checkpoint> stopped = options.resumes ? read_checkpoint(options.directory) : std::nullopt;
+  if (stopped && stopped->phase == Phase::begun) stopped.reset();
+  Archive archive(stopped ? std::move(stopped->state) : std::string());
+  const auto open = [&]() -> RunDirectory {
+    if (stopped) return {options.directory, problem, model, archive, stopped->phase == Phase::dropping || stopped->phase == Phase::ending};
+    return {options.directory, problem, model, resolved_toml(problem), options.force};
+  };
+  RunDirectory results = open();
+  const int resumed = stopped ? stopped->resumed + 1 : 0;
+  if (options.record && !stopped) write_checkpoint(options.directory, {*options.record});
+  results.begin(problem.title);
+  if (stopped && stopped->phase == Phase::dropping) results.settle();
+  Checkpointing checkpoints(results, options.record, options.checkpoint, resumed);
+  Teller teller(problem, results, options.style);
+  teller.log(fmt::format("elamin {}: {}{}", version(), problem.file, stopped ? ", resumed" : ""));
   Energy* energy = nullptr;                                    // of the stage
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
-  double setup = 0;
+  double setup = 0, before = 0;                                // seconds; of the sessions before this one
 
   Summary summary;
   StrainWatch strains;
   std::vector<Mode> found;
+  std::string of_lowest;                                       // what they carried when the run was stopped
+  Outcome outcome;
+  const auto carry = [&](Archive& a) {
+    double seconds = before + total.seconds();
+    Archive own;
+    if (!a.reads() && lowest) own(*lowest);
+    std::string eigenvalues = own.bytes();
+    if (!a.reads()) a(results);                                // which has been read as it was made
+    a(strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why);
+    if (a.reads()) before = seconds, of_lowest = std::move(eigenvalues);
+  };
+  if (stopped) carry(archive);
   const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
     if (last && point.label.empty()) point.label = "final";
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
@@ -85,6 +111,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         results.enter(stage, energy->model());
         teller.enter(stage);
         if (problem.study == StudyType::path && problem.path.eigenvalues > 0) lowest.emplace(energy->model(), problem.path.eigenvalues);
+        if (Archive own(std::exchange(of_lowest, {})); lowest && !own.bytes().empty()) own(*lowest);
         teller.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
                                stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), energy->model().bonds.size(),
                                energy->model().angles.size(), energy->dofs(), energy->hessian().nonZeros()));
@@ -115,8 +142,11 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
         if (frame) results.add_frame(m);
         if (in_film) results.add_to_film({m.step, moment.label, m.time, energy->model(), m.state, fields, touches, {}, &m});
       },
-      .progress = [&](const std::string& line, double step) { teller.moved(line, step); }};
-  const Outcome outcome = trace(problem, model, stored, sink);
+      .progress = [&](const std::string& line, double step) { teller.moved(line, step); },
+      .checkpoint = [&](const std::function<void(Archive&)>& of_study) { checkpoints.offer([&](Archive& a) { carry(a), of_study(a); }); }};
+  if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
+  if (outcome.status == Status::interrupted) checkpoints.stop();
+  else if (results.has_film()) checkpoints.end(carry);
   teller.finish();
   for (const std::string& warning : strains.warnings()) teller.warn(warning);
   teller.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
@@ -125,13 +155,25 @@ SingleResult run_single(const Problem& problem, const Model& model, const std::s
   summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
   summary.input = problem.file, summary.input_sha256 = problem.sha256;
   summary.imperfection = model.imperfection;
-  summary.times = {{"setup", setup}, {"total", total.seconds()}};
+  summary.times = {{"setup", setup}, {"total", before + total.seconds()}};
+  summary.resumed = resumed;
   summary.tolerances = {{"residual", problem.solver.tolerance}};
+  if (total.seconds() > options.checkpoint) flush_to_disk(options.directory);      // what took less is soon run again
   results.finish(summary);
+  if (outcome.status != Status::interrupted) checkpoints.remove();
 
   const Record& record = results.record();
   SingleResult result{outcome.status, outcome.why, record.path(), record.events(), record.columns(), std::move(found), summary.zero_modes,
                       summary.warnings, {}};
+  result.verdicts = check_expectations(problem, result.path, result.events);
+  return result;
+}
+
+SingleResult stored_result(const Problem& problem, const std::string& directory) {
+  StoredRun run = read_run(directory);
+  const bool done = run.summary->status == status_name(Status::converged);
+  SingleResult result{done ? Status::converged : Status::not_converged, run.summary->message, std::move(run.path), std::move(run.events), {}, {},
+                      run.summary->zero_modes, run.summary->warnings, {}};
   result.verdicts = check_expectations(problem, result.path, result.events);
   return result;
 }

@@ -6,6 +6,7 @@
 #include "results/progress.hpp"
 #include "results/table.hpp"
 #include "solve/report.hpp"
+#include "study/checkpoint.hpp"
 
 namespace elamin {
 
@@ -20,9 +21,21 @@ struct [[nodiscard]] SingleResult {
   std::vector<Verdict> verdicts;
 };
 
-/// Traces the study of a problem and writes everything it leaves to `directory` as it goes. What does not converge is in
+struct SingleOptions {
+  std::string directory;
+  bool force = false;
+  Progress::Style style = Progress::Style::silent;
+  std::optional<RunRecord> record = {};    // none: it cannot be resumed
+  double checkpoint = 1;                   // see RunOptions
+  bool resumes = false;
+};
+
+/// Traces the study of a problem and writes everything it leaves to the directory as it goes, or goes on with that. What does not converge is in
 /// the result, not thrown; InputError if the directory cannot be written, or is not for results unless `force` is given.
-SingleResult run_single(const Problem& problem, const Model& model, const std::string& directory, bool force, Progress::Style style);
+SingleResult run_single(const Problem& problem, const Model& model, const SingleOptions& options);
+
+/// What a run that has ended came to, from its directory; without its modes.
+SingleResult stored_result(const Problem& problem, const std::string& directory);
 
 /// 0, 2 if not converged, 130 if interrupted.
 int exit_status(const SingleResult& result);

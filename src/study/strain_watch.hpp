@@ -1,5 +1,6 @@
 #pragma once
 // Whether bonds and angles stay where the model means something: a beam or a sheet of glued particles is one of small strains.
+#include "core/archive.hpp"
 #include "model/model.hpp"
 
 #include <string>
@@ -16,11 +17,13 @@ class StrainWatch {
 
   /// A sentence each if a strain has been above 0.1, a rotation above 60°: how large, between whom, where, and from where on.
   std::vector<std::string> warnings() const;
+  void carry(Archive& archive) { archive(strain_, bend_); }
 
  private:
   struct Largest {
     double value = 0;
     std::string whose, where, since;            // since: where the limit was passed first; "" it was not
+    void carry(Archive& archive) { archive(value, whose, where, since); }
     bool grows(double v, double limit, const std::string& where);
   };
   Largest strain_, bend_;

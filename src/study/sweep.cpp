@@ -6,6 +6,7 @@
 #include "core/timing.hpp"
 #include "results/columns.hpp"
 #include "results/run_directory.hpp"
+#include "results/stored_run.hpp"
 #include "results/summary.hpp"
 #include "results/sweep_table.hpp"
 #include "study/single.hpp"
@@ -48,6 +49,21 @@ std::vector<Cell> swept_values(const PreparedRun& run) {
   return values;
 }
 
+std::unique_ptr<ResultsDirectory> results_of_runs(const RunOptions& options, const Problem& first) {
+  const ResultsDirectory::Files inputs = inputs_in(options.directory, first);
+  auto directory = options.resumes ? std::make_unique<ResultsDirectory>(options.directory, inputs)
+                                   : std::make_unique<ResultsDirectory>(options.directory, options.force, inputs);
+  if (options.record && !options.resumes) write_checkpoint(options.directory, {*options.record});
+  return directory;
+}
+
+SingleResult run_part(const PreparedRun& run, const std::string& directory, const RunOptions& options, int number) {
+  if (options.resumes && has_ended(directory)) return stored_result(run.problem, directory);
+  SingleOptions single{.directory = directory, .force = options.force, .record = options.record, .checkpoint = options.checkpoint, .resumes = options.resumes};
+  if (single.record) single.record->run = number;
+  return run_single(run.problem, run.model, single);
+}
+
 RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   const Stopwatch watch;
   const std::vector<PreparedRun>& runs = prepared.runs;
@@ -55,8 +71,8 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   const auto name_of = [&](std::size_t k) { return run_name(k + 1, runs.size(), runs[k].swept); };
   if (!options.force)
     for (std::size_t k = 0; k < runs.size(); ++k) require_results(options.directory + "/" + name_of(k));
-  ResultsDirectory directory(options.directory, options.force, inputs_in(options.directory, first));
-  SweepTable table(directory.file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first, prepared.own));
+  const auto directory = results_of_runs(options, first);
+  SweepTable table(directory->file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first, prepared.own));
 
   std::vector<SingleResult> results(runs.size());
   std::vector<std::exception_ptr> failures(runs.size());
@@ -72,7 +88,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
     for (std::size_t k; (k = next++) < runs.size() && !interrupted();) {
       const std::string name = name_of(k);
       try {
-        results[k] = run_single(runs[k].problem, runs[k].model, options.directory + "/" + name, options.force, Progress::Style::silent);
+        results[k] = run_part(runs[k], options.directory + "/" + name, options, static_cast<int>(k));
         table.add(static_cast<int>(k), sweep_row(swept_values(runs[k]), status_name(results[k].status), results[k].path,
                                                  results[k].events, first));
         const std::lock_guard lock(printing);
@@ -98,6 +114,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
 
+  if (finished == runs.size()) remove_checkpoint(options.directory);
   RunResult result{interrupted() ? exit_interrupted : exit_done, options.directory, {}};
   std::vector<RunTables> tables;
   for (const SingleResult& r : results) {

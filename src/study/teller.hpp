@@ -20,6 +20,7 @@ class Teller {
   void log(const std::string& line);
   void warn(const std::string& warning);
   const std::vector<std::string>& warnings() const { return warnings_; }
+  void carry(Archive& archive) { archive(warnings_); }
 
   /// Where the points that come are: in a stage of the path; this one is found; a motion has come to this step.
   void enter(const Stage& stage);

@@ -107,9 +107,9 @@ State starting_state(const Problem& problem, const Energy& energy) {
   return state;
 }
 
-Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink) {
-  if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink);
-  if (problem.in_time()) return trace_dynamics(problem, model, sink);
+Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped) {
+  if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink, stopped);
+  if (problem.in_time()) return trace_dynamics(problem, model, sink, stopped);
   Energy energy(model);
   Stage whole;
   sink.stage(whole, energy);

@@ -1,5 +1,6 @@
 #pragma once
 // From a problem and its model to equilibria: which solver calls a study is made of.
+#include "core/archive.hpp"
 #include "path/point.hpp"
 #include "input/problem.hpp"
 #include "input/stages.hpp"
@@ -27,6 +28,8 @@ struct Sink {
   std::function<void(const std::string& note)> note;
   std::function<void(const Moment& moment, bool frame)> moment = {};
   std::function<void(const std::string& line, double step)> progress = {};
+  /// At every place that the study can go on from, with what it carries there; in time also within a stop.
+  std::function<void(const std::function<void(Archive&)>& carry)> checkpoint = {};
 };
 
 /// The load factor that a problem starts at: path.start_lambda if that is given, else path.from of a path, and 1 (loads
@@ -40,7 +43,8 @@ State starting_state(const Problem& problem, const Energy& energy);
 /// A sentence: the energy is not finite at the state, and why.
 std::string not_finite(const Energy& energy, const State& state);
 
-/// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from.
-Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink);
+/// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from; stopped: where the same study
+/// of this problem was when it was stopped, from which it goes on with the same bits, beginning with the stage that it is in.
+Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped = nullptr);
 
 }  // namespace elamin

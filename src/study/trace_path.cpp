@@ -1,6 +1,8 @@
 #include "study/trace_path.hpp"
 
+#include "core/interrupt.hpp"
 #include "model/entities.hpp"
+#include "path/carry.hpp"
 #include "path/path.hpp"
 #include "input/check.hpp"
 #include "input/staged_structure.hpp"
@@ -88,6 +90,7 @@ class Numbers {
     steps_ = last_.step + 1, branches_ = last_.branch, parent_ = last_.parent;
     before_ = so_far_;
   }
+  void carry(Archive& archive) { archive(steps_, branches_, parent_, before_, so_far_, last_); }
 
  private:
   // "limit:1" of a stage behind one that had two of them is "limit:3".
@@ -115,6 +118,8 @@ class Numbers {
 class Headway {
  public:
   explicit Headway(const PathTable& path) : span_(std::abs(path.to - path.from)) {}
+
+  void carry(Archive& archive) { archive(before_, points_, snaps_); }
 
   /// A sentence once `look_back` points have moved nothing, or as many snaps have hardly changed the load factor; else "".
   std::string lost(const PathPoint& point) {
@@ -156,7 +161,7 @@ class Headway {
 
 }  // namespace
 
-Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink) {
+Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped) {
   Stages stages(problem);
   int k = 0;
   if (stored && stored->stage && stages.resume(*stored->stage)) k = stages.next();
@@ -165,27 +170,38 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
   Model all = model;                                   // with everything in force
   std::unique_ptr<Run> run, before;
   std::optional<PathPoint> held;                       // the last point is known only when there is no next one
+  std::vector<State> starts;                           // of the stages so far
+  if (stopped) (*stopped)(starts);
   Outcome outcome;
   for (; k < stages.count(); ++k) {
-    const State start = held ? held->state : model.restart.value_or(model.start);
+    const std::size_t so_far = static_cast<std::size_t>(k - first);
+    const bool again = stopped && so_far < starts.size(), here = again && so_far + 1 == starts.size();      // it was begun before; it goes on
+    if (!again) starts.push_back(held ? held->state : model.restart.value_or(model.start));
+    const State& start = starts[so_far];
     std::string unclear;
     Stage stage = stages.enter(unclear);
     std::string broken = connect_in(problem, stage.number, all, start);       // why the path is not gone on with
-    if (stored && !held && connects_before(problem, stage.number))
+    if (stored && k == first && connects_before(problem, stage.number))
       broken = "a path is not taken up behind a [[connect]] with from_stage, whose bonds are not those of the file; begin with a stage before it";
     if (!broken.empty()) {
       outcome = {Status::not_converged, stage.name + ": " + broken};
       break;
     }
     Model in_stage = model_in(problem, stage, all, start);
+    if (again && !here) {
+      stages.leave(starts[so_far + 1].load_factor);
+      continue;
+    }
     before = std::move(run);
-    run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, held ? std::nullopt : stored);
+    run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, k == first ? stored : std::nullopt);
     const bool by_newton = problem.solver.by_newton() || any_hard(run->model);
-    if (k == first && !by_newton)
+    if (k == first && !here && !by_newton)
       sink.note(fmt::format("the path's start, its events and the stability of its points are a matter of Newton's method; solver.method = "
                             "\"{}\" finds the equilibria between them", problem.solver.method));
-    bool begun = false;
+    bool begun = here;
     Headway headway(run->stage.path);
+    const auto carry = [&](Archive& archive) { archive(numbers, held, headway, *run->path, run->energy, run->newton.factors()); };
+    if (here) sink.stage(run->stage, run->energy), carry(*stopped);
     while (std::optional<PathPoint> point = broken.empty() ? run->path->next() : std::nullopt) {
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
@@ -201,6 +217,8 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       begun = true;
       held = numbers.among_all(std::move(*point));
       for (const std::string& note : run->path->notes()) sink.note(note);
+      // What is found while it is to stop need not be what would be found otherwise.
+      if (sink.checkpoint && broken.empty() && !interrupted()) sink.checkpoint([&](Archive& archive) { archive(starts), carry(archive); });
     }
     outcome = {run->path->status(), run->path->why()};
     if (!broken.empty()) outcome = {Status::not_converged, broken};

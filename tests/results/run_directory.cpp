@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 using namespace elamin;
 using nlohmann::json;
@@ -105,7 +106,8 @@ TEST_CASE("closed contacts of labelled states stand in contacts.csv", "[run_dire
   m.id = {2, 3, 5, 7, 11};
   const Problem problem = sample_problem();
   const Field forces = Field::Zero(3, 5);
-  RunDirectory run(scratch / "run", problem, m, "");
+  auto first_run = std::make_unique<RunDirectory>(scratch / "run", problem, m, "");
+  RunDirectory& run = *first_run;
   const std::string header = "label,lambda,first,second,gap,force,fx,fy,fz,x,y,z\n";
   CHECK(text_of(scratch / "run/contacts.csv") == header);
   run.add(sample_point(m, 1, 0.5), forces, sample_touches());                       // no label
@@ -120,6 +122,7 @@ TEST_CASE("closed contacts of labelled states stand in contacts.csv", "[run_dire
   run.add_state("final", sample_point(m, 3, 0), {sample_touches()[3]});
   CHECK(text_of(scratch / "run/contacts.csv") == header + rows + "final,0,2,floor,-0.5,16,0,0,16,0,0,0\n");
   CHECK(std::filesystem::exists(run.state_file("final")));
+  first_run.reset();
   RunDirectory again(scratch / "run", problem, m, "");
   CHECK(text_of(scratch / "run/contacts.csv") == header);
 }
@@ -164,7 +167,8 @@ TEST_CASE("a state has its tails beside it, an event its null vectors, and a sta
   m.id = {2, 3, 5, 7, 11};
   Problem problem = sample_problem();
   problem.stages.resize(1);
-  RunDirectory run(scratch / "run", problem, m, "");
+  auto first_run = std::make_unique<RunDirectory>(scratch / "run", problem, m, "");
+  RunDirectory& run = *first_run;
   Stage stage;
   stage.name = "load", stage.path.from = 0.1 + 0.2, stage.scaling = {{1, 0}, {-1.0 / 3, 1}};
   run.enter(stage, m);
@@ -188,6 +192,7 @@ TEST_CASE("a state has its tails beside it, an event its null vectors, and a sta
   run.add_null_vectors("limit:1", {first, second});
   CHECK(text_of(scratch / "run/states/limit-1.modes.csv") == "id,ux1,uy1,uz1,ux2,uy2,uz2\n2,0,0,0,0,0,0\n3,0.5,0,-1,0,0,0\n"
                                                              "5,0,0,0,0,0,0\n7,0,0,0,0,0,0\n11,0,0,0,0,0.3333333333333333,0\n");
+  first_run.reset();
   RunDirectory again(scratch / "run", problem, m, "");
   for (const char* gone : {"limit-1.data", "limit-1.json", "limit-1.modes.csv"})
     CHECK(!std::filesystem::exists(scratch / (std::string("run/states/") + gone)));

@@ -1,0 +1,102 @@
+#pragma once
+// What a run carries from one point to the next, to the bit.
+#include "core/error.hpp"
+#include "core/types.hpp"
+
+#include <array>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace elamin {
+
+/// Bytes of this machine, in the order in which they are called for. One list of parts, `archive(a, b, c)`, both writes them and reads them back:
+/// numbers, texts, containers, Eigen's matrices, and what has a member `carry(Archive&)` or a function `carry(Archive&, T&)`, which for plain structs
+/// names all members by a structured binding, so that a new one is not forgotten. Throws InputError where reading comes to the end of the bytes.
+class Archive {
+ public:
+  Archive() = default;                                                       // writes
+  explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
+
+  bool reads() const { return reads_; }
+  const std::string& bytes() const { return bytes_; }
+
+  template <class... Parts> void operator()(Parts&... parts) { (part(parts), ...); }
+
+ private:
+  void raw(void* data, std::size_t size) {
+    if (!reads_) return void(bytes_.append(static_cast<const char*>(data), size));
+    if (size > bytes_.size() - at_) throw InputError("the checkpoint is not whole");
+    std::memcpy(data, bytes_.data() + at_, size);
+    at_ += size;
+  }
+  std::size_t count(std::size_t now) {
+    std::uint64_t n = now;
+    raw(&n, sizeof n);
+    if (reads_ && n > bytes_.size()) throw InputError("the checkpoint is not whole");
+    return static_cast<std::size_t>(n);
+  }
+
+  template <class T> void part(T& x) {
+    if constexpr (requires { x.carry(*this); }) x.carry(*this);
+    else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) raw(&x, sizeof x);
+    else if constexpr (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>) matrix(x);
+    else if constexpr (std::is_base_of_v<Eigen::QuaternionBase<T>, T>) matrix(x.coeffs());
+    else carry(*this, x);
+  }
+  template <class M> void matrix(M& m) {
+    Eigen::Index rows = m.rows(), columns = m.cols();
+    raw(&rows, sizeof rows), raw(&columns, sizeof columns);
+    if (reads_) {
+      if (rows < 0 || columns < 0 || (rows > 0 && columns > static_cast<Eigen::Index>(bytes_.size()) / rows)) throw InputError("the checkpoint is not whole");
+      m.resize(rows, columns);
+    }
+    raw(m.data(), static_cast<std::size_t>(m.size()) * sizeof(typename M::Scalar));
+  }
+  void part(std::string& text) {
+    text.resize(count(text.size()));
+    raw(text.data(), text.size());
+  }
+  template <class T, class A> void part(std::vector<T, A>& list) {
+    list.resize(count(list.size()));
+    if constexpr (std::is_arithmetic_v<T>) raw(list.data(), list.size() * sizeof(T));
+    else
+      for (T& x : list) part(x);
+  }
+  template <class T> void part(std::deque<T>& list) {
+    list.resize(count(list.size()));
+    for (T& x : list) part(x);
+  }
+  template <class T, std::size_t n> void part(std::array<T, n>& list) {
+    for (T& x : list) part(x);
+  }
+  template <class A, class B> void part(std::pair<A, B>& x) { part(x.first), part(x.second); }
+  template <class T> void part(std::optional<T>& x) {
+    bool there = x.has_value();
+    part(there);
+    if (reads_) there ? void(x.emplace()) : x.reset();
+    if (there) part(*x);
+  }
+  template <class T> void part(std::set<T>& set) {
+    std::vector<T> list(set.begin(), set.end());
+    part(list);
+    if (reads_) set = std::set<T>(list.begin(), list.end());
+  }
+  template <class K, class V> void part(std::map<K, V>& map) {
+    std::vector<std::pair<K, V>> list(map.begin(), map.end());
+    part(list);
+    if (reads_) map = std::map<K, V>(list.begin(), list.end());
+  }
+
+  std::string bytes_;
+  std::size_t at_ = 0;
+  bool reads_ = false;
+};
+
+}  // namespace elamin

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+
+namespace elamin {
+
+/// Keeps other processes, and other locks of this one, from a directory while it lives; nothing is left of it when the process dies, however it does.
+/// Where the file system knows no locks it keeps nobody.
+class DirectoryLock {
+ public:
+  /// Throws InputError where another run is at work in the directory.
+  explicit DirectoryLock(const std::string& directory);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace elamin

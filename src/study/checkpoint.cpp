@@ -1,0 +1,123 @@
+#include "study/checkpoint.hpp"
+
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "core/text_file.hpp"
+#include "results/run_directory.hpp"
+#include "study/prepare.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+
+namespace elamin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double largest_part = 0.01;                           // of the time of a run, that keeping what is carried may take, and writing it
+
+std::string first_line() { return fmt::format("elamin {} checkpoint\n", version()); }
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::optional<RunRecord> record_of(const Document& document, const std::vector<Setting>& settings, bool report,
+                                   const std::vector<std::pair<std::string, std::string>>& inputs) {
+  std::error_code error;
+  if (!fs::is_regular_file(document.file, error)) return {};
+  RunRecord record{document.file, "", bytes_of(document.file), {}, report, RunRecord::all, inputs};
+  if (sha256(record.text) != document.sha256) return {};
+  for (const Setting& s : settings) record.settings.emplace_back(s.key, s.value);
+  return record;
+}
+
+std::vector<std::pair<std::string, std::string>> input_hashes(const PreparedRuns& prepared) {
+  std::map<std::string, std::string> known;
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const PreparedRun& run : prepared.runs)
+    for (const std::string& file : inputs_of(run.problem))
+      if (const auto [hash, is_new] = known.try_emplace(file); is_new) all.emplace_back(file, hash->second = sha256(bytes_of(file)));
+  return all;
+}
+
+std::optional<Checkpoint> read_checkpoint(const std::string& directory) {
+  const std::string file = checkpoint_file(directory);
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  const std::string all = bytes_of(file), first = first_line();
+  if (!all.starts_with(first)) throw InputError(fmt::format("{}: is no checkpoint of elamin {}; a run goes on with the version that began it", file, version()));
+  Checkpoint c;
+  Archive archive(all.substr(first.size()));
+  archive(c.record, c.phase, c.resumed, c.state);
+  return c;
+}
+
+void write_checkpoint(const std::string& directory, Checkpoint c) {
+  const fs::path folder = located(c.record.file).parent_path();
+  c.record.folder = fs::path(folder).lexically_proximate(located(directory)).string();
+  Archive archive;
+  archive(c.record, c.phase, c.resumed, c.state);
+  if (c.phase == Phase::begun) return write_text(checkpoint_file(directory), first_line() + archive.bytes());
+  flush_to_disk(directory);
+  write_to_disk(checkpoint_file(directory), first_line() + archive.bytes());
+}
+
+void remove_checkpoint(const std::string& directory) {
+  std::error_code error;
+  fs::remove(checkpoint_file(directory), error);
+}
+
+Checkpointing::Checkpointing(RunDirectory& results, std::optional<RunRecord> record, double every, int resumed)
+    : results_(results), any_(record.has_value()), every_(every) {
+  if (!any_) return;
+  latest_.record = std::move(*record), latest_.resumed = resumed;
+}
+
+void Checkpointing::offer(const std::function<void(Archive&)>& carry) {
+  const double most = every_ > 0 ? largest_part * elapsed_.seconds() : std::numeric_limits<double>::infinity();
+  if (!any_ || (keeping_ > most && !interrupted())) return;
+  const auto keep = [&] {
+    const Timed timed(keeping_);
+    Archive archive;
+    carry(archive);
+    latest_.state = archive.bytes(), kept_ = true;
+  };
+  keep();
+  if (since_.seconds() < every_ || writing_ > most) return;
+  const Timed timed(writing_);
+  results_.keep_dropped_frames();
+  if (!written_) keep();                                        // from here on they are kept
+  if (!results_.settled()) write(Phase::dropping), results_.settle(), keep();
+  write(Phase::going);
+  since_ = Stopwatch();
+}
+
+void Checkpointing::write(Phase phase) {
+  latest_.phase = phase;
+  write_checkpoint(results_.directory(), latest_);
+  written_ = true;
+}
+
+void Checkpointing::stop() {
+  if (kept_) write(Phase::going);
+}
+
+void Checkpointing::end(const std::function<void(Archive&)>& carry) {
+  if (!written_) return;
+  Archive archive;
+  carry(archive);
+  latest_.state = archive.bytes();
+  write(Phase::ending);
+}
+
+void Checkpointing::remove() { remove_checkpoint(results_.directory()); }
+
+}  // namespace elamin
