@@ -114,7 +114,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
 
-  if (finished == runs.size()) remove_checkpoint(options.directory);
+  if (finished == runs.size() && !interrupted()) remove_checkpoint(options.directory);
   RunResult result{interrupted() ? exit_interrupted : exit_done, options.directory, {}};
   std::vector<RunTables> tables;
   for (const SingleResult& r : results) {
