@@ -63,10 +63,10 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
   for (ViscosityTable& v : problem.viscosity) names.refer(v.place, "group", v.group);
   for (VelocityTable& v : problem.velocities) {
     names.refer(v.place, "group", v.group);
-    if (!v.velocity && !v.spin && !v.place.broken)
-      mistakes.add(v.place, "velocity", "is missing; it must be a list of three numbers [x, y, z], or give spin");
+    if (!v.velocity && !v.angular_velocity && !v.place.broken)
+      mistakes.add(v.place, "velocity", "is missing; it must be a list of three numbers [x, y, z], or give angular_velocity");
     else if (!problem.in_time())
-      mistakes.add(v.place, v.velocity || !v.spin ? "velocity" : "spin", "belongs to dynamics, study.type = \"dynamics\" without relax");
+      mistakes.add(v.place, v.velocity || !v.angular_velocity ? "velocity" : "angular_velocity", "belongs to dynamics, study.type = \"dynamics\" without relax");
   }
   for (RemoveTable& r : problem.removals) names.refer(r.place, "group", r.group);
   check_staged_structure(problem, mistakes);

@@ -215,14 +215,14 @@ void set_velocity(const Problem& problem, const VelocityTable& table, const Memb
     if (model.body_velocity.cols() == 0) model.body_velocity = Field::Zero(3, bodies);
     for (const int b : members.bodies) model.body_velocity.col(b) = *table.velocity;
   }
-  if (!table.spin) return;
+  if (!table.angular_velocity) return;
   if (members.bodies.empty())
-    mistakes.add(table.place, "spin", fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
-  turn_in_plane(problem, model, table.place, "spin", *table.spin, mistakes);
+    mistakes.add(table.place, "angular_velocity", fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
+  turn_in_plane(problem, model, table.place, "angular_velocity", *table.angular_velocity, mistakes);
   if (model.angular_momentum.cols() == 0) model.angular_momentum = Field::Zero(3, bodies);
   for (const int b : members.bodies) {
     const Mat3 R = model.start.bodies[b].rotation.toRotationMatrix();
-    model.angular_momentum.col(b) = R * (model.bodies[b].inertia * (R.transpose() * *table.spin));
+    model.angular_momentum.col(b) = R * (model.bodies[b].inertia * (R.transpose() * *table.angular_velocity));
   }
 }
 

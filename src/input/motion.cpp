@@ -12,7 +12,7 @@ void describe(Keys& keys, VelocityTable& t) {
   keys.about("Velocity at the start of a motion; what is held moves as its support says.");
   keys.may("group", t.group, "what has it");
   keys.may("velocity", t.velocity, "of every particle and body [length/time]");
-  keys.may("spin", t.spin, "angular velocity of bodies [1/time]");
+  keys.may("angular_velocity", t.angular_velocity, "angular velocity of bodies [1/time]");
 }
 
 void describe(Keys& keys, DynamicsTable& t) {

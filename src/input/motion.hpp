@@ -15,7 +15,7 @@ struct ViscosityTable {
 struct VelocityTable {
   TablePlace place;
   std::string group = "all";
-  std::optional<Vec3> velocity, spin;
+  std::optional<Vec3> velocity, angular_velocity;
   bool operator==(const VelocityTable&) const = default;
 };
 

@@ -6,7 +6,7 @@
 namespace elamin {
 
 enum class Quantity {
-  position, displacement, rotation, reaction, torque, velocity, spin, gap, contacts,     // of particles and bodies
+  position, displacement, rotation, reaction, torque, velocity, angular_velocity, gap, contacts,     // of particles and bodies
   contact_force, energy,
   tension, strain,                                                                       // of bonds
   moment, curvature,                                                                     // at angles

@@ -26,6 +26,7 @@ namespace elamin {
 struct Problem {
   std::string file;                             // path of the problem file, as given
   std::string sha256;                           // of its bytes, 64 hexadecimal digits
+  std::vector<std::string> notes;               // on how the file was read
   std::string title;
   std::string plane;                            // "", "xy", "xz", "yz"
   std::optional<ConstantsTable> constants;

@@ -3,6 +3,7 @@
 #include "dynamics/relax.hpp"
 #include "input/build.hpp"
 #include "input/check.hpp"
+#include "input/old_names.hpp"
 #include "input/reader.hpp"
 #include "input/state_supplement.hpp"
 #include "input/tables.hpp"
@@ -38,7 +39,7 @@ void complete(Problem& p) {
     if (!s.diameter) s.diameter = s.spacing;
   }
   for (SupportTable& s : p.supports)
-    if (!s.directions && !s.turns && !s.rotation && p.bodies.empty() && !p.lammps) s.directions = "xyz";
+    if (!s.directions && !s.rotations && !s.rotation && p.bodies.empty() && !p.lammps) s.directions = "xyz";
   for (WallTable& w : p.walls)
     if (w.k_n && !w.c_t) w.c_t = w.c_n / 2;
   if (!p.path.start.empty() && !p.path.start_lambda) {
@@ -114,7 +115,9 @@ Problem read_problem_text(const std::string& text, const std::string& file, cons
 Problem read_problem(Document document, const std::vector<Setting>& settings) {
   Mistakes mistakes(document.file);
   for (const Setting& setting : settings) apply(setting, document, mistakes);
+  std::vector<std::string> notes = take_old_names(document);
   Problem problem = read_tables(document, mistakes).problem;
+  problem.notes = std::move(notes);
   if (mistakes.any()) {
     // What is whole may hold more mistakes, and all are told at once.
     check_model(problem, !structure_refused(document), mistakes);

@@ -16,8 +16,8 @@ void describe(Keys& keys, SupportTable& t) {
   keys.about("What is held, and moved with the load factor or in time.");
   keys.may_name("name", t.name, "for path.parameter, stages and --set");
   keys.must("group", t.group, "what it holds");
-  keys.may("directions", t.directions, "the letters of the coordinates that are held; by default all, where turns does not say otherwise");
-  keys.may("turns", t.turns,
+  keys.may("directions", t.directions, "the letters of the coordinates that are held; by default all, where rotations does not say otherwise");
+  keys.may("rotations", t.rotations,
            "of bodies: the letters of the axes about which they do not rotate; by default all, where directions does not say otherwise");
   keys.may("displacement", t.displacement, "at load factor 1 [length]");
   keys.may("velocity", t.velocity, "in dynamics: x = x(0) + V t");
@@ -27,16 +27,16 @@ void describe(Keys& keys, SupportTable& t) {
 }
 
 void check_support(const Problem& problem, SupportTable& s, Mistakes& mistakes) {
-  for (const auto& [key, words] : {std::pair("directions", &s.directions), {"turns", &s.turns}}) {
+  for (const auto& [key, words] : {std::pair("directions", &s.directions), {"rotations", &s.rotations}}) {
     if (!*words) continue;
     const std::string& d = **words;
     if (d.empty() || std::set<char>(d.begin(), d.end()).size() != d.size() || d.find_first_not_of("xyz") != std::string::npos)
       return mistakes.add(s.place, key, "must be one, two or three of the letters x, y and z, is " + in_quotes(d));
   }
-  const std::string d = s.directions.value_or(s.turns ? "" : "xyz");
+  const std::string d = s.directions.value_or(s.rotations ? "" : "xyz");
   const std::set<char> letters(d.begin(), d.end());
-  if (s.rotation && (s.directions || s.turns) && s.turns.value_or("").size() != 3)
-    mistakes.add(s.place, "rotation", "needs all turns held; write turns = \"xyz\"");
+  if (s.rotation && (s.directions || s.rotations) && s.rotations.value_or("").size() != 3)
+    mistakes.add(s.place, "rotation", "needs all rotations held; write rotations = \"xyz\"");
   for (int c = 0; c < 3; ++c)
     if (s.displacement[c] != 0 && !letters.count("xyz"[c]))
       mistakes.add(s.place, "displacement", fmt::format("moves along {}, which is not among the directions \"{}\"; "
@@ -130,16 +130,16 @@ class Holders {
 /// one alone is no condition on where a body is.
 void hold_bodies(const Problem& problem, const Model& model, const SupportTable& table, Support& s, Mistakes& mistakes) {
   if (s.bodies.empty()) {
-    for (const auto& [key, there] : {std::pair("turns", table.turns.has_value()), {"rotation", table.rotation.has_value()}})
+    for (const auto& [key, there] : {std::pair("rotations", table.rotations.has_value()), {"rotation", table.rotation.has_value()}})
       if (there) mistakes.add(table.place, key, fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
     return;
   }
-  for (const char letter : table.turns.value_or(table.directions ? "" : "xyz")) s.constrained_rotations[letter - 'x'] = true;
+  for (const char letter : table.rotations.value_or(table.directions ? "" : "xyz")) s.constrained_rotations[letter - 'x'] = true;
   std::array<bool, 3> held = s.constrained_rotations;
   if (model.plane_normal)
     for (int c = 0; c < 3; ++c) held[c] = held[c] || c != *model.plane_normal;
   if (std::count(held.begin(), held.end(), true) == 1)
-    mistakes.add(table.place, "turns", "holds one turn alone, which is no condition on where a body is; hold two or all of them");
+    mistakes.add(table.place, "rotations", "holds one turn alone, which is no condition on where a body is; hold two or all of them");
   if (!table.rotation || table.rotation->place.broken) return;
   s.rotation = table.rotation->vector();
   if (!model.plane_normal) return;
@@ -162,7 +162,7 @@ bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes
     }
     Support s{table.group, members->particles, {false, false, false}, table.displacement,
               scaling_of(problem, condition_of("support", problem.supports, t))};
-    for (const char letter : table.directions.value_or(table.turns ? "" : "xyz")) s.held[letter - 'x'] = true;
+    for (const char letter : table.directions.value_or(table.rotations ? "" : "xyz")) s.held[letter - 'x'] = true;
     s.velocity = table.velocity;
     s.bodies = members->bodies;
     hold_bodies(problem, model, table, s, mistakes);

@@ -8,7 +8,7 @@ namespace elamin {
 struct SupportTable {
   TablePlace place;
   std::string name, group;
-  std::optional<std::string> directions, turns;
+  std::optional<std::string> directions, rotations;
   Vec3 displacement = Vec3::Zero(), velocity = Vec3::Zero();
   bool constant = false;
   std::string from_stage;

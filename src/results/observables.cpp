@@ -40,8 +40,8 @@ bool closed(const Model& model, const Touch& t) {
   return t.bears || t.gap < -rounding * size_of(model, t.particle);
 }
 
-bool is_number(Quantity q) { return q > Quantity::spin && q != Quantity::contact_force && !of_sheets(q); }
-bool of_bodies(Quantity q) { return q == Quantity::rotation || q == Quantity::torque || q == Quantity::spin; }
+bool is_number(Quantity q) { return q > Quantity::angular_velocity && q != Quantity::contact_force && !of_sheets(q); }
+bool of_bodies(Quantity q) { return q == Quantity::rotation || q == Quantity::torque || q == Quantity::angular_velocity; }
 Vec3 as_vector(double scalar) { return {scalar, 0, 0}; }
 
 /// One number of many; what is a number stands in x.
@@ -65,7 +65,7 @@ double reduced(const std::vector<Vec3>& values, Component c, Reduce reduce) {
 }
 
 /// ω = R I⁻¹ Rᵀ L.
-Vec3 spin_of(const Body& body, const Pose& pose, const Vec3& momentum) {
+Vec3 angular_velocity_of(const Body& body, const Pose& pose, const Vec3& momentum) {
   return pose.rotation * (RigidMass(body.mass, body.inertia).inverse_inertia * (pose.rotation.conjugate() * momentum));
 }
 
@@ -143,7 +143,7 @@ Observables::Subject Observables::subject_of(const ObserveTable& o, std::vector<
   if (subject.wall >= 0 && o.quantity != Quantity::reaction && o.quantity != Quantity::gap && o.quantity != Quantity::contacts) {
     wrong("observe.quantity", "\"" + o.group + "\" is a wall; it has a reaction, gap and contacts only");
   } else if (subject.entities.empty() && subject.wall < 0) {
-    wrong("observe.group", of_bodies(o.quantity) ? "the group \"" + o.group + "\" has no body; particles have no rotation, torque and spin"
+    wrong("observe.group", of_bodies(o.quantity) ? "the group \"" + o.group + "\" has no body; particles have no rotation, torque and angular velocity"
                                                  : "the group \"" + o.group + "\" has no particle and no body; at least one is needed");
   }
   const auto has = [&](int i) { return std::binary_search(subject.entities.begin(), subject.entities.end(), i); };
@@ -319,7 +319,7 @@ Vec3 Observables::of_body(Quantity q, int b, const Seen& seen) const {
     case Quantity::torque:
       return held_.col(turn).select(-size_of(model_, model_.particles() + b) / 2 * seen.forces.col(turn), Vec3::Zero());
     case Quantity::velocity: return velocity.cols() > 0 ? Vec3(velocity.col(b)) : Vec3(Vec3::Zero());
-    case Quantity::spin: return momentum.cols() > 0 ? spin_of(model_.bodies[b], pose, momentum.col(b)) : Vec3(Vec3::Zero());
+    case Quantity::angular_velocity: return momentum.cols() > 0 ? angular_velocity_of(model_.bodies[b], pose, momentum.col(b)) : Vec3(Vec3::Zero());
     default: return Vec3::Zero();
   }
 }

@@ -24,7 +24,7 @@ struct Mistake;
 ///                 f = −∂U/∂x with all loads; what a plane holds is not counted
 ///   torque        of a body: the same of its turns, the torque of the support about its centre
 ///   velocity      of a motion; where nothing moves, of the model (a state has none)
-///   spin          of a body: its angular velocity, as velocity
+///   angular_velocity   of a body, as velocity
 ///   gap           the smallest distance of its surface from any particle (in the group or not) or wall that it has a
 ///                 contact law with; negative: overlap. Pairs left out as glued, and E_eff = 0, do not count; nothing where
 ///                 there is none

@@ -14,7 +14,7 @@ struct Moment {
   std::string label;
   Motion motion;
   EnergyTerms energy;                  // potential energies
-  double kinetic = 0;                  // of translation and of spin
+  double kinetic = 0;                  // of translation and of rotation
 };
 
 /// step, label, time, energy (potential, all of it), bond, angle, contact, wall, cohesion, body, external, kinetic, work (of driven

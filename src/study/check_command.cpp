@@ -46,6 +46,7 @@ std::string describe(const Problem& problem, const Model& model) {
     text += fmt::format("constants: {}\n", fmt::join(numbers, ", "));
   }
   text += describe_structures(problem, model, energy.kinematics());
+  for (const std::string& note : problem.notes) text += "note: " + note + "\n";
   for (const std::string& note : lammps_remarks(problem).notes) text += "note: " + note + "\n";
   if (problem.imperfection)
     text += fmt::format("imperfection: particles are moved by {:.10g} at most, {}\n", model.imperfection,

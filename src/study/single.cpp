@@ -116,6 +116,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
                                stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), energy->model().bonds.size(),
                                energy->model().angles.size(), energy->dofs(), energy->hessian().nonZeros()));
         if (setup > 0) return;
+        for (const std::string& note : problem.notes) teller.log("note: " + note);
         for (const std::string& warning : doubts(problem, model)) teller.warn(warning);
         for (const std::string& warning : core_overlaps(model, *energy, model.restart.value_or(model.start))) teller.warn(warning);
         setup = total.seconds();

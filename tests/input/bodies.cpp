@@ -120,9 +120,9 @@ TEST_CASE("A support of bodies holds all six coordinates, or what it names", "[p
   CHECK((s.bodies == std::vector{0} && s.held == all && s.constrained_rotations == all));
   CHECK((support("directions = \"xz\"\n").held == Three{true, false, true}));
   CHECK((support("directions = \"xz\"\n").constrained_rotations == none));
-  CHECK((support("turns = \"zy\"\n").held == none));
-  CHECK((support("turns = \"zy\"\n").constrained_rotations == Three{false, true, true}));
-  CHECK((support("turns = \"z\"\n", "plane = \"xy\"\n").constrained_rotations == Three{false, false, true}));
+  CHECK((support("rotations = \"zy\"\n").held == none));
+  CHECK((support("rotations = \"zy\"\n").constrained_rotations == Three{false, true, true}));
+  CHECK((support("rotations = \"z\"\n", "plane = \"xy\"\n").constrained_rotations == Three{false, false, true}));
   const Support turned = support("rotation = {axis = [0, -2, 0], angle = 90}\n");
   CHECK((turned.rotation - Vec3(0, -pi / 2, 0)).norm() <= 1e-15);
   CHECK((turned.held == all && turned.constrained_rotations == all));

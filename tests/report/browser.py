@@ -66,8 +66,9 @@ class Browser:
             self.messages.append(told["entry"]["text"])
         return answer
 
-    def look(self, width, height, dark=False):
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    def look(self, width, height, dark=False, scale=0.25):
+        """The window, in pixels of the page, each of them `scale` pixels wide on the screen: few are drawn soon, and no number depends on them."""
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
     def open(self, file):
@@ -82,7 +83,7 @@ class Browser:
             raise RuntimeError(result["exceptionDetails"].get("exception", {}).get("description", "an exception"))
         return result["result"].get("value")
 
-    def until(self, script, seconds=20):
+    def until(self, script, seconds=120):
         end = time.monotonic() + seconds
         while True:
             try:
