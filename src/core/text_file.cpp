@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& file) { throw InputError(file + ": cannot be written: " + std::strerror(errno)); }
 
+std::string unfinished(const std::string& file) { return file + ".new"; }
+
 void write_in_place(const std::string& file, std::string_view text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);
@@ -31,7 +33,7 @@ void synchronise(const std::string& place, int flags, int (*how)(int)) {
 void write_whole(const std::string& file, std::string_view text, bool to_disk) {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(file, error).type();
-  const std::string beside = file + ".new";
+  const std::string beside = unfinished(file);
   if ((type != fs::file_type::regular && type != fs::file_type::not_found) || !std::ofstream(beside, std::ios::binary)) return write_in_place(file, text);
   try {
     write_in_place(beside, text);
@@ -53,6 +55,11 @@ void write_whole(const std::string& file, std::string_view text, bool to_disk) {
 void write_text(const std::string& file, std::string_view text) { write_whole(file, text, false); }
 
 void write_to_disk(const std::string& file, std::string_view text) { write_whole(file, text, true); }
+
+void remove_unfinished(const std::string& file) {
+  std::error_code error;
+  fs::remove(unfinished(file), error);
+}
 
 void flush_to_disk(const std::string& directory) { synchronise(directory, O_RDONLY | O_DIRECTORY, syncfs); }
 

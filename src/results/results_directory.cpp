@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 namespace elamin {
@@ -22,9 +23,12 @@ constexpr const char* first_line = "# elamin has written these files. The next r
 
 std::string place(const std::string& directory, const std::string& name) { return (fs::path(directory) / name).string(); }
 
-/// What the directory's list has; nothing where there is no list. Names that lead out of the directory count for nothing.
-std::optional<std::vector<std::string>> listed_in(const std::string& directory) {
-  std::ifstream in(place(directory, list_name));
+/// What the directory's list has in its first bytes; nothing where there is no list. Names that lead out of the directory count for nothing.
+std::optional<std::vector<std::string>> listed_in(const std::string& directory, std::size_t bytes = std::string::npos) {
+  std::error_code error;
+  if (!fs::is_regular_file(place(directory, list_name), error)) return std::nullopt;
+  std::ifstream file(place(directory, list_name), std::ios::binary);
+  std::istringstream in(std::string(std::istreambuf_iterator<char>(file), {}).substr(0, bytes));
   std::string line;
   if (!std::getline(in, line) || line != first_line) return std::nullopt;
   std::vector<std::string> names;
@@ -56,6 +60,7 @@ void require_results(const std::string& directory) {
   if (!fs::is_directory(directory, error) || listed_in(directory)) return;
   std::vector<std::string> found;
   for (const auto& entry : fs::directory_iterator(directory, error)) found.push_back(entry.path().filename().string());
+  std::erase(found, list_name + std::string(".new"));                    // of a run that was killed at once
   if (found.empty()) return;
   std::sort(found.begin(), found.end());
   const auto shown = std::min<std::ptrdiff_t>(most_shown, std::ssize(found));
@@ -76,10 +81,12 @@ ResultsDirectory::ResultsDirectory(std::string directory, bool force, const File
   lock_.emplace(directory_);
   std::error_code error;
   fs::remove(checkpoint_file(directory_), error);
+  remove_unfinished(checkpoint_file(directory_));
   Files folders;
   for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) {
     const fs::path file = place(directory_, name);
     if (fs::is_directory(fs::symlink_status(file, error))) continue;
+    remove_unfinished(file);
     if (kept.count(located(file)) && fs::exists(file, error)) listed_.insert(name);
     else fs::remove(file, error), folders.insert(file.parent_path());
   }
@@ -98,12 +105,14 @@ ResultsDirectory::ResultsDirectory(std::string directory, const Files& kept, std
   std::error_code error;
   const std::uintmax_t listed = bytes.value_or(fs::file_size(list, error));
   if (listed < std::strlen(first_line) || fs::file_size(list, error) < listed || error) throw InputError(list + ": is not as the run has left it");
-  const std::vector<std::string> all = listed_in(directory_).value_or(std::vector<std::string>{});
-  fs::resize_file(list, listed, error);
-  for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) listed_.insert(name);
-  for (const std::string& name : all)
-    if (const fs::path file = place(directory_, name); !listed_.count(name) && !kept_.count(located(file)) && !fs::is_directory(fs::symlink_status(file, error)))
-      fs::remove(file, error);
+  for (const std::string& name : listed_in(directory_, listed).value_or(std::vector<std::string>{})) listed_.insert(name);
+  for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) {
+    const fs::path file = place(directory_, name);
+    remove_unfinished(file);
+    if (!listed_.count(name) && !kept_.count(located(file)) && !fs::is_directory(fs::symlink_status(file, error))) fs::remove(file, error);
+  }
+  remove_unfinished(list), remove_unfinished(checkpoint_file(directory_));
+  fs::resize_file(list, listed, error);                         // last: what is not on it any more is no longer there
 }
 
 std::uintmax_t ResultsDirectory::listed() const { return fs::file_size(place(directory_, list_name)); }

@@ -26,7 +26,7 @@ struct RunRecord {
   void carry(Archive& archive) { archive(file, folder, text, settings, report, run, inputs); }
 };
 
-/// Of a problem that a program has put together nothing: then there are no checkpoints. `inputs` as input_hashes has them.
+/// Nothing where the document is not what its file holds. `inputs` as input_hashes has them.
 std::optional<RunRecord> record_of(const Document& document, const std::vector<Setting>& settings, bool report,
                                    const std::vector<std::pair<std::string, std::string>>& inputs);
 std::vector<std::pair<std::string, std::string>> input_hashes(const PreparedRuns& prepared);

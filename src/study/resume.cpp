@@ -34,6 +34,7 @@ RunResult resume(const ResumeOptions& options) {
   { const DirectoryLock probe(options.directory); }
   const bool ended = has_ended(options.directory);
   const std::optional<Checkpoint> stopped = read_checkpoint(options.directory);
+  if (ended) remove_checkpoint(options.directory);              // it may have been killed before it could
   if (ended || (!stopped && fs::exists(fs::path(options.directory) / "sweep.csv", error))) {
     if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
     return {exit_done, options.directory, {}};

@@ -51,7 +51,9 @@ void keep_frames(Problem& problem) {
 
 RunResult run(const RunOptions& options) {
   PreparedRuns prepared = prepare_runs(options.file, options.settings);
-  return run(prepared, options);
+  RunOptions recorded = options;
+  recorded.record = record_of(prepared.document, options.settings, options.report, input_hashes(prepared));
+  return run(prepared, recorded);
 }
 
 RunResult run(PreparedRuns& prepared, const RunOptions& given) {
@@ -61,7 +63,6 @@ RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   if (options.directory.empty()) options.directory = default_directory(options.file);
   if (options.report)
     for (PreparedRun& run : prepared.runs) keep_frames(run.problem);
-  if (!options.record) options.record = record_of(prepared.document, options.settings, options.report, input_hashes(prepared));
   if (prepared.bisection) return run_bisection(prepared, options);
   const bool single = prepared.runs.size() == 1 && prepared.runs.front().swept.empty();
   return single ? run_one(prepared.runs.front(), options) : run_sweep(prepared, options);

@@ -58,7 +58,10 @@ std::unique_ptr<ResultsDirectory> results_of_runs(const RunOptions& options, con
 }
 
 SingleResult run_part(const PreparedRun& run, const std::string& directory, const RunOptions& options, int number) {
-  if (options.resumes && has_ended(directory)) return stored_result(run.problem, directory);
+  if (options.resumes && has_ended(directory)) {
+    remove_checkpoint(directory);                               // it may have been killed before it could
+    return stored_result(run.problem, directory);
+  }
   SingleOptions single{.directory = directory, .force = options.force, .record = options.record, .checkpoint = options.checkpoint, .resumes = options.resumes};
   if (single.record) single.record->run = number;
   return run_single(run.problem, run.model, single);
