@@ -312,7 +312,8 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       if (!report.converged()) return false;
       t = segment.parameter(state);
       const double part = (t - segment.a) / (change.at_parameter - segment.a);
-      if (!(part > -contact_event::along_chord && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
+      // From `a` the branch goes where its tangent points: what lies behind is where a stiff contact was made, not where it is lost.
+      if (!(part > -contact_event::together_in_step && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
             energy.collision_free_step(a.point.state, state) == 1)) return false;
       found = std::move(state);
       return true;

@@ -562,3 +562,16 @@ TEST_CASE("the load turns at a stiff contact on the way back, whatever the steps
     CHECK(other.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-12));
   }
 }
+
+TEST_CASE("a stiff contact is made once and lost once, whatever the steps", "[paths][stiff_contact_lost]") {
+  const Run first("stiff_contact_lost", {in_steps(30)});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 2);
+  contacts_are_told(first, 0.578);
+  for (const int n : {5, 9, 17}) {
+    const Run other("stiff_contact_lost", {in_steps(n)});
+    CHECK_ENDS_AT(other, 1);
+    same_events(first, other);
+    CHECK(other.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-12));
+  }
+}
