@@ -84,7 +84,8 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
     const double r = rate(key, tangent, 1, small) * (change.after.count(key) ? -1 : 1);       // > 0: to the side beyond
     ++(r > 0 ? ahead : back);
   }
-  const bool free = change.beyond->point.stability.zero != change.at.point.stability.zero;      // on one side: no load factor tells where it goes
+  // What floats only beyond has no tangent there to tell.
+  const bool free = change.beyond->point.stability.zero > change.at.point.stability.zero;
   if (ahead == 0 || back == 0) change.onward = free ? (load_change < 0 ? -1 : 1) : back == 0 ? 1 : -1;
 }
 
