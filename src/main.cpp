@@ -14,6 +14,7 @@
 #include "study/import_command.hpp"
 #include "study/resume.hpp"
 #include "study/run.hpp"
+#include "study/sweep_parts.hpp"
 #include "study/verify_command.hpp"
 
 #include <CLI/CLI.hpp>
@@ -60,6 +61,7 @@ const char* const description =
     "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
     "  elamin plot DIR                a figure of what a run has left in its directory\n"
     "  elamin resume DIR              a run or sweep that was stopped goes on where it was, with the same bits\n"
+    "  elamin collect DIR             sweep.csv of a sweep that was run in parts (--part K/N), each on a machine of its own\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
@@ -139,6 +141,8 @@ int main(int argc, char** argv) {
   };
   app.add_option("problem", file, "the problem file")->type_name("FILE");
   running(&app);
+  std::string part;
+  app.add_option("--part", part, "K/N: of a sweep the runs K, K + N, K + 2N, …, on a machine of its own; elamin collect DIR puts all parts together")->type_name("K/N");
   bool and_report = false, and_plot = false;
   app.add_flag("--report", and_report, "then write report.html, a page to look at in a browser, into the directory of the results");
   app.add_flag("--plot", and_plot, "then draw a small diagram in the terminal");
@@ -181,6 +185,10 @@ int main(int argc, char** argv) {
   resume_app->add_flag("--quiet", stopped.quiet, "print nothing but errors");
   resume_app->add_flag("--report", and_report, "then write report.html into the directory");
   checkpointed(resume_app);
+  CollectOptions parts;
+  CLI::App* collect_app = app.add_subcommand("collect", "sweep.csv of a sweep that was run in parts (--part)");
+  collect_app->add_option("directory", parts.directory, "the directory of its results")->type_name("DIR")->required();
+  collect_app->add_flag("--quiet", parts.quiet, "print nothing but errors");
   FigureOptions figure;
   CLI::App* plot_app = app.add_subcommand("plot", "a figure of a run's results: the diagram, and states below it");
   plot_app->add_option("directory", figure.directory, "the directory of the results")->type_name("DIR")->required();
@@ -222,6 +230,7 @@ int main(int argc, char** argv) {
     if (*import_app) return import_command(import), exit_done;
     if (*report_app) return report_command(report), exit_done;
     if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
+    if (*collect_app) return collect(parts).exit_status;
     if (*resume_app) {
       stopped.checkpoint = options.checkpoint;
       const RunResult result = resume(stopped);
@@ -231,8 +240,13 @@ int main(int argc, char** argv) {
     }
     if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
     options.report = and_report;
+    if (!part.empty()) options.part = parse_part(part);
     const RunResult result = run(options);
     figure.directory = result.directory;
+    if (options.part) {
+      if (!options.quiet) fmt::print("next: elamin collect {}, when all parts have ended\n", result.directory);
+      return result.exit_status;
+    }
     if (and_plot) fmt::print("{}", terminal_figure(figure, terminal_width(stdout)));
     if (and_report) report_command({{result.directory}, "", options.quiet});
     if (!options.quiet) fmt::print("{}", next_steps(result.directory, and_report, result.exit_status == exit_interrupted));

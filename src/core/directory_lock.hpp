@@ -7,8 +7,8 @@ namespace elamin {
 /// Where the file system knows no locks it keeps nobody.
 class DirectoryLock {
  public:
-  /// Throws InputError where another run is at work in the directory.
-  explicit DirectoryLock(const std::string& directory);
+  /// Throws InputError where another run is at work in the directory, and for so many seconds.
+  explicit DirectoryLock(const std::string& directory, double patience = 0);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;

@@ -45,6 +45,20 @@ void create(const std::string& directory) {
   if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
 }
 
+// The first names in a directory but for those given; "": there are none.
+std::string holds(const std::string& directory, const std::vector<std::string>& but) {
+  constexpr std::ptrdiff_t most_shown = 3;
+  std::error_code error;
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    if (const std::string name = entry.path().filename().string(); !std::count(but.begin(), but.end(), name)) found.push_back(name);
+  std::sort(found.begin(), found.end());
+  const auto shown = std::min<std::ptrdiff_t>(most_shown, std::ssize(found));
+  return fmt::format("{}{}", fmt::join(found.begin(), found.begin() + shown, ", "), std::ssize(found) > shown ? ", …" : "");
+}
+
+const std::string unfinished_list = list_name + std::string(".new");      // of a run that was killed at once
+
 }  // namespace
 
 fs::path located(const fs::path& file) {
@@ -54,19 +68,23 @@ fs::path located(const fs::path& file) {
 
 std::string checkpoint_file(const std::string& directory) { return place(directory, checkpoint_name); }
 
+void require_empty(const std::string& directory, const std::string& why) {
+  const std::string found = holds(directory, {list_name, unfinished_list, checkpoint_name + std::string(".new"), ".gitignore"});
+  if (!found.empty()) throw InputError(fmt::format("{}: is not empty: it holds {}; {}", directory, found, why));
+}
+
+void begin_results(const std::string& directory) {
+  write_text(place(directory, list_name), std::string(first_line) + "\n.gitignore\n");
+  write_text(place(directory, ".gitignore"), "*\n");
+}
+
 void require_results(const std::string& directory) {
-  constexpr std::ptrdiff_t most_shown = 3;
   std::error_code error;
   if (!fs::is_directory(directory, error) || listed_in(directory)) return;
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(directory, error)) found.push_back(entry.path().filename().string());
-  std::erase(found, list_name + std::string(".new"));                    // of a run that was killed at once
+  const std::string found = holds(directory, {unfinished_list});
   if (found.empty()) return;
-  std::sort(found.begin(), found.end());
-  const auto shown = std::min<std::ptrdiff_t>(most_shown, std::ssize(found));
-  throw InputError(fmt::format("{}: is not empty and not the results of a run: it holds {}{}; choose another directory by -o, "
-                               "or --force to write there all the same, over files of the same names",
-                               directory, fmt::join(found.begin(), found.begin() + shown, ", "), std::ssize(found) > shown ? ", …" : ""));
+  throw InputError(fmt::format("{}: is not empty and not the results of a run: it holds {}; choose another directory by -o, "
+                               "or --force to write there all the same, over files of the same names", directory, found));
 }
 
 void list_also(const std::string& directory, const std::string& name) {

@@ -17,6 +17,12 @@ std::filesystem::path located(const std::filesystem::path& file);
 /// is such results if it holds a .elamin, see below.
 void require_results(const std::string& directory);
 
+/// Throws InputError, ending with `why`, where anything but what begin_results or a killed process leaves is in the directory.
+void require_empty(const std::string& directory, const std::string& why);
+
+/// Makes an empty directory one of results, of which there are none yet.
+void begin_results(const std::string& directory);
+
 /// Adds a file that is written into results afterwards to their list, so that the next run removes it. Where there is no list nothing happens.
 void list_also(const std::string& directory, const std::string& name);
 

@@ -26,40 +26,51 @@ void check_inputs(const RunRecord& record, const PreparedRuns& prepared) {
       throw InputError(fmt::format("{}: has changed since the run began, which cannot go on with it; put it back, or run {} anew", now[k].first, record.file));
 }
 
+void require_directory(const std::string& directory) {
+  std::error_code error;
+  if (!fs::is_directory(directory, error)) throw InputError(directory + ": there is no such directory");
+  { const DirectoryLock probe(directory); }
+}
+
 }  // namespace
 
-RunResult resume(const ResumeOptions& options) {
-  std::error_code error;
-  if (!fs::is_directory(options.directory, error)) throw InputError(options.directory + ": there is no such directory");
-  { const DirectoryLock probe(options.directory); }
-  const bool ended = has_ended(options.directory);
-  const std::optional<Checkpoint> stopped = read_checkpoint(options.directory);
-  if (ended) remove_checkpoint(options.directory);              // it may have been killed before it could
-  if (ended || (!stopped && fs::exists(fs::path(options.directory) / "sweep.csv", error))) {
-    if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
-    return {exit_done, options.directory, {}};
-  }
+StoppedRuns stopped_runs(const std::string& directory) {
+  require_directory(directory);
+  const std::optional<Checkpoint> stopped = read_checkpoint(directory);
   if (!stopped)
-    throw InputError(options.directory + ": holds nothing to go on from: it is not the results of a run, or of one that was stopped before it had begun; run the problem again");
+    throw InputError(directory + ": holds nothing to go on from: it is not the results of a run, or of one that was stopped before it had begun; run the problem again");
   const RunRecord& record = stopped->record;
-  if (record.run == RunRecord::not_alone) throw InputError(options.directory + ": is one of the runs of a bisection; resume the directory above");
-  const fs::path folder = fs::path(record.folder).is_absolute() ? fs::path(record.folder) : (located(options.directory) / record.folder).lexically_normal();
+  if (record.run == RunRecord::not_alone) throw InputError(directory + ": is one of the runs of a bisection; resume the directory above");
+  const fs::path folder = fs::path(record.folder).is_absolute() ? fs::path(record.folder) : (located(directory) / record.folder).lexically_normal();
   std::vector<Setting> settings;
   for (const auto& [key, value] : record.settings) settings.push_back({key, value});
   // By the name that it was given where that leads to the same folder from here.
   const std::string file = located(record.file).parent_path() == folder ? record.file : (folder / fs::path(record.file).filename()).string();
-  PreparedRuns prepared = prepare_runs(parse_document(record.text, file), settings);
-  check_inputs(record, prepared);
-  RunOptions run_options{.file = record.file, .settings = settings, .directory = options.directory, .threads = options.threads, .quiet = options.quiet,
-                         .report = record.report, .checkpoint = options.checkpoint, .resumes = true};
-  for (PreparedRun& run : prepared.runs) run.problem.file = record.file;
-  if (record.run >= 0) {
-    PreparedRun one = std::move(prepared.runs.at(static_cast<std::size_t>(record.run)));
-    one.swept.clear();
-    prepared.runs.clear(), prepared.runs.push_back(std::move(one));
+  StoppedRuns runs{record, settings, prepare_runs(parse_document(record.text, file), settings)};
+  check_inputs(record, runs.prepared);
+  for (PreparedRun& run : runs.prepared.runs) run.problem.file = record.file;
+  return runs;
+}
+
+RunResult resume(const ResumeOptions& options) {
+  require_directory(options.directory);
+  const bool ended = has_ended(options.directory);
+  std::error_code error;
+  if (ended) remove_checkpoint(options.directory);              // it may have been killed before it could
+  if (ended || (!fs::exists(checkpoint_file(options.directory), error) && fs::exists(fs::path(options.directory) / "sweep.csv", error))) {
+    if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
+    return {exit_done, options.directory, {}};
   }
-  run_options.record = record;
-  return run(prepared, run_options);
+  StoppedRuns stopped = stopped_runs(options.directory);
+  const RunRecord& record = stopped.record;
+  std::vector<PreparedRun>& runs = stopped.prepared.runs;
+  if (record.run >= 0) {
+    PreparedRun one = std::move(runs.at(static_cast<std::size_t>(record.run)));
+    one.swept.clear();
+    runs.clear(), runs.push_back(std::move(one));
+  }
+  return run(stopped.prepared, {.file = record.file, .settings = stopped.settings, .directory = options.directory, .threads = options.threads,
+                                .quiet = options.quiet, .report = record.report, .checkpoint = options.checkpoint, .resumes = true, .record = record});
 }
 
 }  // namespace elamin

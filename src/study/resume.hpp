@@ -1,4 +1,5 @@
 #pragma once
+#include "study/prepare.hpp"
 #include "study/run.hpp"
 
 namespace elamin {
@@ -14,5 +15,13 @@ struct ResumeOptions {
 /// it says so. Throws InputError where DIR is no results, or of another version, where a run is at work in it, or where a file that the problem reads is
 /// not what it was.
 RunResult resume(const ResumeOptions& options);
+
+/// What was asked for in a directory where not all of it is done yet, read and built again. Throws InputError as resume does.
+struct StoppedRuns {
+  RunRecord record;
+  std::vector<Setting> settings;
+  PreparedRuns prepared;
+};
+StoppedRuns stopped_runs(const std::string& directory);
 
 }  // namespace elamin

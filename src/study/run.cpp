@@ -5,6 +5,7 @@
 #include "results/summary.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
+#include "study/sweep_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -63,9 +64,9 @@ RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   if (options.directory.empty()) options.directory = default_directory(options.file);
   if (options.report)
     for (PreparedRun& run : prepared.runs) keep_frames(run.problem);
+  if (options.part) return run_sweep_part(prepared, options);
   if (prepared.bisection) return run_bisection(prepared, options);
-  const bool single = prepared.runs.size() == 1 && prepared.runs.front().swept.empty();
-  return single ? run_one(prepared.runs.front(), options) : run_sweep(prepared, options);
+  return is_sweep(prepared) ? run_sweep(prepared, options) : run_one(prepared.runs.front(), options);
 }
 
 }  // namespace elamin

@@ -13,6 +13,9 @@ namespace elamin {
 /// Exit statuses of the program.
 enum ExitStatus { exit_done = 0, exit_wrong_input = 1, exit_not_converged = 2, exit_not_met = 3, exit_interrupted = 130 };
 
+/// Of a sweep the runs K, K + N, K + 2N, …
+struct SweepPart { int number = 1, of = 1; };
+
 struct RunOptions {
   std::string file;                    // the problem file
   std::vector<Setting> settings;       // --set KEY=VALUE
@@ -23,6 +26,7 @@ struct RunOptions {
   bool report = false;                 // a page is made of it: a path that says nothing of frames keeps 50, without films
   double checkpoint = 1;               // seconds between two checkpoints; 0: one wherever it could go on from
   bool resumes = false;                // it was stopped and goes on, if there is anything to go on from; else it begins
+  std::optional<SweepPart> part = {};  // that part of a sweep alone
   std::optional<RunRecord> record = {};     // of what is asked for; none, as of a problem that a program has put together: the run cannot be resumed
 };
 

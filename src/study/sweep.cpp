@@ -13,9 +13,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <cstdlib>
+#include <mutex>
+#include <numeric>
 #include <thread>
 
 namespace elamin {
@@ -67,46 +70,41 @@ SingleResult run_part(const PreparedRun& run, const std::string& directory, cons
   return run_single(run.problem, run.model, single);
 }
 
-RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
+std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<PreparedRun>& runs, const std::vector<std::size_t>& which,
+                                                          const RunOptions& options,
+                                                          const std::function<void(std::size_t, const SingleResult&)>& ended) {
   const Stopwatch watch;
-  const std::vector<PreparedRun>& runs = prepared.runs;
-  const Problem& first = runs.front().problem;
-  const auto name_of = [&](std::size_t k) { return run_name(k + 1, runs.size(), runs[k].swept); };
-  if (!options.force)
-    for (std::size_t k = 0; k < runs.size(); ++k) require_results(options.directory + "/" + name_of(k));
-  const auto directory = results_of_runs(options, first);
-  SweepTable table(directory->file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first, prepared.own));
-
-  std::vector<SingleResult> results(runs.size());
-  std::vector<std::exception_ptr> failures(runs.size());
+  std::vector<std::optional<SingleResult>> results(runs.size());
+  std::vector<std::exception_ptr> failures(which.size());
   std::atomic<std::size_t> next{0}, finished{0};
   std::mutex printing;
-  Progress progress(stdout, Progress::style_for(stdout, options.quiet), 0, static_cast<double>(runs.size()));
+  Progress progress(stdout, Progress::style_for(stdout, options.quiet), 0, static_cast<double>(which.size()));
   const Heartbeat at_work(heartbeat, [&](const auto&) {
     const std::lock_guard lock(printing);
-    progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), runs.size(), watch.seconds()));
+    progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), which.size(), watch.seconds()));
   });
   const auto work = [&, asked = stop_asked] {
     set_threads(1), stop_asked = asked;
-    for (std::size_t k; (k = next++) < runs.size() && !interrupted();) {
-      const std::string name = name_of(k);
+    for (std::size_t i; (i = next++) < which.size() && !interrupted();) {
+      const std::size_t k = which[i];
+      const std::string name = run_name(k + 1, runs.size(), runs[k].swept);
       try {
-        results[k] = run_part(runs[k], options.directory + "/" + name, options, static_cast<int>(k));
-        table.add(static_cast<int>(k), sweep_row(swept_values(runs[k]), status_name(results[k].status), results[k].path,
-                                                 results[k].events, first));
+        SingleResult result = run_part(runs[k], options.directory + "/" + name, options, static_cast<int>(k));
+        if (ended) ended(k, result);
         const std::lock_guard lock(printing);
         ++finished;
-        const std::size_t warnings = results[k].warnings.size();
-        progress.keep(fmt::format("run {} of {}: {}: {}{}", finished.load(), runs.size(), name, results[k].why,
+        const std::size_t warnings = result.warnings.size();
+        progress.keep(fmt::format("run {} of {}: {}: {}{}", finished.load(), which.size(), name, result.why,
                                   warnings == 0 ? "" : fmt::format(" ({} warning{})", warnings, warnings == 1 ? "" : "s")));
         progress.show("", static_cast<double>(finished.load()));
+        results[k] = std::move(result);
       } catch (...) {
-        failures[k] = std::current_exception();
+        failures[i] = std::current_exception();
       }
     }
   };
   std::vector<std::jthread> workers;
-  for (int t = 1; t < std::min<int>(options.threads, static_cast<int>(runs.size())); ++t) workers.emplace_back(work);
+  for (int t = 1; t < std::min<int>(options.threads, static_cast<int>(which.size())); ++t) workers.emplace_back(work);
   work();
   workers.clear();
   set_threads(options.threads);
@@ -116,20 +114,46 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+  return results;
+}
 
-  if (finished == runs.size() && !interrupted()) remove_checkpoint(options.directory);
-  RunResult result{interrupted() ? exit_interrupted : exit_done, options.directory, {}};
+Row sweep_row_of(const PreparedRun& run, const SingleResult& result, const Problem& first) {
+  return sweep_row(swept_values(run), status_name(result.status), result.path, result.events, first);
+}
+
+RunResult result_of_runs(const PreparedRuns& prepared, const std::vector<std::optional<SingleResult>>& results, const std::string& directory) {
+  RunResult all{interrupted() ? exit_interrupted : exit_done, directory, {}};
   std::vector<RunTables> tables;
-  for (const SingleResult& r : results) {
-    result.exit_status = std::max(result.exit_status, exit_status(r));
-    result.verdicts.insert(result.verdicts.end(), r.verdicts.begin(), r.verdicts.end());
-    tables.push_back({&r.path, &r.events});
+  for (const std::optional<SingleResult>& r : results) {
+    if (!r) continue;
+    all.exit_status = std::max(all.exit_status, exit_status(*r));
+    all.verdicts.insert(all.verdicts.end(), r->verdicts.begin(), r->verdicts.end());
+    tables.push_back({&r->path, &r->events});
   }
-  if (finished == runs.size())
-    for (const ExpectTable& e : runs.front().together) result.verdicts.push_back(check_extrapolated(first, e, tables));
+  const PreparedRun& first = prepared.runs.front();
+  if (tables.size() == results.size())
+    for (const ExpectTable& e : first.together) all.verdicts.push_back(check_extrapolated(first.problem, e, tables));
+  return all;
+}
+
+RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
+  const Stopwatch watch;
+  const std::vector<PreparedRun>& runs = prepared.runs;
+  const Problem& first = runs.front().problem;
+  if (!options.force)
+    for (std::size_t k = 0; k < runs.size(); ++k) require_results(options.directory + "/" + run_name(k + 1, runs.size(), runs[k].swept));
+  const auto directory = results_of_runs(options, first);
+  SweepTable table(directory->file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first, prepared.own));
+  std::vector<std::size_t> all(runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto results = run_side_by_side(runs, all, options, [&](std::size_t k, const SingleResult& result) {
+    table.add(static_cast<int>(k), sweep_row_of(runs[k], result, first));
+  });
+  const auto finished = std::count_if(results.begin(), results.end(), [](const auto& r) { return r.has_value(); });
+  if (finished == std::ssize(runs) && !interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
-    fmt::print("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", finished.load(), runs.size(), watch.seconds(), options.directory);
-  return result;
+    fmt::print("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", finished, runs.size(), watch.seconds(), options.directory);
+  return result_of_runs(prepared, results, options.directory);
 }
 
 }  // namespace elamin
