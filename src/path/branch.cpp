@@ -31,6 +31,7 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
   Equilibrium e = continue_to(newton_, from, target, correct);
   if (e.point.report.status == Status::interrupted) stop_here(Status::interrupted, "interrupted");
   if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
+  if (from.pushed && e.point.stability.negative > negative_) return why = "what was pushed is caught", std::nullopt;
   Candidate c{.parameter = target, .e = std::move(e), .natural = true};
   const Segment segment = beside(segment_of_loads(newton_, current_.point.state.load_factor, target), c);
   if (!find_contact(segment, c, why)) return {};

@@ -231,7 +231,7 @@ bool Continuation::snap(std::string& why) {
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().collision_free_step(last.point.state, state) < 1) return false;
   const double before = newton_.energy().value(state);
-  const Report report = newton_.minimise(state, Pace::downhill);
+  const Report report = go_down(newton_, state);
   if (!report.converged()) why = fmt::format("; and no minimum was found beyond, at load factor {:.10g}: {}", target, report.why);
   if (!report.converged() || !(report.energy < before)) return false;
   Equilibrium landed = assess(newton_, state, report);

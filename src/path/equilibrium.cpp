@@ -148,6 +148,27 @@ bool attracts(const Model& model) {
          std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& w) { return w.kernel.attraction != 0; });
 }
 
+// Which sites belong to parts that the supports let go somewhere.
+std::vector<bool> free_sites(const Energy& energy, const State& state) {
+  std::vector<bool> free(energy.kinematics().sites(), false);
+  for (const RigidMotion& m : free_rigid_motions(energy.model(), state))
+    if (m.translation)
+      for (const int site : m.sites) free[site] = true;
+  return free;
+}
+
+// Whether something that nothing holds is there and no contact bears more than a residual leaves on all of it; whether it touches something, too.
+void see_floating(const Newton& newton, Energy& energy, Equilibrium& e) {
+  const Model& model = energy.model();
+  const double most = newton.tolerance() * std::max(energy.force_scale(), energy.force_floor()) * entities(model);
+  const std::vector<Touch> touches = energy.touches(e.point.state);
+  if (std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return t.force.norm() > most; })) return;
+  const std::vector<bool> free = free_sites(energy, e.point.state);
+  const auto is_free = [&](int entity) { return entity >= 0 && free[is_body(model, entity) ? energy.kinematics().place_of(entity - model.particles()) : entity]; };
+  e.floats = std::find(free.begin(), free.end(), true) != free.end();
+  e.pushed = std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return is_free(t.particle) || is_free(t.other); });
+}
+
 // Whether contacts are made from one state to the other, and none is lost; what just touches at the first one is closed there.
 bool only_touches_more(Energy& energy, const State& from, const State& to) {
   ContactSet before = closed_contacts(energy, from);
@@ -198,6 +219,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   s.critical = named ? 0 : inertia.zero;
   s.stable = s.negative == 0 && named;
   e.slack = slack;
+  if (!slack && may_touch(energy.model()) && !attracts(energy.model())) see_floating(newton, energy, e);
   if (inertia.zero > 0) newton.factors().factorize_holding(e.zero_modes);   // else there is a factor that has just told so
   e.tangent = newton.factors().solve_holding(-energy.load_derivative());
   // Where f·H⁻¹f < 0, f = −∂g/∂λ of the loads, one of the negative directions is one on which they do work.
@@ -211,15 +233,20 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
 
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   if (a.slack && b.slack) return true;
-  const Vector moved = energy.kinematics().difference(a.point.state, b.point.state);
+  Vector moved = energy.kinematics().difference(a.point.state, b.point.state), tangent_a = a.tangent, tangent_b = b.tangent;
+  if (a.pushed || b.pushed) {                                   // of what is pushed no tangent tells the way
+    const std::vector<bool> free = free_sites(energy, a.point.state);
+    for (int d = 0; d < energy.dofs(); ++d)
+      if (free[energy.kinematics().site_of(d)]) moved[d] = tangent_a[d] = tangent_b[d] = 0;
+  }
   const double change = b.point.state.load_factor - a.point.state.load_factor;
-  const double by_a = (moved - change * a.tangent).norm(), by_b = (moved - change * b.tangent).norm(),
-               by_both = (moved - change / 2 * (a.tangent + b.tangent)).norm();
+  const double by_a = (moved - change * tangent_a).norm(), by_b = (moved - change * tangent_b).norm(),
+               by_both = (moved - change / 2 * (tangent_a + tangent_b)).norm();
   double place = b.point.state.position.squaredNorm();
   for (const Pose& p : b.point.state.bodies) place += p.position.hi.squaredNorm();
   const double rounding = 1e-12 * std::sqrt(place);
   if (std::min({by_a, by_b, by_both}) > equilibrium::largest_part * moved.norm() + rounding) return false;
-  if (moved.norm() <= rounding || a.tangent.dot(b.tangent) >= equilibrium::least_cosine * a.tangent.norm() * b.tangent.norm()) return true;
+  if (moved.norm() <= rounding || tangent_a.dot(tangent_b) >= equilibrium::least_cosine * tangent_a.norm() * tangent_b.norm()) return true;
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 
@@ -247,16 +274,23 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
     if (energy.collision_free_step(start, predicted) < 1) predicted = driven;
   }
   State state = predicted;
-  if (from.slack && !correct) {
-    Report pushed = push_aside(newton, driven, driven_way(energy, load_factor - start.load_factor), state);
-    if (pushed.converged() && energy.collision_free_step(start, state) == 1) return assess(newton, state, pushed);
-    state = predicted;
-  }
-  Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   const bool meets = may_touch(energy.model());
+  State aside;
+  const auto push = [&]() -> std::optional<Equilibrium> {
+    aside = predicted;
+    energy.evaluate(start, false);
+    Report pushed = push_aside(newton, driven, driven_way(energy, load_factor - start.load_factor), from.slack ? 0.0 : energy.force_scale(), aside);
+    if (!pushed.converged() || energy.collision_free_step(start, aside) < 1) return {};
+    return assess(newton, aside, pushed);
+  };
+  if ((from.slack || from.pushed) && !correct)
+    if (std::optional<Equilibrium> e = push()) return std::move(*e);
+  Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
+  if (!correct && !report.converged() && from.floats && !from.pushed && from.point.stability.negative == 0)
+    if (std::optional<Equilibrium> e = push()) return std::move(*e);
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
-    state = predicted;
+    state = aside.particles() > 0 ? aside : predicted;          // what is pushed has been caught there
     report = newton.minimise(state, Pace::stationary, equilibrium::most_in_contact);
     if (report.converged() && report.negative > 0) report = newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   }

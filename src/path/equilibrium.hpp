@@ -14,6 +14,8 @@ struct Equilibrium {
   EigenPairs lowest;                   // eigenpairs as far as they were asked for: where the search at a neighbour begins
   /// Nothing bears a force, and something may touch: what floats is pushed as far as it must, and what touches it may as well not.
   bool slack = false;
+  /// Something that nothing holds is there and no contact bears a force, though other things may: it is pushed in the same way; and it touches something.
+  bool floats = false, pushed = false;
 };
 
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.

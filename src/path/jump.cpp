@@ -11,6 +11,12 @@ namespace elamin {
 
 using namespace limits;
 
+// Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
+Report go_down(Newton& newton, State& state) {
+  const Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
+  return report.status == Status::not_converged ? newton.minimise(state) : report;
+}
+
 Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what) {
   Energy& energy = newton.energy();
   const double at = event.at.point.state.load_factor;
@@ -30,9 +36,7 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
   if (event.kind == EventKind::branch) std::ignore = newton.leave_saddle(state, event.modes.col(0));   // where not, minimise looks for a way itself
   energy.evaluate(from);
   const double before = energy.last_terms().total();
-  // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
-  Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
-  if (report.status == Status::not_converged) report = newton.minimise(state);
+  Report report = go_down(newton, state);
   what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
   if (report.converged()) return assess(newton, state, report);
   Equilibrium failed;

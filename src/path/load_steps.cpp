@@ -33,13 +33,13 @@ LoadSteps::LoadSteps(Newton& newton, Departure from, const PathOptions& options)
   sign_ = options.to < options.from ? -1 : 1;
   grid_.restart(current_.point.state.load_factor);
   patience_.since = current_.point.state.load_factor, patience_.creep = load_steps::creep * std::abs(options.to - options.from) / options.steps;
-  if (options.when_unstable == WhenUnstable::jump && !options.contacts && may_touch(newton.energy().model())) patience_.most = load_steps::patience;
+  if (options.when_unstable == WhenUnstable::jump && may_touch(newton.energy().model())) patience_.most = load_steps::patience;
 }
 
 void LoadSteps::carry(Archive& archive) {
   Branch::carry(archive);
   bool detour = detour_.has_value();
-  archive(grid_, critical_, goal_, taken_, patience_, detour);
+  archive(grid_, critical_, goal_, taken_, met_, patience_, detour);
   if (archive.reads()) detour_.reset();
   if (archive.reads() && detour) detour_.emplace(newton_, Departure{.closed = {}, .sides = side_}, Direction{}, Metric{}, ArcOptions{.user_events = user_events_, .step = 1});
   if (detour) archive(*detour_);
@@ -53,8 +53,10 @@ std::optional<Waypoint> LoadSteps::next() {
       if (std::optional<Waypoint> w = on_detour()) return w;
     } else {
       if (std::optional<Candidate> c = reach(grid_.next(), why)) return accept(std::move(*c));
-      ++patience_.refused;
-      if (grid_.halvings() >= load_steps::first_detour && (grid_.halvings() - load_steps::first_detour) % load_steps::next_detour == 0) {
+      if (std::optional<Candidate> c = meet(grid_.next())) return accept(std::move(*c));
+      const bool caught = current_.pushed || current_.point.state.load_factor == met_;
+      patience_.refused += caught ? load_steps::caught : contacts_ ? 0 : 1;
+      if (!(caught && patience_.most > 0) && grid_.halvings() >= load_steps::first_detour && (grid_.halvings() - load_steps::first_detour) % load_steps::next_detour == 0) {
         set_out_on_detour();
         continue;
       }
@@ -70,14 +72,31 @@ std::optional<Waypoint> LoadSteps::next() {
 
 // Right behind a branch point its critical modes are free, or held where that leads to another branch.
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
-  if (at_contact_) current_ = past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor)), at_contact_ = false;
+  if (at_contact_ && current_.point.state.load_factor != met_) current_ = past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor));
+  at_contact_ = false;
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
-  if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !(current_.slack && c->e.slack) && bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
+  if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !(current_.slack && c->e.slack) && !current_.pushed && !c->e.pushed && bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;
   held.zero_modes = side_by_side(held.zero_modes, critical_);
   return reach_load(held, target, why);
+}
+
+// Where what floats meets something on the way: from there it is pushed, or caught.
+std::optional<Branch::Candidate> LoadSteps::meet(double target) {
+  const double here = current_.point.state.load_factor, way = target - here;
+  if (!current_.floats || current_.pushed || negative_ != 0 || singular_ || here == met_) return {};
+  std::optional<ContactChange> change = kink_ahead(newton_, closed_, current_, way * current_.tangent, way);
+  if (!change) return {};
+  const double there = change->at.point.state.load_factor;
+  if (!((there - here) * sign_ > 0 && (target - there) * sign_ > 0)) return {};
+  Candidate c = with_contact(Candidate{.parameter = there, .e = {}, .natural = true}, std::move(*change));
+  c.events.front().after = negative_;
+  std::string why;
+  if (!find_user_events(segment_of_loads(newton_, here, there), c, why)) return {};
+  met_ = there;
+  return c;
 }
 
 Waypoint LoadSteps::accept(Candidate c) {
@@ -99,7 +118,7 @@ void LoadSteps::set_out_on_detour() {
   const double here = current_.point.state.load_factor, way = grid_.next() - here;
   goal_ = grid_.next(), taken_ = 0;
   ArcOptions a{.load_step = std::abs(way), .rotation = 0.1, .contacts = contacts_, .stops = {goal_, here - 100 * way}, .user_events = user_events_,
-               .patience = patience_.most > 0 ? patience_.most - patience_.refused : 0};
+               .patience = patience_.most > 0 && !contacts_ ? patience_.most - patience_.refused : 0};
   std::sort(a.stops.begin(), a.stops.end());
   const Metric metric = metric_for(newton_.energy(), current_, way);
   const Direction towards{Vector::Zero(current_.tangent.size()), sign_ * metric.load};
@@ -111,7 +130,7 @@ void LoadSteps::set_out_on_detour() {
 std::optional<Waypoint> LoadSteps::on_detour() {
   const int before = detour_->refused();
   std::optional<Waypoint> w = ++taken_ <= load_steps::longest_detour ? detour_->next() : std::nullopt;
-  patience_.refused += detour_->refused() - before;
+  if (!contacts_) patience_.refused += detour_->refused() - before;
   if (w && w->stop && *w->stop != goal_) w.reset();
   if (!w) return detour_.reset(), std::nullopt;
   const double load = w->at.point.state.load_factor;

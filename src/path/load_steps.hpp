@@ -2,6 +2,8 @@
 #include "path/arc_steps.hpp"
 #include "path/load_grid.hpp"
 
+#include <limits>
+
 namespace elamin {
 
 /// Load factors to hit, in order: the even steps and the stops asked for.
@@ -22,6 +24,7 @@ class LoadSteps final : public Branch {
 
  private:
   [[nodiscard]] std::optional<Candidate> reach(double target, std::string& why);
+  [[nodiscard]] std::optional<Candidate> meet(double target);
   Waypoint accept(Candidate c);
   void set_out_on_detour();
   [[nodiscard]] std::optional<Waypoint> on_detour();
@@ -33,6 +36,7 @@ class LoadSteps final : public Branch {
   Eigen::MatrixXd critical_;             // modes of the branch point where it stands
   std::optional<ArcSteps> detour_;
   double goal_ = 0;                      // of the detour …
+  double met_ = std::numeric_limits<double>::quiet_NaN();                // the load factor at which what floats last met something
   int taken_ = 0;                        // … and its steps so far
   struct Patience {                      // with steps that are refused, until the load factor has gone on by `creep` or something happened
     int most = 0;                        // 0: without end

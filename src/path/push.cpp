@@ -18,15 +18,17 @@ double driven_way(const Energy& energy, double load_change) {
   return way * std::abs(load_change);
 }
 
-Report push_aside(Newton& newton, const State& from, double way, State& state) {
+Report push_aside(Newton& newton, const State& from, double way, double others, State& state) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   Report report;
   if (!(way > 0)) return report;
-  const double ground = push::borne * newton.tolerance() * energy.force_floor() / way;
+  const double ground = push::borne * newton.tolerance() * std::max(others, energy.force_floor()) / way;
   Cholesky factor;
   int version = -1;
   double least = std::numeric_limits<double>::infinity();
+  // Beside other forces the place is as exact as their rounding lets the ground tell.
+  const double exact = others > energy.force_floor() ? 16 * epsilon / (push::borne * newton.tolerance()) : push::stands;
   const int patience = push::patience + std::min(push::most_in_row, static_cast<int>(energy.unbonded_dofs().size()));
   for (int since = 0; report.iterations < push::most_iterations + patience && since < patience; ++report.iterations) {
     energy.evaluate(state);
@@ -35,15 +37,22 @@ Report push_aside(Newton& newton, const State& from, double way, State& state) {
     const bool done = energy.slack() && left <= push::left * ground * infinity_norm(moved);
     if (energy.slack()) since = 0, least = std::numeric_limits<double>::infinity();
     else since = left < least / 2 ? 0 : since + 1, least = std::min(least, left);
-    SparseMatrix h = energy.hessian();
-    for (const int d : energy.null_dofs()) h.valuePtr()[h.outerIndexPtr()[d]] = 0;             // the ground holds them
-    if (version != energy.pattern_version()) factor.analyze(h), version = energy.pattern_version();
-    ++report.factorizations;
-    if (!factor.factorize(h, ground)) return report;
+    const auto hold = [&] {                                     // the ground holds them
+      SparseMatrix h = energy.hessian();
+      for (const int d : energy.null_dofs()) h.valuePtr()[h.outerIndexPtr()[d]] = 0;
+      if (version != energy.pattern_version()) factor.analyze(h), version = energy.pattern_version();
+      ++report.factorizations;
+      return factor.factorize(h, ground);
+    };
+    if (!hold()) {                                              // an overlap pushes sideways: without what that takes
+      if (!(others > 0)) return report;
+      energy.evaluate(state, true, {.convex = 1});
+      if (!hold()) return report;
+    }
     const Vector step = -factor.solve(force);
     if (!step.allFinite()) return report;
     // Where rounding of what bodies do to each other is more than the ground bears, it moves nothing.
-    const bool stands = energy.slack() && energy.relative(energy.gradient()) <= newton.tolerance() && infinity_norm(step) <= push::stands * infinity_norm(moved);
+    const bool stands = (others > 0 || energy.slack()) && energy.relative(energy.gradient()) <= newton.tolerance() && infinity_norm(step) <= exact * infinity_norm(moved);
     if (done || stands) {
       report.status = Status::converged, report.why = "what floats is pushed";
       break;

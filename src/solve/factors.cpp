@@ -145,7 +145,7 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
     const double change = (values - before).head(count).cwiseAbs().maxCoeff();
     const double floor = k < limits::patience ? 0.0 : zero_level() / 64;       // forms tell eigenvalues below that; motions that cost nothing have none
     if (k >= settle && change <= accuracy * std::max(std::abs(values[0]), std::abs(values[count - 1])) + floor) break;
-    if (k == settle && values[0] < 0 && shift > -4 * values[0]) {   // the first shift was a guess: come closer
+    if (k == settle && -1.5 * values[0] > zero_level() && shift > -4 * values[0]) {   // the first shift was a guess: come closer, but no nearer than rounding
       const std::optional<double> closer = make_positive_from(-1.5 * values[0]);
       if (!closer) break;
       shift = *closer;

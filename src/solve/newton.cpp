@@ -10,10 +10,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace elamin {
+
+namespace {
+
+// Whether the residual of a search that is to stay on its branch has halved lately; one that has left its branch falls, and what it finds is of no use.
+bool contracts(const std::vector<Iteration>& history) {
+  if (static_cast<int>(history.size()) <= limits::patience_on_branch) return true;
+  const auto lately = history.end() - limits::patience_on_branch;
+  const auto by_residual = [](const Iteration& a, const Iteration& b) { return a.residual < b.residual; };
+  return std::min_element(lately, history.end(), by_residual)->residual <= std::min_element(history.begin(), lately, by_residual)->residual / 2;
+}
+
+}  // namespace
 
 Newton::Newton(Energy& energy, NewtonOptions options)
     : energy_(energy), options_(options), factors_(energy), extent_(extent(energy.model())) {}
@@ -107,6 +120,8 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   if (settled && (is_minimum(state, descent) || stays))
     return stays ? Halt{Status::converged, fmt::format("the residual is below {:g}", options_.tolerance)} : Halt{Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance)};
   if (const auto halt = must_halt(state, descent.report, descent.most)) return halt;
+  if (stays && !contracts(descent.report.history))
+    return Halt{Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", descent.report.residual)};
 
   const Vector g = energy_.gradient();
   steady_bodies(energy_, g);
