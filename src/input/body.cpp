@@ -59,6 +59,7 @@ void describe(Keys& keys, BodyTable& t) {
                                     "with mass, about the centre of mass: ixx, iyy, izz, ixy, ixz, iyz; by default of a uniform solid");
                          }},
                         {{"molecule"}, "a molecule, whose file has it", t.shape == BodyShape::molecule, [] {}}});
+  keys.may("from_stage", t.from_stage, "the stage it is there from, with what it carries; by default from the start");
   keys.may("position", t.position, "of the origin of the core's frame");
   keys.table("rotation", t.rotation);
   keys.at_most_one({"mass", "density"});

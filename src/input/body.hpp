@@ -20,7 +20,7 @@ enum class BodyShape { sphere, rod, tetrahedron, cube, box, mesh, molecule };
 
 struct BodyTable {
   TablePlace place;
-  std::string name;
+  std::string name, from_stage;
   BodyShape shape = BodyShape::sphere;
   double length = 0, edge = 0;
   Vec3 size = Vec3::Zero();

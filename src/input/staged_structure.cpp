@@ -1,6 +1,7 @@
 #include "input/staged_structure.hpp"
 
 #include "model/connect.hpp"
+#include "model/entities.hpp"
 #include "input/interactions.hpp"
 #include "input/listed.hpp"
 #include "core/suggest.hpp"
@@ -19,10 +20,13 @@ const Group* group_named(const Model& model, const std::string& name) {
   return found == model.groups.end() ? nullptr : &*found;
 }
 
+// Of every particle, then of every body.
 std::vector<bool> members_of(const Model& model, const std::string& name) {
-  std::vector<bool> of(model.particles());
-  if (const Group* group = group_named(model, name))
+  std::vector<bool> of(entities(model));
+  if (const Group* group = group_named(model, name)) {
     for (const int p : group->particles) of[p] = true;
+    for (const int b : group->bodies) of[model.particles() + b] = true;
+  }
   return of;
 }
 
@@ -31,7 +35,7 @@ template <class P, class Call> void for_structures(P& problem, const Call& call)
   const auto all = [&](auto& tables) {
     for (auto& t : tables) call(t);
   };
-  all(problem.beams), all(problem.loops), all(problem.sheets), all(problem.grains);
+  all(problem.beams), all(problem.loops), all(problem.sheets), all(problem.grains), all(problem.bodies);
 }
 
 template <class Element> bool any_of(const Element& element, const std::vector<bool>& marked) {
@@ -52,15 +56,19 @@ void remove_glue(const RemoveTable& r, Model& model) {
 
 void hold_absent(const std::vector<bool>& absent, Model& model, const State& now) {
   const auto gone = [&](int p) { return absent[p]; };
+  const auto gone_body = [&](int b) { return absent[model.particles() + b]; };
   std::erase_if(model.bonds, [&](const Bond& b) { return any_of(b, absent); });
   std::erase_if(model.angles, [&](const Angle& a) { return any_of(a, absent); });
   for (PairContact& c : model.contacts)
     for (auto& side : c.particles) std::erase_if(side, gone);
   std::erase_if(model.contacts, [](const PairContact& c) { return c.particles[0].empty() || c.particles[1].empty(); });
   for (RoundedPair& r : model.rounded)
-    for (auto& side : r.particles) std::erase_if(side, gone);
-  for (Wall& w : model.walls) std::erase_if(w.particles, gone);
-  for (Gravity& g : model.gravity) std::erase_if(g.particles, gone);
+    for (int side = 0; side < 2; ++side) std::erase_if(r.particles[side], gone), std::erase_if(r.bodies[side], gone_body);
+  std::erase_if(model.rounded, [](const RoundedPair& r) {
+    return (r.particles[0].empty() && r.bodies[0].empty()) || (r.particles[1].empty() && r.bodies[1].empty());
+  });
+  for (Wall& w : model.walls) std::erase_if(w.particles, gone), std::erase_if(w.bodies, gone_body);
+  for (Gravity& g : model.gravity) std::erase_if(g.particles, gone), std::erase_if(g.bodies, gone_body);
   for (Change& c : model.changes) std::erase_if(c.particles, gone);
   std::erase_if(model.pressures, [&](const Pressure& p) { return any_of(p, absent); });
   for (Load& l : model.loads) {
@@ -70,6 +78,7 @@ void hold_absent(const std::vector<bool>& absent, Model& model, const State& now
     for (std::size_t k = 0; k < whole.particles.size(); ++k)
       if (!absent[whole.particles[k]]) l.particles.push_back(whole.particles[k]), kept.push_back(static_cast<Eigen::Index>(k));
     if (whole.own.size()) l.own = whole.own(Eigen::all, kept);
+    std::erase_if(l.bodies, gone_body);
   }
   for (Support& s : model.supports) {
     const Support whole = s;
@@ -79,11 +88,21 @@ void hold_absent(const std::vector<bool>& absent, Model& model, const State& now
       s.particles.push_back(whole.particles[k]);
       if (!whole.reference.empty()) s.reference.push_back(whole.reference[k]);
     }
+    s.bodies.clear(), s.body_reference.clear();
+    for (std::size_t k = 0; k < whole.bodies.size(); ++k) {
+      if (gone_body(whole.bodies[k])) continue;
+      s.bodies.push_back(whole.bodies[k]);
+      if (!whole.body_reference.empty()) s.body_reference.push_back(whole.body_reference[k]);
+    }
   }
   Support still;
   still.scaling = Scaling(0, 0);
+  still.constrained_rotations = {true, true, true};
+  const auto carried = [&](int p) { return std::any_of(model.glued.begin(), model.glued.end(), [&](const Glued& g) { return g.particle == p; }); };
   for (int p = 0; p < model.particles(); ++p)
-    if (absent[p]) still.particles.push_back(p), still.reference.push_back(now.at(p));
+    if (absent[p] && !carried(p)) still.particles.push_back(p), still.reference.push_back(now.at(p));
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
+    if (gone_body(b)) still.bodies.push_back(b), still.body_reference.push_back(now.bodies[b]);
   model.supports.push_back(std::move(still));
 }
 
@@ -96,7 +115,7 @@ int stage_number(const Problem& problem, const std::string& name) {
 }
 
 std::vector<bool> absent_in(const Problem& problem, int stage, const Model& model) {
-  std::vector<bool> absent(model.particles());
+  std::vector<bool> absent(entities(model));
   const auto mark = [&](const std::string& group) {
     const std::vector<bool> of = members_of(model, group);
     for (std::size_t p = 0; p < of.size(); ++p) absent[p] = absent[p] || of[p];
@@ -108,6 +127,7 @@ std::vector<bool> absent_in(const Problem& problem, int stage, const Model& mode
     if (stage_number(problem, g.from_stage) > stage) mark(g.name);
   for (const RemoveTable& r : problem.removals)
     if (r.what == RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) mark(r.group);
+  for (const Glued& g : model.glued) absent[g.particle] = absent[model.particles() + g.body];
   return absent;
 }
 

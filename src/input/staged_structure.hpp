@@ -19,10 +19,10 @@ std::string connect_in(const Problem& problem, int stage, Model& all, const Stat
 /// Whether a connection is made as a stage behind the first begins, up to this one.
 bool connects_before(const Problem& problem, int stage);
 
-/// Of every particle, whether it is not there in a stage: not yet, or not any more.
+/// Of every particle, then of every body, whether it is not there in a stage: not yet, or not any more. What a body carries is there as long as it.
 std::vector<bool> absent_in(const Problem& problem, int stage, const Model& model);
 
-/// Leaves out of a stage's model what is not there in it. Particles that have not come yet, or are gone, keep their numbers; they are
+/// Leaves out of a stage's model what is not there in it. Particles and bodies that have not come yet, or are gone, keep their numbers; they are
 /// held where they are `now`, and nothing acts on them.
 void leave_out(const Problem& problem, int stage, Model& model, const State& now);
 

@@ -10,7 +10,7 @@ namespace elamin {
 struct RunStage {
   Stage stage;                         // with the amounts of conditions that its states store
   Model model;                         // as it was then
-  std::vector<bool> absent;            // of all particles: not there yet, or gone
+  std::vector<bool> absent;            // of all particles, then bodies: not there yet, or gone
   std::vector<int> bonds;              // which of all bonds those of `model` are, ascending
 };
 

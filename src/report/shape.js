@@ -185,6 +185,7 @@ class ShapeView {
       return [place(x, p), still, evenly(there ? this.radius[p] : 0), grey];
     });
     this.pose(this.bodies, a.poses, mode, scale);
+    this.bodies.forEach((body, b) => { body.visible = !stage.absent.has(this.radius.length + b); });
     for (const m of this.mounts) m.position.copy(this.bodies[m.userData.body].position), m.visible = stage.supports[m.userData.support];
     this.behind(ghost, grey);
     this.walls.forEach((w, k) => {

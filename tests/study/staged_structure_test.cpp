@@ -191,3 +191,70 @@ TEST_CASE("a connection that makes no bond by then, and a path taken up behind o
   CHECK(again.status != 0);
   CHECK_THAT(again.text, Contains("is not taken up behind a [[connect]] with from_stage"));
 }
+
+// A ball over another one that has gone down, U = k δ²/2, comes with the second stage, with the grain that it carries: under a weight F it falls to where δ = F/k.
+TEST_CASE("a body comes with a stage, with what it carries", "[stages]") {
+  const ScratchDirectory scratch;
+  const auto ball = [](const std::string& name, const std::string& z, const std::string& more) {
+    return "[[body]]\nname = \"" + name + "\"\nshape = \"sphere\"\nrounding_diameter = 1\nposition = [0, 0, " + z + "]\n" + more;
+  };
+  const std::string text = ball("base", "0", "") + ball("ball", "1", "from_stage = \"loaded\"\n") + R"(
+[[grains]]
+name = "mark"
+positions = [[0, 0, 2]]
+diameter = 0.1
+[[glue]]
+group = "mark"
+body = "ball"
+[[contact]]
+between = ["base", "ball"]
+law = "rounded"
+k_n = 100
+[[support]]
+group = "base"
+displacement = [0, 0, 0.5]
+[[support]]
+group = "ball"
+directions = "xy"
+rotations = "xyz"
+[[load]]
+name = "weight"
+group = "ball"
+force = [0, 0, -2]
+[[observe]]
+name = "base"
+group = "base"
+quantity = "position.z"
+[[observe]]
+name = "ball"
+group = "ball"
+quantity = "position.z"
+[[observe]]
+name = "mark"
+group = "mark"
+quantity = "position.z"
+[path]
+steps = 2
+[[stage]]
+name = "alone"
+vary = ["support.1"]
+from = 0
+to = -1
+[[stage]]
+name = "loaded"
+vary = ["load.weight"]
+from = 0
+to = 1
+)";
+  const Staged r = run_staged(scratch, text);
+  INFO(r.text);
+  REQUIRE(r.status == 0);
+  CHECK(end_of(r.path, "alone")["ball"] == 1);
+  CHECK(end_of(r.path, "alone")["mark"] == 2);
+  CHECK(end_of(r.path, "alone")["base"] == -0.5);
+  const TableRow& end = end_of(r.path, "loaded");
+  CHECK(end["mark"] == Approx(end["ball"] + 1).epsilon(1e-13));
+  const double sunk = 2 / 100.0, place = 0.5 - sunk;
+  CHECK(end["ball"] == Approx(place).epsilon(1e-12));
+  CHECK(end["energy"] == Approx(100 * sunk * sunk / 2 + 2 * place).epsilon(1e-12));
+}
