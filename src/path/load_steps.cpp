@@ -54,7 +54,7 @@ std::optional<Waypoint> LoadSteps::next() {
     } else {
       if (std::optional<Candidate> c = reach(grid_.next(), why)) return accept(std::move(*c));
       if (std::optional<Candidate> c = meet(grid_.next())) return accept(std::move(*c));
-      const bool caught = current_.pushed || current_.point.state.load_factor == met_;
+      const bool caught = (current_.pushed || current_.point.state.load_factor == met_) && way_is_free(grid_.next());
       patience_.refused += caught ? load_steps::caught : contacts_ ? 0 : 1;
       if (!(caught && patience_.most > 0) && grid_.halvings() >= load_steps::first_detour && (grid_.halvings() - load_steps::first_detour) % load_steps::next_detour == 0) {
         set_out_on_detour();
@@ -81,6 +81,13 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   Equilibrium held = current_;
   held.zero_modes = side_by_side(held.zero_modes, critical_);
   return reach_load(held, target, why);
+}
+
+// Whether nothing that is prescribed goes through anything until then.
+bool LoadSteps::way_is_free(double target) const {
+  State driven = current_.point.state;
+  newton_.energy().kinematics().prescribe(driven, target);
+  return newton_.energy().collision_free_step(current_.point.state, driven) == 1;
 }
 
 // Where what floats meets something on the way: from there it is pushed, or caught.

@@ -25,6 +25,7 @@ class LoadSteps final : public Branch {
  private:
   [[nodiscard]] std::optional<Candidate> reach(double target, std::string& why);
   [[nodiscard]] std::optional<Candidate> meet(double target);
+  bool way_is_free(double target) const;
   Waypoint accept(Candidate c);
   void set_out_on_detour();
   [[nodiscard]] std::optional<Waypoint> on_detour();

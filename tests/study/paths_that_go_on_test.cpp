@@ -529,6 +529,24 @@ TEST_CASE("a ball floats until it is caught", "[paths][free_ball]") {
     }
 }
 
+// Unlike the ball it bears forces, of its own. Grains from one side push it away and nothing else changes; from both they catch and pinch it.
+TEST_CASE("a shell that bears forces of its own floats until it is caught", "[paths][shell_floats]") {
+  for (const int n : {3, 10, 17, 50}) {
+    const Run away("shell_floats", {in_steps(n), "support.ram.displacement=[0,0,-0.28]"});
+    CHECK_ENDS_AT(away, 1);
+    INFO(n << " steps" << away.what << away.told());
+    CHECK(away.path.front()["energy"] > 0);
+    CHECK(away.path.back()["energy"] == Approx(away.path.front()["energy"]).epsilon(1e-9));
+    CHECK(away.path.back()["negative"] == 0);
+    CHECK(away.path.size() <= 2 * n + 20u);                      // it does not creep
+    const Run pinched("shell_floats", {in_steps(n)});
+    CHECK_ENDS_AT(pinched, 1);
+    CHECK(pinched.path.back()["energy"] > away.path.front()["energy"]);
+    CHECK(pinched.path.back()["negative"] == 0);
+    CHECK(pinched.path.size() <= 2 * n + 20u);
+  }
+}
+
 // A wall pushes cubes that touch, but for the last one, towards another wall: they go as far as they must, and bear a force only from where all touch.
 TEST_CASE("loose cubes are pushed together at no force", "[paths][endless_loose_cubes]") {
   const double squeezed = 0.01, force = squeezed / (2 / (4 * 70.0) + 4 / (4 * 40.0));       // four corners each: springs in series
