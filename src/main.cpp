@@ -23,10 +23,14 @@
 #include <algorithm>
 #include <cctype>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <system_error>
 
+#include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 namespace {
@@ -109,13 +113,32 @@ CLI::Validator positive(const std::string& what) {
           }, ""};
 }
 
-}  // namespace
+// What was closed leads nowhere: else a file of results would get its number, and what is printed with it.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) == -1 && open("/dev/null", O_RDWR) != descriptor) _exit(elamin::exit_not_converged);
+}
 
-int main(int argc, char** argv) {
-  using namespace elamin;
+// Ctrl-C, kill and a terminal that is closed (not under nohup) stop a run in order; a reader that has gone, as of `| head`, stops nothing.
+void take_signals() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
 
+// The status of a program that has printed all it had to: a standard output that is full is an error, a pipe that nobody reads is none.
+int when_printed(int status) {
+  const bool failed = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !failed) return status;
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  if (poll(&out, 1, 0) > 0 && (out.revents & POLLERR)) return status;
+  std::fputs("elamin: standard output cannot be written, and is not whole\n", stderr);
+  return status == elamin::exit_done ? elamin::exit_not_converged : status;
+}
+
+int answer(int argc, char** argv) {
+  using namespace elamin;
   CLI::App app{description};
   app.allow_extras();                            // they are told in sentences of our own
   app.footer(footer);
@@ -257,7 +280,16 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     return exit_wrong_input;
   } catch (const std::exception& error) {
+    if (dynamic_cast<const std::system_error*>(&error) && std::ferror(stdout)) return exit_not_converged;   // when_printed says why
     fmt::print(stderr, "elamin: {}\n", error.what());
     return exit_not_converged;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  take_signals();
+  return when_printed(answer(argc, argv));
 }

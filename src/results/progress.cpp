@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace elamin {
 namespace {
@@ -14,6 +15,12 @@ constexpr double redraw = 0.05;   // seconds between two drawings of the overwri
 std::size_t letters(const std::string& words) {
   const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };        // a character of UTF-8
   return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), begins));
+}
+
+// What cannot be told must not end the run: whether everything was, the program looks at its end.
+void tell(std::FILE* out, const std::string& words) {
+  std::fputs(words.c_str(), out);
+  std::fflush(out);
 }
 
 std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
@@ -100,8 +107,7 @@ void Progress::wait(const std::string& line, const std::vector<std::string>& pie
 
 void Progress::keep(const std::string& line) {
   if (style_ == Style::silent) return;
-  fmt::print(out_, "{}{}{}\n", pending_ ? "\r" : "", line, style_ == Style::terminal ? "\x1b[K" : "");
-  std::fflush(out_);
+  tell(out_, fmt::format("{}{}{}\n", pending_ ? "\r" : "", line, style_ == Style::terminal ? "\x1b[K" : ""));
   pending_ = false, first_ = false, last_time_ = clock_.seconds();
 }
 
@@ -119,13 +125,12 @@ void Progress::draw(double at, std::vector<Piece> pieces) {
     line += (p.ink ? (ink_.*p.ink)(p.words) : p.words) + "  ", used += wide + 2;
   }
   line.erase(line.find_last_not_of(' ') + 1);
-  fmt::print(out_, "\r{}\x1b[K", line);
-  std::fflush(out_);
+  tell(out_, fmt::format("\r{}\x1b[K", line));
   pending_ = true, first_ = false, last_time_ = now;
 }
 
 void Progress::finish() {
-  if (pending_) fmt::print(out_, "\r\x1b[K"), std::fflush(out_);
+  if (pending_) tell(out_, "\r\x1b[K");
   pending_ = false, style_ = Style::silent;
 }
 

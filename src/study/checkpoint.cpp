@@ -14,13 +14,26 @@
 #include <map>
 
 namespace elamin {
+
+extern const char* const fingerprint_of_sources;                // made by fingerprint.cmake
+
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr double largest_part = 0.01;                           // of the time of a run, that keeping what is carried may take, and writing it
 
+constexpr std::size_t digits = 64;                              // of a SHA-256
+
 std::string first_line() { return fmt::format("elamin {} checkpoint\n", version()); }
+// What its bytes mean depends on the sources, and the bits that follow on the compiler.
+std::string second_line() { return fmt::format("build {}\n", build_fingerprint()); }
+
+std::string text_of(Checkpoint& c) {
+  Archive archive;
+  archive(c.record, c.phase, c.resumed, c.state);
+  return first_line() + second_line() + sha256(archive.bytes()) + "\n" + archive.bytes();
+}
 
 std::string bytes_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
@@ -28,6 +41,8 @@ std::string bytes_of(const std::string& file) {
 }
 
 }  // namespace
+
+std::string build_fingerprint() { return fingerprint_of_sources; }
 
 std::optional<RunRecord> record_of(const Document& document, const std::vector<Setting>& settings, bool report,
                                    const std::vector<std::pair<std::string, std::string>>& inputs) {
@@ -54,8 +69,14 @@ std::optional<Checkpoint> read_checkpoint(const std::string& directory) {
   if (!fs::is_regular_file(file, error)) return {};
   const std::string all = bytes_of(file), first = first_line();
   if (!all.starts_with(first)) throw InputError(fmt::format("{}: is no checkpoint of elamin {}; a run goes on with the version that began it", file, version()));
+  const std::string second = second_line();
+  if (all.compare(first.size(), second.size(), second) != 0)
+    throw InputError(fmt::format("{}: is a checkpoint of another build of elamin {}; a run goes on with the build that began it", file, version()));
+  const std::size_t sum = first.size() + second.size(), begin = sum + digits + 1;
+  if (all.size() < begin || all.compare(sum, digits, sha256(all.substr(begin))) != 0)
+    throw InputError(file + ": is not whole or damaged: its bytes have not the checksum that stands in it; run the problem again");
   Checkpoint c;
-  Archive archive(all.substr(first.size()));
+  Archive archive(all.substr(begin));
   archive(c.record, c.phase, c.resumed, c.state);
   return c;
 }
@@ -63,11 +84,10 @@ std::optional<Checkpoint> read_checkpoint(const std::string& directory) {
 void write_checkpoint(const std::string& directory, Checkpoint c) {
   const fs::path folder = located(c.record.file).parent_path();
   c.record.folder = fs::path(folder).lexically_proximate(located(directory)).string();
-  Archive archive;
-  archive(c.record, c.phase, c.resumed, c.state);
-  if (c.phase == Phase::begun) return write_text(checkpoint_file(directory), first_line() + archive.bytes());
+  const std::string text = text_of(c);
+  if (c.phase == Phase::begun) return write_text(checkpoint_file(directory), text);
   flush_to_disk(directory);
-  write_to_disk(checkpoint_file(directory), first_line() + archive.bytes());
+  write_to_disk(checkpoint_file(directory), text);
 }
 
 void remove_checkpoint(const std::string& directory) {

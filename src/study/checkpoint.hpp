@@ -41,7 +41,10 @@ struct Checkpoint {
   std::string state = {};                                            // of an Archive
 };
 
-/// Nothing where there is none. Throws InputError if it is not whole or of another version of this program.
+/// SHA-256 of all sources, compiler and flags, 64 hexadecimal digits: of equal ones a checkpoint's bytes mean the same and lead to the same bits.
+std::string build_fingerprint();
+
+/// Nothing where there is none. Throws InputError if it is not whole, if its bytes have not the checksum in it, or if it is of another version or build.
 std::optional<Checkpoint> read_checkpoint(const std::string& directory);
 /// `record.folder` is put in: it depends on the directory.
 void write_checkpoint(const std::string& directory, Checkpoint checkpoint);

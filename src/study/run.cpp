@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <thread>
 
@@ -38,7 +39,7 @@ std::string closing(StudyType study, const SingleResult& result, const Ink& ink)
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   const SingleResult result = run_single(run.problem, run.model, {options.directory, options.force, Progress::style_for(stdout, options.quiet), options.record,
                                                                   options.checkpoint, options.resumes});
-  if (!options.quiet) fmt::print("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory);
+  if (!options.quiet) std::fputs(fmt::format("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory).c_str(), stdout);
   else if (result.status != Status::converged) fmt::print(stderr, "{}: {}\n", status_name(result.status), result.why);
   return {exit_status(result), options.directory, result.verdicts};
 }

@@ -240,6 +240,16 @@ TEST_CASE("what cannot go on is refused with a sentence", "[resume]") {
   refused(scratch / "run", "a run goes on with the version that began it");
   scratch.file("run/.elamin.checkpoint", checkpoint.substr(0, checkpoint.size() / 2));
   refused(scratch / "run", "not whole");
+  std::string damaged = checkpoint;
+  damaged[damaged.size() * 2 / 3] ^= 4;
+  scratch.file("run/.elamin.checkpoint", damaged);
+  refused(scratch / "run", "damaged");
+  std::string foreign = checkpoint;
+  const std::size_t build = foreign.find("build ");
+  REQUIRE(build != std::string::npos);
+  foreign[build + 6] = foreign[build + 6] == '0' ? '1' : '0';
+  scratch.file("run/.elamin.checkpoint", foreign);
+  refused(scratch / "run", "a run goes on with the build that began it");
   scratch.file("run/.elamin.checkpoint", checkpoint);
   CHECK(elamin::resume({.directory = scratch / "run", .quiet = true}).exit_status == exit_done);
 }
