@@ -92,7 +92,7 @@ class ScriptMaker {
                            "larger by 2B an angle; package EXTRA-MOLECULE");
     int special = 0;
     for (const auto& s : types_.stages) special = std::max(special, s.special);
-    put("special_bonds lj/coul {} {} {}        # cohesion of pairs 1, 2 and 3 bonds apart; granular contact does not know it: see "
+    put("special_bonds lj {} {} {} coul 1 1 1   # cohesion of pairs 1, 2 and 3 bonds apart; granular contact does not know it: see "
         "pair_coeff", special >= 1 ? 0 : 1,
         special >= 2 ? 0 : 1, special >= 3 ? 0 : 1);
     put("comm_modify vel yes cutoff {}", lammps_number(std::max(3 * longest_bond(), 2 * size)));

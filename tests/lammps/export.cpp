@@ -127,7 +127,7 @@ TEST_CASE("an exported script says walls, contact, supports and loads in LAMMPS'
 
   REQUIRE(elamin_says("export " + root + "tests/lammps/export/cohesion_smooth.toml -o " + scratch / "in.lmp").status == 0);
   const std::string cohesion = text_of(scratch / "in.lmp");
-  CHECK(has(cohesion, "special_bonds lj/coul 0 0 0"));
+  CHECK(has(cohesion, "special_bonds lj 0 0 0 coul 1 1 1"));
   CHECK(has(cohesion, "pair_style hybrid/overlay granular lj/smooth "));
   CHECK(has(cohesion, "pair_modify pair lj/smooth shift yes\n"));
   CHECK(cohesion.find(" lj/smooth 1e-06 0.0009 0.0012 0.0025\n") != std::string::npos);

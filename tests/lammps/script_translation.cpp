@@ -1,5 +1,6 @@
 // Scripts as problem files.
 #include "catch.hpp"
+#include "energy/energy.hpp"
 #include "input/stages.hpp"
 #include "lammps/script_reading.hpp"
 #include "study/program.hpp"
@@ -118,6 +119,104 @@ TEST_CASE("sheets of LAMMPSStructures are kept or mended", "[script]") {
   const ImportedProblem mended = imported(r, 0, {false, true, false});
   CHECK(mended.model.angle_types.at(0).stiffness == 0.25 * 3 * std::sqrt(3.0));
   CHECK(holds(mended.files.notes.at(0).text, "it is mended here"));
+}
+
+TEST_CASE("formulas that are linear in a run's steps become loads and walls with a load factor", "[script]") {
+  const auto all_of = [](const std::string& lines) { return imported(three_in_a_row + "group ends id 1 3\nfix 1 ends nve\n" + lines); };
+  // What acts on a particle at a load factor.
+  const auto force = [](const Model& m, int particle, double lambda) {
+    Vec3 f = Vec3::Zero();
+    for (const Load& l : m.loads)
+      if (std::count(l.particles.begin(), l.particles.end(), particle)) f += l.scaling.at(lambda) * l.force;
+    return f;
+  };
+  ImportedProblem p = all_of("variable f equal ramp(1,3)\nvariable g equal 2*elapsed*dt\nfix a ends addforce v_f 0 v_g\nrun 20\n");
+  INFO(p.files.toml);
+  for (const double lambda : {0.0, 0.25, 1.0}) {
+    CHECK((force(p.model, 0, lambda) - Vec3(1 + 2 * lambda, 0, 20 * lambda)).norm() < 1e-14);
+    CHECK(force(p.model, 1, lambda).isZero(0));
+  }
+  p = all_of("variable g equal ramp(0,9.8)\nfix a all gravity v_g vector 0 0 -2\nrun 20\n");
+  REQUIRE(p.model.gravity.size() == 1);
+  CHECK(p.model.gravity[0].scaling.at(0.5) * p.model.gravity[0].acceleration == Vec3(0, 0, -4.9));
+
+  const ScratchDirectory scratch;                               // each particle its own
+  scratch.file("own.txt", "# forces\n\n2\n3 0.5\n1 -2e-1 # the first\n");
+  const std::string own = three_in_a_row + "group ends id 1 3\nfix 1 ends nve\nvariable own atomfile own.txt\nvariable f atom v_own*ramp(1,2)\n";
+  const ImportedProblem each =
+      imported(script::read_script(scratch.file("own.lmp", own + "variable third equal v_own[3]\nfix all all addforce v_f 0 ${third}\nrun 10\n"), {}));
+  INFO(each.files.toml);
+  for (const double lambda : {0.0, 0.5, 1.0})
+    for (const auto& [particle, x] : {std::pair(0, -0.2), {1, 0.0}, {2, 0.5}})
+      CHECK((force(each.model, particle, lambda) - Vec3(x * (1 + lambda), 0, 0.5)).norm() < 1e-15);
+
+  p = all_of("variable d equal vdisplace(0,0.01)\nvariable r equal 0.5-elaplong*0.01\nregion tube cylinder x 0 0 v_r INF INF side in move NULL v_d NULL\n"
+             "fix w all wall/gran/region granular hertz/material 100 0 0 tangential linear_nohistory 0 0 region tube\nrun 20\nrun 10 start 0 stop 40\n");
+  INFO(p.files.toml);
+  REQUIRE(p.problem.stages.size() == 2);
+  for (const Wall& w : p.model.walls) {                         // both stages: on one line, as the load factor counts time
+    CHECK((w.displacement - Vec3(0, 0.1, 0)).norm() < 1e-15);
+    CHECK(std::abs(w.radius_change + 0.2) < 1e-15);
+    CHECK(std::abs(w.region.radius - 0.5) < 1e-15);
+    CHECK(w.region.center.norm() < 1e-15);
+  }
+
+  const auto wrong = [](const std::string& lines) { return script_mistakes(three_in_a_row + "fix 1 all nve\n" + lines); };
+  for (const auto& [lines, what] : std::vector<std::pair<std::string, std::string>>{
+           {"variable f equal swiggle(0,1,0.5)\nfix a all addforce v_f 0 0\nrun 64\n", "is not linear in the step of this run"},
+           {"variable f equal step%8==4\nfix a all addforce v_f 0 0\nrun 64\n", "is not linear in the step of this run"},
+           {"variable f equal step^2\nfix a all addforce v_f 0 0\nrun 64\n", "is not linear in the step of this run"},
+           {"variable f atom x*2\nfix a all addforce v_f 0 0\nrun 64\n", "depends on where particles are"},
+           {"variable f equal ramp(0,1)\nfix a all addforce v_f 0 0\nminimize 0 0 9 9\n", "which a minimisation does not have"},
+           {"variable r equal ramp(1,-1)\nregion b sphere 0 0 0 v_r\nfix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 9\n",
+            "it must be above 0"},
+           {"variable r equal 1+step\nregion b sphere 0 0 0 v_r\ngroup g region b\nrun 9\n", "moves; where it is is not followed"},
+           {"variable r equal step\nregion b sphere v_r 0 0 1\nrun 9\n", "changes in time"},
+           {"run 10 start 5\n", "5 is out of range"}, {"run 10 stop 5\n", "stops its ramps before it ends"},
+           {"variable own atomfile ../own.txt\n", "lies outside of the script's folder"}}) {
+    INFO(lines);
+    const std::string said = wrong(lines);
+    INFO(said);
+    CHECK(holds(said, what));
+  }
+}
+
+TEST_CASE("a script that runs no steps is a study of energies, with all that is in force", "[script]") {
+  const std::string fixes = "fix m all move linear 1 0 0\nfix w all wall/gran granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 zplane 0 NULL\n"
+                            "fix g all gravity 2 vector 0 0 -3\n";
+  const ImportedProblem p = imported(three_in_a_row + fixes + "run 0\nunfix g\n");
+  INFO(p.files.toml);
+  CHECK(p.problem.study == StudyType::energy);
+  CHECK(p.model.walls.size() == 1);
+  CHECK(p.model.gravity.size() == 1);
+  CHECK(p.model.contacts.size() == 1);
+  CHECK(p.model.supports.at(0).displacement.isZero(0));
+  // What is built behind it is no part of that run: a run to come makes the study.
+  CHECK(imported(three_in_a_row + fixes + "run 0\ncreate_atoms 1 single 0 0.5 0\nunfix m\nfix 1 all nve\nrun 5\n").problem.study == StudyType::equilibrium);
+  CHECK(imported(three_in_a_row + fixes + "run 0\ncreate_atoms 1 single 0 0.5 0\n").model.walls.empty());
+}
+
+TEST_CASE("`none` takes back what was said of a pair, and cohesion may be smooth", "[script]") {
+  const std::string three = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 0.6 0 0\nset group all diameter 0.4\n";
+  const std::string granular = "granular hertz/material 90.0 0 0 tangential linear_nohistory 0 0\n";
+  const auto touches = [&](const std::string& lines) {
+    ImportedProblem p = imported(three + "pair_style hybrid/overlay granular lj/smooth 0.3 0.5\n" + lines + "fix 1 all nve\nrun 1\n");
+    Energy energy(p.model);
+    const EnergyTerms terms = energy.terms(p.model.start);
+    return std::pair(terms.contact, terms.cohesion);
+  };
+  const auto [one, no_cohesion] = touches("pair_coeff * * none\npair_coeff 1 2 " + granular);
+  CHECK(one > 0);
+  CHECK(no_cohesion == 0);
+  CHECK(touches("pair_coeff * * " + granular).first == 2 * one);
+  CHECK(touches("pair_coeff * * " + granular + "pair_coeff 2 3 none\n").first == one);
+  CHECK(touches("pair_coeff * * " + granular + "pair_coeff 2* 2* none\n").first == one);
+  CHECK(touches("pair_coeff * * " + granular + "pair_coeff * * none\n").first == 0);
+  const auto [contact, cohesion] = touches("pair_coeff * * " + granular + "pair_coeff 1 2 lj/smooth 1 0.25\npair_coeff 2 3 none\n");
+  CHECK(contact == one);
+  CHECK(cohesion < 0);
+  CHECK(holds(script_mistakes(three + "pair_style lj/smooth 0.5 0.3\npair_coeff * * 1 0.1\nfix 1 all nve\nrun 1\n"), "inner cutoff that is not between 0 and the cutoff"));
+  CHECK(holds(script_mistakes(three + "pair_style lj/smooth 0.3 0.5\npair_coeff * * 1 0.1 0.2\nfix 1 all nve\nrun 1\n"), "pair_coeff"));
 }
 
 TEST_CASE("runs become stages, with what comes and goes between them", "[script]") {

@@ -470,7 +470,7 @@ void delete_atoms(Interpreter& in) {
   const auto there = static_cast<std::size_t>(std::count_if(w.atoms.begin(), w.atoms.end(), World::there));
   if (count == there && count > 0) {             // nothing is left: what comes is another problem
     in.end_pass();
-    w.atoms.clear(), w.of_id.clear(), w.bonds.clear(), w.angles.clear(), w.runs.clear(), w.sheets.clear(), w.removals.clear();
+    w.atoms.clear(), w.of_id.clear(), w.bonds.clear(), w.angles.clear(), w.runs.clear(), w.still.reset(), w.sheets.clear(), w.removals.clear();
     w.body_file.clear();
     return;
   }

@@ -2,12 +2,47 @@
 #include "lammps/script/interpreter.hpp"
 
 #include "core/suggest.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
 
 namespace elamin::script::command {
+namespace {
+
+/// A file of `ID value` lines behind a line with how many there are; comments and empty lines before that.
+std::map<long long, double> numbers_of_atoms(const Interpreter& in, const std::string& name, std::size_t word) {
+  const std::string text = elamin::read_data(in.path_of(name, word), "file of numbers of atoms");
+  std::istringstream lines{std::string(without_mark(text))};
+  std::map<long long, double> of_id;
+  long long count = -1;
+  const auto wrong = [&](const std::string& what) { throw Wrong(word, in_quotes(name) + ": " + what); };
+  for (std::string line; count != 0 && std::getline(lines, line);) {
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    std::istringstream words(line);
+    std::string more;
+    if (count < 0) {
+      if (!(words >> count) || count < 0 || words >> more) wrong("begins with no number of lines");
+      continue;
+    }
+    long long id = 0;
+    std::string number;
+    if (!(words >> id >> number) || words >> more) wrong("a line is not `ID value`: " + in_quotes(line));
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value)) wrong(in_quotes(number) + " is no number");
+    of_id[id] = value, --count;
+  }
+  if (count != 0) wrong("ends before all its lines have come");
+  return of_id;
+}
+
+}  // namespace
 
 void include(Interpreter& in) {
   in.wants(2, "include FILE", 2);
@@ -121,13 +156,16 @@ void variable(Interpreter& in) {
   } else if (style == "format") {
     in.wants(5, "variable NAME format VARIABLE %g", 5);
     v.style = Variable::Style::format, v.words = rest();
-  } else if (style == "getenv" || style == "file" || style == "atomfile" || style == "world" || style == "universe" || style == "uloop" ||
+  } else if (style == "atomfile") {
+    in.wants(4, "variable NAME atomfile FILE", 4);
+    v.style = Variable::Style::atomfile, v.of_id = numbers_of_atoms(in, in.word(3), 3);
+  } else if (style == "getenv" || style == "file" || style == "world" || style == "universe" || style == "uloop" ||
              style == "python" || style == "internal" || style == "timer" || style == "vector") {
     throw Wrong(
         2, fmt::format("variables of style {} come from outside of the script; write the value itself: variable {} string …", style, name),
         true);
   } else {
-    const std::vector<std::string> known{"index", "loop", "string", "equal", "atom", "format", "delete"};
+    const std::vector<std::string> known{"index", "loop", "string", "equal", "atom", "atomfile", "format", "delete"};
     throw Wrong(2, in_quotes(style) + " is no style of a variable; there are: " + listed(known) + did_you_mean(style, known), true);
   }
   variables[name] = std::move(v);

@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::size_t most_runs = 1000;
 
+/// Whether v_NAME is of style atom or atomfile.
+bool of_atoms(const Interpreter& in, const std::string& formula) {
+  const auto found = in.names.variables.find(formula.substr(2));
+  return found != in.names.variables.end() && found->second.of_atoms();
+}
+
 /// A fix in the making.
 struct Making {
   Interpreter& in;
@@ -22,10 +28,17 @@ struct Making {
 
   /// Word i as a number that does not change in time.
   double constant(std::size_t i) const {
-    bool timed = false;
-    const double v = in.value(i, &timed);
-    if (timed) throw Wrong(i, in_quotes(in.word(i)) + " changes in time, which is not followed", true);
+    Dependence on;
+    const double v = in.value(i, &on);
+    if (on.time) throw Wrong(i, in_quotes(in.word(i)) + " changes in time, which is not followed here", true);
     return v;
+  }
+  /// Word i as a number, or as a formula that every run evaluates anew.
+  double number_or(std::string& formula, std::size_t i, bool each) const {
+    if (!in.word(i).starts_with("v_")) return in.number(i);
+    formula = in.word(i);
+    evaluate(formula, in.world, in.names, i, each && of_atoms(in, formula));
+    return 0;
   }
   double direction(std::size_t i, std::size_t c) {
     if (i < in.size() && in.word(i) == "NULL") {
@@ -54,7 +67,7 @@ struct Making {
   void gravity() {
     in.wants(5, "fix ID GROUP gravity MAGNITUDE vector X Y Z");
     fix.kind = Fix::Kind::gravity;
-    const double g = constant(4);
+    const double g = number_or(fix.formulas[0], 4, false);
     const std::string style = in.size() > 5 ? in.word(5) : "";
     Vec3 d = Vec3::Zero();
     if (style == "vector") {
@@ -68,13 +81,15 @@ struct Making {
       d = Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
     } else throw Wrong(std::min<std::size_t>(5, in.size() - 1), "vector, chute and spherical are taken", true);
     if (!(d.norm() > 0)) throw Wrong(6, "the direction has no length");
-    fix.vector = g * (d / d.norm());
+    fix.direction = d / d.norm();
+    fix.vector = fix.end = g * fix.direction;
   }
 
   void addforce() {
     in.wants(7, "fix ID GROUP addforce FX FY FZ");
     fix.kind = Fix::Kind::force;
-    for (int c = 0; c < 3; ++c) fix.vector[c] = direction(static_cast<std::size_t>(4 + c), static_cast<std::size_t>(c));
+    for (std::size_t c = 0; c < 3; ++c) fix.vector[static_cast<int>(c)] = number_or(fix.formulas[c], 4 + c, true);
+    fix.end = fix.vector;
     if (in.size() > 7) throw Wrong(7, in_quotes(in.word(7)) + " is no keyword of addforce that is taken", true);
   }
 
@@ -120,9 +135,9 @@ struct Making {
     if (found == in.world.regions.end()) throw Wrong(i + 1, in_quotes(in.word(i + 1)) + " is no region");
     if (found->second.kind != ScriptRegion::Kind::shape)
       throw Wrong(i + 1, "a wall of several regions together is not taken; give each its own fix", true);
-    if (found->second.moves) throw Wrong(i + 1, "the region moves; where it goes is not followed", true);
     no_more(i + 2);
     add_wall(found->second.shape, found->second.inside, modulus, "");
+    fix.walls.back().formulas = found->second.formulas;
   }
 
   void no_more(std::size_t i) const {
@@ -270,8 +285,82 @@ namespace {
 
 std::string kind_of(const World& w, std::size_t c) { return w.boundary[c]; }
 
-/// The checks of a run, and its record; then what is known of where things are.
-void record(Interpreter& in, bool minimize, long long steps) {
+/// Where the steps of a run and those of its ramps begin and end.
+struct Span { bool minimize = false; long long steps = 0, before = 0, total = 0; };
+
+/// What v_NAME is (of style atom: of each atom) as a run begins and as it ends; in between it must be linear in the step.
+std::array<std::vector<double>, 2> over_run(Interpreter& in, const std::string& formula, bool each, const Span& span, const std::string& what) {
+  World& w = in.world;
+  struct Leave { World& w; ~Leave() { w.moment = {}; } } leave{w};
+  const auto wrong = [&](const std::string& why) { throw Wrong(0, fmt::format("{}: {} {}", what, in_quotes(formula), why)); };
+  Dependence on;
+  const auto at = [&](long long step) {
+    w.moment = {step, span.before, span.total};
+    const Value v = evaluate(formula, w, in.names, 0, each, &on);
+    const std::vector<double> values = v.each.empty() ? std::vector(each ? w.atoms.size() : 1, v.number) : v.each;
+    if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); })) wrong("is not finite");
+    return values;
+  };
+  const std::vector<double> begin = at(0);
+  if (on.places) wrong("depends on where particles are, which is not followed");
+  if (on.time && span.minimize) wrong("changes in time, which a minimisation does not have");
+  if (!on.time || span.steps == 0) return {begin, begin};
+  const std::vector<double> end = at(span.steps);
+  constexpr int samples = 32;                      // at multiples of the golden ratio: in step with no period of a formula
+  for (int k = 0; k < samples + 2; ++k) {
+    const double golden = 0.6180339887498949 * k;
+    const long long step = k == samples       ? 1
+                           : k == samples + 1 ? span.steps - 1
+                                              : static_cast<long long>((golden - std::floor(golden)) * static_cast<double>(span.steps));
+    const std::vector<double> now = at(step);
+    const double part = static_cast<double>(step) / static_cast<double>(span.steps);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const double line = begin[i] + part * (end[i] - begin[i]), size = std::max({std::abs(begin[i]), std::abs(end[i]), std::abs(now[i])});
+      // Nothing but rounding may be off the line: formulas of a few operations round to some 1e-15 of what goes into them.
+      if (!(std::abs(now[i] - line) <= 1e-10 * size))
+        wrong(fmt::format("is not linear in the step of this run: {} as it begins, {} as it ends, {} at step {} of {}; a load factor takes what "
+                          "is; write several runs, with ramp(A, B) in each",
+                          begin[i], end[i], now[i], step, span.steps));
+    }
+  }
+  return {begin, end};
+}
+
+/// What the formulas of a fix are in this run.
+void evaluate_formulas(Interpreter& in, Run::Active& a, const Span& span) {
+  Fix& f = a.fix;
+  const std::string what = fmt::format("fix {} of line {}", f.id, f.where.line);
+  if (f.kind == Fix::Kind::gravity && !f.formulas[0].empty()) {
+    const auto g = over_run(in, f.formulas[0], false, span, what);
+    f.vector = g[0][0] * f.direction, f.end = g[1][0] * f.direction;
+  }
+  for (std::size_t c = 0; c < 3 && f.kind == Fix::Kind::force; ++c) {
+    if (f.formulas[c].empty()) continue;
+    const auto component = static_cast<Eigen::Index>(c);
+    const bool each = of_atoms(in, f.formulas[c]);
+    const auto values = over_run(in, f.formulas[c], each, span, what);
+    if (!each) {
+      f.vector[component] = values[0][0], f.end[component] = values[1][0];
+      continue;
+    }
+    a.own.resize(a.members.size(), {Vec3::Zero(), Vec3::Zero()});
+    for (std::size_t k = 0; k < a.members.size(); ++k)
+      for (std::size_t end = 0; end < 2; ++end) a.own[k][end][component] = values[end][static_cast<std::size_t>(a.members[k])];
+  }
+  for (Fix::Wall& wall : f.walls)
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (wall.formulas[c].empty()) continue;
+      const auto values = over_run(in, wall.formulas[c], false, span, what + ", its region");
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (c < 3) wall.moved[end][static_cast<Eigen::Index>(c)] = values[end][0];
+        else wall.grown[end] = values[end][0] - wall.region.radius;
+        if (c == 3 && !(values[end][0] > 0)) throw Wrong(0, fmt::format("{}: the radius of its region is {}; it must be above 0", what, values[end][0]));
+      }
+    }
+}
+
+/// The checks of a run, and what is in force in it.
+Run in_force(Interpreter& in, const Span& span) {
   World& w = in.world;
   if (!w.has_box) throw Wrong(0, "stands before create_box or read_data");
   const auto periodic = [&](int c) { return kind_of(w, static_cast<std::size_t>(c)).find('p') != std::string::npos; };
@@ -282,28 +371,22 @@ void record(Interpreter& in, bool minimize, long long steps) {
                  "the box is periodic along {}: elamin has no periodic boxes. Write `boundary f f f` (or s) before the box is made, or "
                  "`change_box all boundary f f f` behind it, with walls or room around what there is",
                  "xyz"[c]));
-  if (steps == 0 && !minimize) return in.ignore("a run of no steps moves nothing");
   Run r;
-  r.where = in.where, r.minimize = minimize, r.steps = steps, r.timestep = w.timestep;
+  r.where = in.where, r.minimize = span.minimize, r.steps = span.steps, r.timestep = w.timestep;
   r.text = in.text();
   for (std::size_t k = 0; k < w.atoms.size(); ++k)
     if (World::there(w.atoms[k])) r.atoms.push_back(static_cast<int>(k));
-  if (r.atoms.empty()) throw Wrong(0, "there is no atom");
+  if (r.atoms.empty() && !r.still()) throw Wrong(0, "there is no atom");
   if (w.runs.size() >= most_runs) throw Wrong(0, fmt::format("is one more than {} runs", most_runs));
-  std::vector<int> moving(w.atoms.size()), driven(w.atoms.size());    // integrated; how many coordinates fix move gives
-  std::vector<Vec3> velocity(w.atoms.size(), Vec3::Zero());
   for (const Fix& f : w.fixes) {
     if (f.kind == Fix::Kind::ignored) continue;
-    Run::Active a{f, {}};
+    Run::Active a{f, {}, {}};
     const int g = w.group(f.group, 0);
-    for (const int k : r.atoms) {
-      const auto i = static_cast<std::size_t>(k);
-      if (!w.in(w.atoms[i], g)) continue;
-      a.members.push_back(k);
-      if (f.kind == Fix::Kind::integrate || f.kind == Fix::Kind::move) moving[i] = 1;
-      if (f.kind == Fix::Kind::move && f.directions == std::array{true, true, true}) driven[i] = 3, velocity[i] = f.vector;
-    }
-    if (!a.members.empty()) r.fixes.push_back(std::move(a));
+    for (const int k : r.atoms)
+      if (w.in(w.atoms[static_cast<std::size_t>(k)], g)) a.members.push_back(k);
+    if (a.members.empty()) continue;
+    evaluate_formulas(in, a, span);
+    r.fixes.push_back(std::move(a));
   }
   r.pairs = w.pairs, r.special_lj = w.special_lj, r.special_coul = w.special_coul;
   const auto coefficients = [&](const auto& list, const std::vector<Coefficient>& all, std::map<int, Coefficient>& to, const char* what) {
@@ -323,16 +406,35 @@ void record(Interpreter& in, bool minimize, long long steps) {
   if (w.unspecial)
     in.note(
         "bonds made with `special no` are not known to LAMMPS's contacts: it lets bonded pairs touch, here they do as special_bonds says");
-  if (minimize) std::fill(moving.begin(), moving.end(), 1);
+  return r;
+}
+
+/// The record of a run; then what is known of where things are.
+void record(Interpreter& in, const Span& span) {
+  World& w = in.world;
+  if (span.steps == 0 && !span.minimize && !w.runs.empty()) return in.ignore("a run of no steps moves nothing");
+  Run r = in_force(in, span);
+  if (r.still()) {                                 // a study only if nothing else is run
+    w.still = std::move(r);
+    return;
+  }
+  std::vector<char> moving(w.atoms.size(), r.minimize), driven(w.atoms.size());    // integrated; fix move gives all coordinates
+  std::vector<Vec3> velocity(w.atoms.size(), Vec3::Zero());
+  for (const Run::Active& a : r.fixes)
+    for (const int k : a.members) {
+      const auto i = static_cast<std::size_t>(k);
+      if (a.fix.kind == Fix::Kind::integrate || a.fix.kind == Fix::Kind::move) moving[i] = 1;
+      if (a.fix.kind == Fix::Kind::move && a.fix.directions == std::array{true, true, true}) driven[i] = 1, velocity[i] = a.fix.vector;
+    }
   for (const int k : r.atoms) {
     const auto i = static_cast<std::size_t>(k);
     Atom& a = w.atoms[i];
     if (a.born == w.run_number()) a.start = a.x;
-    if (driven[i] == 3 && !minimize) a.x += velocity[i] * r.time();
+    if (driven[i] && !r.minimize) a.x += velocity[i] * r.time();
     else if (moving[i]) a.moved = true;
   }
   w.last_run = in.where;
-  w.step += steps, w.time += minimize ? 0 : r.time();
+  w.step += r.steps, w.time += r.minimize ? 0 : r.time();
   w.runs.push_back(std::move(r));
   if (in.after >= in.options.after.size()) return;
   take_positions(in, in.options.after[in.after++]);
@@ -342,27 +444,33 @@ void record(Interpreter& in, bool minimize, long long steps) {
   std::erase_if(w.angles, [](const auto& b) { return b.gone != always; });
   for (auto& b : w.bonds) b.born = 0;
   for (auto& b : w.angles) b.born = 0;
-  w.runs.clear(), w.removals.clear();
+  w.runs.clear(), w.still.reset(), w.removals.clear();
 }
 
 }  // namespace
 
 void run(Interpreter& in) {
   in.wants(2, "run STEPS");
-  long long steps = in.integer(1, 0, 9000000000000000000);
+  constexpr long long most = 1000000000000000000;
+  long long steps = in.integer(1, 0, most), start = in.world.step, stop = -1;
   for (std::size_t i = 2; i < in.size();) {
     const std::string& k = in.word(i);
     if (k == "upto") steps = std::max(0LL, steps - in.world.step), ++i;
-    else if (k == "start" || k == "stop" || k == "pre" || k == "post") i += 2;
+    else if (k == "start") start = in.integer(i + 1, 0, in.world.step), i += 2;
+    else if (k == "stop") stop = in.integer(i + 1, 0, most), i += 2;
+    else if (k == "pre" || k == "post") i += 2;
     else if (k == "every") throw Wrong(i, "commands within a run are not followed; write several runs", true);
     else throw Wrong(i, in_quotes(k) + " is no keyword of run");
   }
-  record(in, false, steps);
+  if (in.world.step > most - steps) throw Wrong(1, "is more steps than can be counted");
+  if (stop < 0) stop = in.world.step + steps;
+  if (stop < in.world.step + steps) throw Wrong(0, "stops its ramps before it ends; stop is a step that it ends at or before");
+  record(in, {false, steps, in.world.step - start, stop - start});
 }
 
 void minimize(Interpreter& in) {
   in.wants(5, "minimize ETOL FTOL ITERATIONS EVALUATIONS", 5);
-  record(in, true, 0);
+  record(in, {true, 0, 0, 0});
 }
 
 }  // namespace elamin::script::command

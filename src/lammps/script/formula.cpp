@@ -25,9 +25,9 @@ bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c =
 
 class Formula {
  public:
-  Formula(const std::string& text, const World& world, const Names& names, std::size_t word, bool each, bool* timed, int& operands,
+  Formula(const std::string& text, const World& world, const Names& names, std::size_t word, bool each, Dependence* on, int& operands,
           int depth = 0)
-      : text_(text), world_(world), names_(names), word_(word), each_(each), timed_(timed), operands_(operands), depth_(depth) {
+      : text_(text), world_(world), names_(names), word_(word), each_(each), on_(on), operands_(operands), depth_(depth) {
     if (depth > most_nested) wrong("goes through too many variables or brackets");
   }
 
@@ -161,7 +161,7 @@ class Formula {
     wrong(fmt::format("'{}' is not closed: {}", open, in_quotes(text_.substr(begin - 1))));
   }
 
-  Value sub(const std::string& formula) { return Formula(formula, world_, names_, word_, each_, timed_, operands_, depth_ + 1).whole(); }
+  Value sub(const std::string& formula) { return Formula(formula, world_, names_, word_, each_, on_, operands_, depth_ + 1).whole(); }
   double sub_number(const std::string& formula) {
     const Value v = sub(formula);
     if (!v.each.empty()) wrong(in_quotes(formula) + " is a number for every atom where one number is wanted");
@@ -186,14 +186,17 @@ class Formula {
     const Variable& v = found->second;
     Value value;
     if (i_ < text_.size() && text_[i_] == '[') {
-      if (v.style != Variable::Style::atom) wrong(in_quotes("v_" + n) + " is not of style atom");
-      const double id = sub_number(arguments('[', ']').front());
-      value.number = Formula(v.words.front(), world_, names_, word_, true, timed_, operands_, depth_ + 1)
-                         .whole()
-                         .at(static_cast<std::size_t>(atom(id)));
+      if (!v.of_atoms()) wrong(in_quotes("v_" + n) + " is not of style atom");
+      const auto i = static_cast<std::size_t>(atom(sub_number(arguments('[', ']').front())));
+      value.number = v.style == Variable::Style::atomfile ? from_file(v, world_.atoms[i])
+                                                          : Formula(v.words.front(), world_, names_, word_, true, on_, operands_, depth_ + 1).whole().at(i);
       return value;
     }
-    if (v.style == Variable::Style::atom && !each_) wrong(in_quotes("v_" + n) + " is of style atom");
+    if (v.of_atoms() && !each_) wrong(in_quotes("v_" + n) + " is of style atom");
+    if (v.style == Variable::Style::atomfile) {
+      for (const Atom& a : world_.atoms) value.each.push_back(from_file(v, a));
+      return value;
+    }
     if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return sub(v.words.front());
     const std::string text = text_of(n, world_, names_);
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);
@@ -217,7 +220,7 @@ class Formula {
       which = static_cast<std::size_t>(std::clamp(sub_number(arguments('[', ']').front()), 1.0, 1e6)) - 1;
     if (which >= c.inputs.size()) wrong(in_quotes(w) + " has not so many values");
     std::string input = c.inputs[which];
-    const Value v = Formula(input, world_, names_, word_, true, timed_, operands_, depth_ + 1).whole();
+    const Value v = Formula(input, world_, names_, word_, true, on_, operands_, depth_ + 1).whole();
     const int group = world_.group(c.group, word_);
     double sum = 0, least = 1e20, most = -1e20, count = 0;
     for (std::size_t k = 0; k < world_.atoms.size(); ++k) {
@@ -231,6 +234,15 @@ class Formula {
     return r;
   }
 
+  static double from_file(const Variable& v, const Atom& a) {
+    const auto at = v.of_id.find(a.id);
+    return at == v.of_id.end() ? 0 : at->second;
+  }
+
+  void placed() const {
+    if (on_) on_->places = true;
+  }
+
   static constexpr const char* vectors[]{"id", "mass", "type", "mol", "x", "y", "z", "vx", "vy", "vz", "radius", "diameter"};
   /// An atom's entry in a vector; false: there is no such vector.
   bool entry(const std::string& w, const Atom& a, double& out) const {
@@ -238,8 +250,8 @@ class Formula {
     else if (w == "mass") out = world_.mass_of(a);
     else if (w == "type") out = a.type;
     else if (w == "mol") out = a.molecule;
-    else if (w == "x" || w == "y" || w == "z") out = world_.at(a)[w[0] - 'x'];
-    else if (w == "vx" || w == "vy" || w == "vz") out = a.v[w[1] - 'x'];
+    else if (w == "x" || w == "y" || w == "z") out = world_.at(a)[w[0] - 'x'], placed();
+    else if (w == "vx" || w == "vy" || w == "vz") out = a.v[w[1] - 'x'], placed();
     else return false;
     return true;
   }
@@ -273,9 +285,10 @@ class Formula {
   }
 
   bool keyword(const std::string& w, double& out) const {
-    if (w == "step") out = static_cast<double>(world_.step);
-    else if (w == "time") out = world_.time;
-    else if (w == "elapsed" || w == "elaplong") out = 0;
+    const World::Moment& m = world_.moment;
+    if (w == "step") out = static_cast<double>(world_.step + m.steps);
+    else if (w == "time") out = world_.time + static_cast<double>(m.steps) * world_.timestep;
+    else if (w == "elapsed" || w == "elaplong") out = static_cast<double>(m.steps + (w == "elaplong" ? m.before : 0));
     else if (w == "dt") out = world_.timestep;
     else if (w == "atoms") out = static_cast<double>(std::count_if(world_.atoms.begin(), world_.atoms.end(), World::there));
     else if (w == "xlo" || w == "ylo" || w == "zlo") out = world_.lo[w[0] - 'x'];
@@ -289,7 +302,7 @@ class Formula {
         if (w == u) needs_forces(word_, w);
       return false;
     }
-    if (timed_ && (w == "step" || w == "time" || w.starts_with("elap"))) *timed_ = true;
+    if (on_ && (w == "step" || w == "time" || w.starts_with("elap"))) on_->time = true;
     return true;
   }
 
@@ -332,21 +345,29 @@ class Formula {
   }
 
   Value in_time(const std::string& w, const std::vector<std::string>& args) {
-    if (timed_) *timed_ = true;
+    if (on_) on_->time = true;
     Value v;
     const auto argument = [&](std::size_t k) {
       if (k >= args.size()) wrong(w + "() has too few arguments");
       return sub_number(args[k]);
     };
-    const double elapsed = 0;                   // since the run began
-    if (w == "ramp" || w == "vdisplace") v.number = argument(0) + (w == "vdisplace" ? argument(1) * elapsed : 0);
-    else v.number = argument(0);
+    const World::Moment& m = world_.moment;
+    const auto gone = static_cast<double>(m.before + m.steps);
+    const double a = argument(0), b = argument(1), elapsed = gone * world_.timestep;
+    if (w == "ramp") v.number = m.total > 0 ? a + gone / static_cast<double>(m.total) * (b - a) : a;
+    else if (w == "vdisplace") v.number = a + b * elapsed;
+    else {
+      const double period = argument(2), phase = 2 * pi * elapsed / period;
+      if (period == 0) wrong(w + "() has a period of 0");
+      v.number = a + b * (w == "swiggle" ? std::sin(phase) : 1 - std::cos(phase));
+    }
     return v;
   }
 
   Value mask(const std::string& w, const std::vector<std::string>& args) {
     if (!each_) wrong(w + "() is of every atom");
     if (args.size() != (w == "grmask" ? 2u : 1u)) wrong(w + "() has not as many arguments as it wants");
+    if (w != "gmask") placed();
     Value v;
     for (const Atom& a : world_.atoms) {
       if (!World::there(a)) {
@@ -378,6 +399,7 @@ class Formula {
       axis = what[0] - 'x';
     if (axis < 0 && (w == "xcm" || w == "bound"))
       wrong(fmt::format("{} is no {}", in_quotes(what), w == "xcm" ? "direction; x, y and z are" : "end; xmin, xmax, ymin, … are"));
+    if (axis >= 0 || !region.empty()) placed();
     double count = 0, mass = 0, moment = 0, least_x = 1e20, most_x = -1e20;
     for (const Atom& a : world_.atoms) {
       if (!World::there(a) || !world_.in(a, group) || (!region.empty() && !world_.matches(region, world_.at(a), word_))) continue;
@@ -400,7 +422,7 @@ class Formula {
   const Names& names_;
   std::size_t word_, i_ = 0;
   bool each_;
-  bool* timed_;
+  Dependence* on_;
   int& operands_;
   int depth_, nested_ = 0;
 };
@@ -497,13 +519,13 @@ class Condition {
 
 }  // namespace
 
-Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each, bool* timed) {
+Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each, Dependence* on) {
   int operands = 0;
-  return Formula(formula, world, names, word, each, timed, operands).whole();
+  return Formula(formula, world, names, word, each, on, operands).whole();
 }
 
-double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, bool* timed) {
-  const double v = evaluate(formula, world, names, word, false, timed).number;
+double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, Dependence* on) {
+  const double v = evaluate(formula, world, names, word, false, on).number;
   if (!std::isfinite(v)) throw Wrong(word, "the formula " + in_quotes(formula) + " is not finite");
   return v;
 }
@@ -545,7 +567,8 @@ std::string text_of(const std::string& name, const World& world, const Names& na
       if (const auto of = names.variables.find(v.words.front()); of == names.variables.end() || of->second.style != Variable::Style::equal)
         throw Wrong(0, in_quotes(name) + " is the format of " + in_quotes(v.words.front()) + ", which is no variable of style equal");
       return formatted(v.words[1], number_of("v_" + v.words.front(), world, names, 0), 0);
-    case Variable::Style::atom: break;
+    case Variable::Style::atom:
+    case Variable::Style::atomfile: break;
   }
   throw Wrong(0, in_quotes(name) + " is of style atom: one number for every atom, which cannot be put into a line");
 }

@@ -10,11 +10,13 @@ namespace elamin::script {
 
 /// A variable as the script has defined it.
 struct Variable {
-  enum class Style { index, loop, string, equal, atom, format } style = Style::equal;
+  enum class Style { index, loop, string, equal, atom, atomfile, format } style = Style::equal;
   std::vector<std::string> words;               // values of index, the string, the formula, variable and format
   long long first = 1, last = 1;                // of a loop
   bool pad = false;
   std::size_t which = 0;                        // of index and loop: the current one, from 0
+  std::map<long long, double> of_id = {};       // of atomfile: a number by atom
+  bool of_atoms() const { return style == Style::atom || style == Style::atomfile; }
 };
 
 /// compute reduce, or another one whose value is not known here.
@@ -35,14 +37,17 @@ struct Value {
   double at(std::size_t i) const { return each.empty() ? number : each[i]; }
 };
 
+/// What the value of a formula depends on, besides numbers.
+struct Dependence { bool time = false, places = false; };
+
 /// What a formula says now. With LAMMPS's operators by rising precedence || |^, &&, == !=, < <= > >=, + −, * / %, ^ (from the left), and
-/// before all of these − and ! of one operand. `each`: an atom-style formula, with x, y, z, id, type, … of every particle. `timed`, if
-/// given, is set if it depends on time. Throws Wrong at `word`, or NeedsPositions.
+/// before all of these − and ! of one operand. `each`: an atom-style formula, with x, y, z, id, type, … of every particle. `on`, if
+/// given, tells what it depends on. Throws Wrong at `word`, or NeedsPositions.
 Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each = false,
-               bool* timed = nullptr);
+               Dependence* on = nullptr);
 
 /// The same of a formula that is one number.
-double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, bool* timed = nullptr);
+double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, Dependence* on = nullptr);
 
 /// What ${name} stands for: numbers with 15 digits. Throws Wrong at word 0.
 std::string text_of(const std::string& name, const World& world, const Names& names);

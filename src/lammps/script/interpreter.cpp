@@ -235,8 +235,8 @@ long long Interpreter::integer(std::size_t i, long long lo, long long hi) const 
   throw Wrong(i, in_quotes(w) + " is not an integer");
 }
 
-double Interpreter::value(std::size_t i, bool* timed) const {
-  if (i < size() && word(i).starts_with("v_")) return number_of(word(i), world, names, i, timed);
+double Interpreter::value(std::size_t i, Dependence* on) const {
+  if (i < size() && word(i).starts_with("v_")) return number_of(word(i), world, names, i, on);
   return number(i);
 }
 
@@ -329,7 +329,7 @@ void Interpreter::execute(const std::string& line_text, const Where& at) {
   }
 }
 
-void Interpreter::begin_file(const std::string& name, std::size_t w, bool returns) {
+std::string Interpreter::path_of(const std::string& name, std::size_t w) const {
   namespace fs = std::filesystem;
   const fs::path root = fs::path(reading.files.front()).parent_path();
   const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : root / name;
@@ -342,8 +342,12 @@ void Interpreter::begin_file(const std::string& name, std::size_t w, bool return
     if (unknown || inner.empty() || *inner.begin() == "..")
       throw Wrong(w, in_quotes(name) + " lies outside of the script's folder; --include-anywhere allows that");
   }
+  return path.string();
+}
+
+void Interpreter::begin_file(const std::string& name, std::size_t w, bool returns) {
+  const std::string shown = path_of(name, w);
   if (frames.size() >= deepest_include) throw Wrong(w, fmt::format("files include each other more than {} deep", deepest_include));
-  const std::string shown = path.string();
   const auto found = std::find(reading.files.begin(), reading.files.end(), shown);
   const int number = static_cast<int>(found - reading.files.begin());
   if (found == reading.files.end()) reading.files.push_back(shown);
@@ -363,6 +367,8 @@ void Interpreter::end_pass() {
   for (const auto& [name, v] : names.variables)
     if (v.style == Variable::Style::loop || v.style == Variable::Style::index) loops[name] = text_of(name, world, names);
   reading.passes.push_back({world, loops, std::nullopt});
+  World& made = reading.passes.back().world;
+  if (!ran && made.still && made.is_of_now(*made.still)) made.runs.push_back(*made.still);
 }
 
 }  // namespace elamin::script

@@ -77,7 +77,7 @@ struct Interpreter {
   double positive(std::size_t i) const;
   long long integer(std::size_t i, long long lo, long long hi) const;
   /// A number, or v_name of an equal-style variable.
-  double value(std::size_t i, bool* timed = nullptr) const;
+  double value(std::size_t i, Dependence* on = nullptr) const;
   bool yes(std::size_t i) const;
   /// `n`, `*`, `n*`, `*n` or `m*n` within 1 … most.
   std::array<int, 2> range(std::size_t i, int most) const;
@@ -86,6 +86,8 @@ struct Interpreter {
 
   void execute(const std::string& line_text, const Where& at);
   void run_command();
+  /// The path of a file that the script names; throws Wrong if it lies where nothing may be read.
+  std::string path_of(const std::string& name, std::size_t word) const;
   void begin_file(const std::string& name, std::size_t word, bool returns);
   void end_pass();
 };

@@ -13,7 +13,8 @@ namespace elamin::script {
 namespace {
 
 bool known_style(const std::string& s) {
-  static constexpr const char* all[]{"granular", "gran/hertz/history", "lj/cut", "body/rounded/polyhedron", "zero", "none"};
+  static constexpr const char* all[]{"granular",  "gran/hertz/history", "lj/cut", "lj/smooth", "body/rounded/polyhedron",
+                                         "zero", "none"};
   return std::any_of(std::begin(all), std::end(all), [&](const char* a) { return s == a; });
 }
 
@@ -27,6 +28,9 @@ PairStyle style_from(const Interpreter& in, std::size_t from, std::size_t to) {
   if (s.name == "lj/cut") {
     wants(1, 1, "its cutoff");
     s.cutoff = in.number(from + 1);
+  } else if (s.name == "lj/smooth") {
+    wants(2, 2, "its inner cutoff, and its cutoff");
+    s.inner_cutoff = in.number(from + 1), s.cutoff = in.number(from + 2);
   } else if (s.name == "gran/hertz/history") {
     wants(6, 7, "Kn Kt gamma_n gamma_t xmu dampflag");
     s.gran_modulus = 0.75 * in.number(from + 1);
@@ -109,14 +113,14 @@ void pair_style(Interpreter& in) {
   in.wants(2, "pair_style STYLE …");
   Pairs p;
   const bool mixed = in.word(1) == "hybrid" || in.word(1) == "hybrid/overlay";
-  p.hybrid = in.word(1) == "hybrid";
+  p.hybrid = in.word(1) == "hybrid", p.overlay = in.word(1) == "hybrid/overlay";
   std::size_t i = mixed ? 2 : 1;
   while (i < in.size()) {
     if (!known_style(in.word(i)))
       throw Wrong(i,
                   in_quotes(in.word(i)) +
-                      " is no pair style that is known here; granular, gran/hertz/history, lj/cut, body/rounded/polyhedron, hybrid "
-                      "and hybrid/overlay of them are",
+                      " is no pair style that is known here; granular, gran/hertz/history, lj/cut, lj/smooth, body/rounded/polyhedron, "
+                      "hybrid and hybrid/overlay of them are",
                   true);
     std::size_t end = i + 1;
     while (end < in.size() && !(mixed && known_style(in.word(end)))) ++end;
@@ -124,23 +128,34 @@ void pair_style(Interpreter& in) {
     i = end;
   }
   if (mixed && p.styles.empty()) throw Wrong(1, "is followed by no style");
-  if (!mixed && p.styles.front().name == "gran/hertz/history") p.styles.front().name = "gran/hertz/history";
+  const auto cohesive = [](const PairStyle& s) { return s.name.starts_with("lj/"); };
+  if (std::count_if(p.styles.begin(), p.styles.end(), cohesive) > 1) throw Wrong(1, "has cohesion of two styles; one is taken", true);
   in.world.pairs = std::move(p);
 }
 
 void pair_modify(Interpreter& in) {
   in.wants(2, "pair_modify KEYWORD …");
-  for (std::size_t i = 1; i < in.size();) {
+  std::size_t first = 1;
+  const std::string of = in.word(1) == "pair" && in.size() > 2 ? in.word(2) : "";
+  if (!of.empty()) {                             // pair STYLE KEYWORD …
+    const auto& styles = in.world.pairs.styles;
+    if (std::none_of(styles.begin(), styles.end(), [&](const PairStyle& s) { return s.name == of; }))
+      throw Wrong(2, in_quotes(of) + " is none of the styles of pair_style");
+    first = 3;
+  }
+  for (std::size_t i = first; i < in.size();) {
     const std::string& k = in.word(i);
     if (i + 1 >= in.size()) throw Wrong(i, in_quotes(k) + " is followed by nothing");
     if (k == "shift") {
-      for (PairStyle& s : in.world.pairs.styles) s.shift = in.yes(i + 1);
+      for (PairStyle& s : in.world.pairs.styles)
+        if (of.empty() || s.name == of) s.shift = in.yes(i + 1);
     } else if (k == "mix") {
       const std::string& m = in.word(i + 1);
       if (m != "geometric" && m != "arithmetic" && m != "sixthpower")
         throw Wrong(i + 1, in_quotes(m) + " is no way of mixing; geometric, arithmetic and sixthpower are");
       for (PairStyle& s : in.world.pairs.styles)
-        s.mix = m == "geometric" ? PairStyle::Mix::geometric : m == "arithmetic" ? PairStyle::Mix::arithmetic : PairStyle::Mix::sixthpower;
+        if (of.empty() || s.name == of)
+          s.mix = m == "geometric" ? PairStyle::Mix::geometric : m == "arithmetic" ? PairStyle::Mix::arithmetic : PairStyle::Mix::sixthpower;
     } else if (k != "tail" && k != "table" && k != "compute")
       throw Wrong(i, in_quotes(k) + " is no keyword of pair_modify that is taken; shift and mix are", true);
     else if (k == "tail" && in.yes(i + 1)) throw Wrong(i, "corrections for a cut tail are of periodic boxes", true);
@@ -161,7 +176,7 @@ void pair_coeff(Interpreter& in) {
   if (w.pairs.styles.empty()) throw Wrong(0, "stands before pair_style");
   std::size_t i = 3;
   const PairStyle* style = &w.pairs.styles.front();
-  if (w.pairs.styles.size() > 1 || (in.size() > 3 && in.word(3) == style->name)) {
+  if (w.pairs.hybrid || w.pairs.overlay || (in.size() > 3 && in.word(3) == style->name)) {
     in.wants(4, "pair_coeff TYPES TYPES STYLE …");
     if (in.word(3) == "none") style = nullptr;
     else {
@@ -193,6 +208,14 @@ void pair_coeff(Interpreter& in) {
     c.epsilon = in.number(i), c.sigma = in.number(i + 1), c.cutoff = in.size() > i + 2 ? in.number(i + 2) : style->cutoff;
     if (c.epsilon < 0 || c.sigma < 0 || c.cutoff < 0) throw Wrong(i, "a number is negative; 0 or more is taken");
     end = std::min(in.size(), i + 3);
+  } else if (name == "lj/smooth") {
+    c.law = PairCoefficient::Law::lj;
+    const bool own = in.size() > i + 2;
+    c.epsilon = in.number(i), c.sigma = in.number(i + 1);
+    c.inner_cutoff = own ? in.number(i + 2) : style->inner_cutoff, c.cutoff = own ? in.number(i + 3) : style->cutoff;
+    if (c.epsilon < 0 || c.sigma < 0) throw Wrong(i, "a number is negative; 0 or more is taken");
+    if (!(c.inner_cutoff > 0) || !(c.cutoff > c.inner_cutoff)) throw Wrong(i, "has an inner cutoff that is not between 0 and the cutoff");
+    end = own ? i + 4 : i + 2;
   } else if (name == "body/rounded/polyhedron") {
     c.law = PairCoefficient::Law::rounded;
     c.k_n = in.number(i), c.k_na = in.number(i + 1);
@@ -201,16 +224,24 @@ void pair_coeff(Interpreter& in) {
   } else end = i;                                // zero, none
   if (end != in.size() && name != "zero" && name != "none")
     throw Wrong(end, fmt::format("{} is no word of pair_coeff for {} that is known here", in_quotes(in.word(end)), name), true);
-  if (w.pairs.hybrid || name == "none") {        // one style a pair: others are forgotten
-    std::erase_if(w.pairs.coefficients, [&](const PairCoefficient& o) {
-      return o.law != c.law && c.first[0] <= o.first[0] && o.first[1] <= c.first[1] && c.second[0] <= o.second[0] &&
-             o.second[1] <= c.second[1];
-    });
-    for (const PairCoefficient& o : w.pairs.coefficients)
-      for (int a = c.first[0]; a <= c.first[1] && o.law != c.law && o.law != PairCoefficient::Law::none && a - c.first[0] < 1000; ++a)
-        for (int b = std::max(a, c.second[0]); b <= c.second[1] && b - c.second[0] < 1000; ++b)
-          if (o.covers(a, b))
-            throw Wrong(1, fmt::format("types {} {} have another style already; write each pair of types once", a, b), true);
+  if (name == "none" || w.pairs.hybrid) {        // of these pairs what was said before is taken back
+    using Law = PairCoefficient::Law;
+    for (const Law law : {Law::hertz, Law::lj, Law::rounded}) {
+      if (law == c.law) continue;
+      const auto meets = [&](const PairCoefficient& o) {         // both speak of a pair I ≤ J
+        const int least = std::max(c.first[0], o.first[0]), most = std::min(c.second[1], o.second[1]);
+        return least <= std::min(c.first[1], o.first[1]) && std::max(c.second[0], o.second[0]) <= most && least <= most;
+      };
+      auto& all = w.pairs.coefficients;
+      std::erase_if(all, [&](const PairCoefficient& o) {
+        return o.law == law && c.first[0] <= o.first[0] && o.first[1] <= c.first[1] && c.second[0] <= o.second[0] && o.second[1] <= c.second[1];
+      });
+      if (std::none_of(all.begin(), all.end(), [&](const PairCoefficient& o) { return o.law == law && meets(o); })) continue;
+      PairCoefficient nothing;                   // a law without force over them
+      nothing.law = law, nothing.first = c.first, nothing.second = c.second, nothing.where = c.where, nothing.text = c.text;
+      if (law == Law::hertz) nothing.effective_modulus = 0;
+      all.push_back(nothing);
+    }
   }
   // A later line holds; what it covers altogether is forgotten.
   std::erase_if(w.pairs.coefficients,

@@ -120,6 +120,19 @@ void region(Interpreter& in) {
     if (in.size() < 3 + n) throw Wrong(in.size() - 1, fmt::format("a region of style {} has {} numbers", style, n));
     next = 3 + n;
   };
+  const auto fixed = [&](std::size_t i) {
+    Dependence on;
+    const double v = in.value(i, &on);
+    if (on.time) throw Wrong(i, in_quotes(in.word(i)) + " changes in time, which is followed of radii and of `move` alone", true);
+    return v;
+  };
+  const auto radius_at = [&](std::size_t i) {     // a variable of style equal is evaluated by every run
+    if (in.word(i).starts_with("v_")) r.formulas[3] = in.word(i);
+    Dependence on;
+    const double radius = in.value(i, &on);
+    r.moves = on.time || on.places;
+    return radius;
+  };
   const auto along = [&](std::size_t lo_at) {    // ends along the axis
     s.axial_lo = coordinate(in, lo_at, s.axis, false), s.axial_hi = coordinate(in, lo_at + 1, s.axis, true);
     if (s.axial_lo > s.axial_hi) throw Wrong(lo_at, "the region ends before it begins");
@@ -127,7 +140,7 @@ void region(Interpreter& in) {
   const auto on_axis = [&] {
     s.axis = axis_of(in, 3);
     const int a = s.axis == 0 ? 1 : 0, b = s.axis == 2 ? 1 : 2;
-    s.center[a] = in.value(4), s.center[b] = in.value(5);
+    s.center[a] = fixed(4), s.center[b] = fixed(5);
   };
   if (style == "block") {
     numbers(6);
@@ -141,7 +154,7 @@ void region(Interpreter& in) {
     numbers(6);
     s.shape = Shape::cylinder;
     on_axis();
-    s.radius = in.value(6);
+    s.radius = radius_at(6);
     along(7);
   } else if (style == "cone") {
     numbers(7);
@@ -153,7 +166,7 @@ void region(Interpreter& in) {
   } else if (style == "sphere") {
     numbers(4);
     s.shape = Shape::sphere;
-    s.center = Vec3(in.value(3), in.value(4), in.value(5)), s.radius = in.value(6);
+    s.center = Vec3(fixed(3), fixed(4), fixed(5)), s.radius = radius_at(6);
   } else if (style == "plane") {
     numbers(6);
     s.shape = Shape::plane;
@@ -185,11 +198,17 @@ void region(Interpreter& in) {
       if (r.kind != ScriptRegion::Kind::shape || s.shape == Shape::sphere || s.shape == Shape::plane)
         throw Wrong(i, "is of blocks, cylinders and cones");
       s.open[static_cast<std::size_t>(in.integer(i + 1, 1, block ? 6 : 3) - 1)] = true, i += 2;
-    } else if (k == "move" && i + 3 < in.size()) r.moves = true, i += 4;
-    else if (k == "rotate" || k == "move") throw Wrong(i, "turning regions are not followed", true);
+    } else if (k == "move" && i + 3 < in.size()) {
+      r.moves = true;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const std::string& by = in.word(i + 1 + c); by.starts_with("v_")) r.formulas[c] = by;
+        else if (by != "NULL") throw Wrong(i + 1 + c, in_quotes(by) + " is neither v_NAME of a variable nor NULL");
+      i += 4;
+    } else if (k == "rotate" || k == "move") throw Wrong(i, "turning regions are not followed", true);
     else throw Wrong(i, in_quotes(k) + " is no keyword of a region; side, units, open and move are", true);
   }
   if (!box_units && w.lattice != 1 && r.kind == ScriptRegion::Kind::shape) {
+    if (r.formulas != std::array<std::string, 4>{}) throw Wrong(0, "moves or grows in units of a lattice; units box are taken", true);
     for (Vec3* v : {&s.center, &s.lo, &s.hi}) *v *= w.lattice;
     for (double* d : {&s.axial_lo, &s.axial_hi, &s.radius, &s.radius_lo, &s.radius_hi}) *d *= w.lattice;
   }

@@ -198,11 +198,11 @@ class Translation {
       const Run::Active& a = run.fixes[f];
       const bool moves = a.fix.kind == Fix::Kind::move;
       if (a.fix.kind != Fix::Kind::hold && !(moves && !run.minimize)) continue;
-      if (!moves && a.fix.style == "freeze" && false) continue;
       for (const int i : a.members) {
         auto& list = held[static_cast<std::size_t>(i)];
         if (!list.empty() && list[0].fix < 0 && !moves) continue;
-        const Vec3 v = moves ? a.fix.vector : run.minimize || a.fix.style == "freeze" ? Vec3(Vec3::Zero()) : atom(i).v;
+        const bool stands = run.still() || run.minimize || (!moves && a.fix.style == "freeze");
+        const Vec3 v = stands ? Vec3(Vec3::Zero()) : moves ? a.fix.vector : atom(i).v;
         for (Held& h : list)                    // the later fix has the last word
           for (std::size_t c = 0; c < 3; ++c)
             if (a.fix.directions[c]) h.directions[c] = false, h.velocity[static_cast<Eigen::Index>(c)] = 0;
@@ -223,8 +223,12 @@ class Translation {
       for (const Held& h : held[static_cast<std::size_t>(i)]) by[h].push_back(i);
     bool drives = false;
     for (const auto& [h, members] : by) drives = drives || !h.velocity.isZero(0);
+    for (const Run::Active& a : run.fixes) drives = drives || varies(a);
     driven_.push_back(drives);
     if (drives && unit_time_ == 0) unit_time_ = run.time();
+    const double begin = at_, end = drives ? begin + run.time() / unit_time_ : begin;
+    along_.push_back(drives ? std::array{begin, end} : std::array{0.0, 1.0});
+    at_ = end;
     for (const auto& [h, members] : by) {
       const Fix* fix = h.fix < 0 ? nullptr : &run.fixes[static_cast<std::size_t>(h.fix)].fix;
       const std::string group = group_of(members, fix ? fix->group : "still", k);
@@ -263,22 +267,66 @@ class Translation {
     }
   }
 
+  /// Whether the run changes what the fix does.
+  static bool varies(const Run::Active& a) {
+    return (a.fix.vector != a.fix.end && a.fix.kind != Fix::Kind::move) ||
+           std::any_of(a.own.begin(), a.own.end(), [](const auto& f) { return f[0] != f[1]; }) ||
+           std::any_of(a.fix.walls.begin(), a.fix.walls.end(),
+                       [](const Fix::Wall& w) { return w.moved[0] != w.moved[1] || w.grown[0] != w.grown[1]; });
+  }
+
+  /// What goes from one value to another during a run, as a constant part and what the load factor scales.
+  struct Parts { Vec3 fixed, rate; };
+  Parts parts(int k, const Vec3& begin, const Vec3& end) const {
+    const auto [from, to] = along_[static_cast<std::size_t>(k)];
+    Parts p{begin, (end - begin) / (to - from)};
+    if (from == 0) return p;
+    p.fixed -= from * p.rate;
+    for (int c = 0; c < 3; ++c)                   // the difference is rounding alone: three operations
+      if (std::abs(p.fixed[c]) <= 2e-15 * std::max(std::abs(begin[c]), std::abs(end[c]))) p.fixed[c] = 0;
+    return p;
+  }
+
   void load(int k, const Run::Active& a) {
-    if (a.fix.vector.isZero(0)) return;
+    if (options_.dynamics && varies(a))
+      refuse(a.fix.where, "fix", fmt::format("{} changes in time, which a motion (--dynamics) does not follow", a.fix.id));
+    if (a.own.empty()) return load_on(k, a, a.members, a.fix.vector, a.fix.end, a.fix.group);
+    constexpr std::size_t most_loads = 5000;
+    std::map<std::array<double, 6>, Members> by;
+    for (std::size_t i = 0; i < a.own.size(); ++i) {
+      std::array<double, 6> key{};
+      for (int c = 0; c < 6; ++c) {
+        const Vec3 whole = (c < 3 ? a.fix.vector : a.fix.end) + a.own[i][c < 3 ? 0 : 1];
+        key[static_cast<std::size_t>(c)] = whole[c % 3];
+      }
+      by[key].push_back(a.members[i]);
+    }
+    if (by.size() > most_loads)
+      refuse(a.fix.where, "fix", fmt::format("{} has {} different forces; at most {} become loads", a.fix.id, by.size(), most_loads));
+    for (const auto& [f, members] : by)
+      load_on(k, a, members, Vec3(f[0], f[1], f[2]), Vec3(f[3], f[4], f[5]), by.size() == 1 ? a.fix.group : a.fix.id + "_part");
+  }
+
+  void load_on(int k, const Run::Active& a, const Members& members, const Vec3& begin, const Vec3& end, const std::string& wanted) {
     const bool gravity = a.fix.kind == Fix::Kind::gravity;
-    put(k, {gravity ? "gravity" : "load",
-            a.fix.id,
-            fmt::format("group = \"{}\"\n{} = {}\n{}", group_of(a.members, a.fix.group, k), gravity ? "acceleration" : "force",
-                        vec(a.fix.vector), gravity ? "" : "constant = true\n"),
-            a.fix.where,
-            a.fix.text,
-            a.fix.serial,
-            {}});
+    const Parts p = begin == end ? Parts{begin, Vec3::Zero()} : parts(k, begin, end);
+    for (const bool constant : {true, false}) {
+      const Vec3& v = constant ? p.fixed : p.rate;
+      if (v.isZero(0)) continue;
+      const char* key = gravity == constant ? "" : constant ? "constant = true\n" : "constant = false\n";
+      put(k, {gravity ? "gravity" : "load", a.fix.id,
+              fmt::format("group = \"{}\"\n{} = {}\n{}", group_of(members, wanted, k), gravity ? "acceleration" : "force", vec(v), key),
+              a.fix.where, a.fix.text, a.fix.serial, {}});
+    }
   }
 
   void wall(int k, const Run::Active& a) {
-    for (const Fix::Wall& w : a.fix.walls) {
+    if (options_.dynamics && varies(a))
+      refuse(a.fix.where, "fix", fmt::format("the region of {} moves, which a motion (--dynamics) does not follow", a.fix.id));
+    for (Fix::Wall w : a.fix.walls) {
       if (w.effective_modulus == 0 && a.fix.body.empty()) continue;
+      const Region defined = w.region;
+      w.region = defined.moved(w.moved[0], w.grown[0]);
       // Of regions LAMMPS lets those feel nothing that are on the other side; planes of wall/gran push them away, there too.
       Members members, beyond;
       for (const int i : a.members) {
@@ -291,10 +339,10 @@ class Translation {
                                       "are left out of its group",
                                       beyond.size(), a.members.size()));
       if (!members.empty())
-        one_wall(k, a, w, w.inside, a.fix.id + w.suffix,
+        one_wall(k, a, w, defined, w.inside, a.fix.id + w.suffix,
                  beyond.empty() ? group_of(members, a.fix.group, k) : group_of(members, a.fix.id + w.suffix + "_before", k));
       if (!beyond.empty() && either)
-        one_wall(k, a, w, !w.inside, a.fix.id + w.suffix + "_back", group_of(beyond, a.fix.id + w.suffix + "_behind", k));
+        one_wall(k, a, w, defined, !w.inside, a.fix.id + w.suffix + "_back", group_of(beyond, a.fix.id + w.suffix + "_behind", k));
       if (w.region.shape == Shape::cone && w.region.radius_lo != w.region.radius_hi)
         note(a.fix.where,
              "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
@@ -305,12 +353,21 @@ class Translation {
     }
   }
 
-  void one_wall(int k, const Run::Active& a, const Fix::Wall& w, bool inside, const std::string& name, const std::string& group) {
-    std::string body = fmt::format("group = \"{}\"\n", group) + region_text(w.region, inside);
+  void one_wall(int k, const Run::Active& a, const Fix::Wall& w, const Region& defined, bool inside, const std::string& name,
+                const std::string& group) {
+    std::string body = fmt::format("group = \"{}\"\n", group), travel;
+    if (w.moved[0] == w.moved[1] && w.grown[0] == w.grown[1]) body += region_text(w.region, inside);
+    else {
+      const Parts way = parts(k, w.moved[0], w.moved[1]), growth = parts(k, Vec3(w.grown[0], 0, 0), Vec3(w.grown[1], 0, 0));
+      body += region_text(defined.moved(way.fixed, growth.fixed[0]), inside);
+      if (!way.rate.isZero(0)) travel += fmt::format("displacement = {}\n", vec(way.rate));
+      if (growth.rate[0] != 0) travel += fmt::format("radius_change = {}\n", growth.rate[0]);
+    }
     const bool round = w.region.shape != Shape::plane && w.region.shape != Shape::block;
     if (a.fix.body.empty())
       body += fmt::format("effective_modulus = {}\n", w.effective_modulus) + (round ? "effective_radius = \"curved\"\n" : "");
     else body += a.fix.body + (options_.dynamics ? "formulation = \"lammps\"\n" : "");
+    body += travel;
     if (options_.dynamics) body += a.fix.damping;
     put(k, {"wall", name, body, a.fix.where, a.fix.text, a.fix.serial, {}});
   }
@@ -365,7 +422,8 @@ class Translation {
       if (options_.dynamics) keys += c.damping;
     } else if (c.law == Law::lj) {
       keys = fmt::format("law = \"lj\"\nepsilon = {}\nsigma = {}\ncutoff = {}\n", c.epsilon, c.sigma, c.cutoff);
-      if (style.shift) keys += "cutoff_style = \"shifted\"\n";
+      if (c.inner_cutoff > 0) keys += fmt::format("cutoff_style = \"smooth\"\ninner_cutoff = {}\n", c.inner_cutoff);
+      else if (style.shift) keys += "cutoff_style = \"shifted\"\n";
     } else {
       keys = fmt::format("law = \"rounded\"\nk_n = {}\nk_na = {}\ncutoff = {}\n", c.k_n, c.k_na, style.cut_inner);
       if (options_.dynamics)
@@ -424,9 +482,11 @@ class Translation {
       const PairStyle* style = style_of(run, c.law);
       const std::string keys = contact_keys(shown, *style, run);
       if (c.law == Law::lj && !nothing(c) && !style->shift)
-        note(c.where,
-             "the energy of this cohesion jumps where it is cut off, as LAMMPS's does (cutoff_style = \"cut\"); \"shifted\" and \"smooth\" "
-             "do not");
+        note(c.where, c.inner_cutoff > 0
+                          ? "the energy of this cohesion is 0 at the cutoff; LAMMPS's is that with `pair_modify shift yes`, else it differs by a "
+                            "constant of each pair. Forces are the same"
+                          : "the energy of this cohesion jumps where it is cut off, as LAMMPS's does (cutoff_style = \"cut\"); \"shifted\" "
+                            "and \"smooth\" do not");
       const auto add = [&](const std::vector<int>& a, const std::vector<int>& b) {
         put(k, {"contact",
                 "",
@@ -453,7 +513,7 @@ class Translation {
   static const PairStyle* style_of(const Run& run, PairCoefficient::Law law) {
     using Law = PairCoefficient::Law;
     for (const PairStyle& s : run.pairs.styles)
-      if ((law == Law::lj) == (s.name == "lj/cut") && (law == Law::rounded) == s.name.starts_with("body")) return &s;
+      if ((law == Law::lj) == s.name.starts_with("lj/") && (law == Law::rounded) == s.name.starts_with("body")) return &s;
     return &run.pairs.styles.front();
   }
 
@@ -472,7 +532,10 @@ class Translation {
       const PairStyle& style = *style_of(run, law);
       for (std::size_t a = 0; a < types.size(); ++a)
         for (std::size_t b = a + 1; b < types.size(); ++b) {
+          const auto named = [&](const PairCoefficient& c) { return c.covers(types[a], types[b]); };
+          const auto& said = run.pairs.coefficients;
           if (last(types[a], types[b])) continue;
+          if ((run.pairs.hybrid || run.pairs.overlay) && std::any_of(said.begin(), said.end(), named)) continue;   // of any style, or none
           const PairCoefficient *p = last(types[a], types[a]), *q = last(types[b], types[b]);
           if (!p || !q) continue;
           PairCoefficient m = *q;
@@ -494,8 +557,11 @@ class Translation {
               const double s = std::pow(p->sigma, 6) + std::pow(q->sigma, 6);
               m.epsilon = s > 0 ? 2 * std::sqrt(p->epsilon * q->epsilon) * std::pow(p->sigma * q->sigma, 3) / s : 0;
               m.sigma = std::pow(s / 2, 1.0 / 6), m.cutoff = std::pow((std::pow(p->cutoff, 6) + std::pow(q->cutoff, 6)) / 2, 1.0 / 6);
-            } else
+              m.inner_cutoff = std::pow((std::pow(p->inner_cutoff, 6) + std::pow(q->inner_cutoff, 6)) / 2, 1.0 / 6);
+            } else {
               m.epsilon = std::sqrt(p->epsilon * q->epsilon), m.sigma = mean(p->sigma, q->sigma), m.cutoff = mean(p->cutoff, q->cutoff);
+              m.inner_cutoff = mean(p->inner_cutoff, q->inner_cutoff);
+            }
           } else m.k_n = std::sqrt(p->k_n * q->k_n), m.k_na = std::sqrt(p->k_na * q->k_na);
           all.push_back(std::move(m));
         }
@@ -568,15 +634,18 @@ class Translation {
     if (particles_.bodies() > 0 || particles_.particles() == 0) return -1;
     for (int c = 0; c < 3; ++c) {
       const double at = atom(particles_.atoms().front()).start[c];
-      const auto keeps = [&](const Fix& f) {
-        if (f.kind == Fix::Kind::gravity || f.kind == Fix::Kind::force || f.kind == Fix::Kind::move) return f.vector[c] == 0;
+      const auto keeps = [&](const Run::Active& a) {
+        const Fix& f = a.fix;
+        if (f.kind == Fix::Kind::gravity || f.kind == Fix::Kind::force || f.kind == Fix::Kind::move)
+          return f.vector[c] == 0 && f.end[c] == 0 &&
+                 std::all_of(a.own.begin(), a.own.end(), [&](const auto& own) { return own[0][c] == 0 && own[1][c] == 0; });
         return f.kind != Fix::Kind::wall ||
                std::all_of(f.walls.begin(), f.walls.end(), [&](const Fix::Wall& w) { return symmetric(w, c, at); });
       };
       bool flat = std::all_of(particles_.atoms().begin(), particles_.atoms().end(),
                               [&](int i) { return atom(i).start[c] == at && atom(i).v[c] == 0; });
       for (const Run& run : world_.runs)
-        flat = flat && std::all_of(run.fixes.begin(), run.fixes.end(), [&](const Run::Active& a) { return keeps(a.fix); });
+        flat = flat && std::all_of(run.fixes.begin(), run.fixes.end(), [&](const Run::Active& a) { return keeps(a); });
       if (flat) return c;
     }
     return -1;
@@ -584,6 +653,7 @@ class Translation {
 
   /// Whether a wall pushes nothing out of the plane x_c = at.
   bool symmetric(const Fix::Wall& w, int c, double at) const {
+    if (w.moved[0][c] != 0 || w.moved[1][c] != 0) return false;
     const Region& r = w.region;
     double most = 0;
     for (const int i : particles_.atoms()) most = std::max(most, atom(i).diameter / 2);
@@ -668,6 +738,8 @@ class Translation {
   std::string study() {
     std::string t;
     if (world_.runs.empty()) return "\n[study]                          # the script runs nothing\ntype = \"energy\"\n";
+    if (world_.runs.front().still())
+      return fmt::format("\n# {} {}\n[study]\ntype = \"energy\"\n", reading_.short_place(world_.runs.front().where), world_.runs.front().text);
     if (options_.dynamics) {
       const Run& run = world_.runs.front();
       if (!start_from.empty()) t += fmt::format("\n[path]\nstart = \"{}\"\n", escaped(start_from));
@@ -689,7 +761,6 @@ class Translation {
       return t + observations();
     }
     t += "\n[path]\nsteps = 100\nwhen_unstable = \"jump\"\n";
-    double at = 0;
     for (int k = 0; k < runs(); ++k) {
       const Run& run = world_.runs[static_cast<std::size_t>(k)];
       t += fmt::format("\n# {} {}\n[[stage]]\nname = \"{}\"\n", reading_.short_place(run.where), run.text, stage(k));
@@ -698,9 +769,8 @@ class Translation {
         t += "from = 0\nto = 1\nsteps = 1\n";
         continue;
       }
-      const double to = at + run.time() / unit_time_;
-      t += fmt::format("from = {}\nto = {}                            # 1: {} of LAMMPS's time\n", at, to, unit_time_);
-      at = to;
+      const auto [from, to] = along_[static_cast<std::size_t>(k)];
+      t += fmt::format("from = {}\nto = {}                            # 1: {} of LAMMPS's time\n", from, to, unit_time_);
     }
     return t + observations();
   }
@@ -725,7 +795,8 @@ class Translation {
   std::set<std::string> names_;
   std::string group_text_, presence_text_;
   std::vector<bool> driven_;                    // of each run
-  double unit_time_ = 0;                        // of load factor 1
+  double unit_time_ = 0, at_ = 0;               // of load factor 1; the load factor behind the last driven run
+  std::vector<std::array<double, 2>> along_;    // the load factor as each run begins and ends
   std::map<int, std::vector<std::string>> off_;
   std::set<std::pair<std::string, char>> observed_;
   std::map<int, double> stiffer_;

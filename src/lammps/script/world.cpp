@@ -53,6 +53,16 @@ bool World::matches(const std::string& name, const Vec3& x, std::size_t word, in
   return within == r.inside;
 }
 
+bool World::is_of_now(const Run& run) const {
+  std::vector<int> now;
+  for (std::size_t k = 0; k < atoms.size(); ++k)
+    if (there(atoms[k])) now.push_back(static_cast<int>(k));
+  const auto known = [](const auto& glue, const std::map<int, Coefficient>& types) {
+    return std::all_of(glue.begin(), glue.end(), [&](const auto& g) { return g.gone != always || types.count(g.type); });
+  };
+  return now == run.atoms && known(bonds, run.bonds) && known(angles, run.angles);
+}
+
 int World::with_id(long long id, std::size_t word) const {
   if (id >= 1 && id < static_cast<long long>(of_id.size()) && of_id[static_cast<std::size_t>(id)] >= 0)
     return of_id[static_cast<std::size_t>(id)];

@@ -45,6 +45,7 @@ struct ScriptRegion {
   enum class Kind { shape, unite, intersect } kind = Kind::shape;
   Region shape;
   bool inside = true, moves = false;
+  std::array<std::string, 4> formulas;           // v_NAME of how far it has moved, and of its radius; "": not at all, a number
   std::vector<std::string> parts;
   std::string words;                             // as in the script
   Where where;
@@ -64,6 +65,7 @@ struct PairCoefficient {
   double youngs_modulus = 0, poissons_ratio = 0; // hertz of a material …
   std::optional<double> effective_modulus;       // … or E_eff itself
   double epsilon = 0, sigma = 0, cutoff = 0;     // lj
+  double inner_cutoff = 0;                       // of lj/smooth
   double k_n = 0, k_na = 0;                      // rounded
   std::string damping;                           // keys of [[contact]] for dynamics, lines
   Where where;
@@ -76,7 +78,7 @@ struct PairCoefficient {
 
 struct PairStyle {
   std::string name;                              // "granular"
-  double cutoff = 0;                             // of lj/cut: global
+  double cutoff = 0, inner_cutoff = 0;           // of lj/cut and lj/smooth: global
   bool shift = false;                            // pair_modify shift yes
   enum class Mix { geometric, arithmetic, sixthpower } mix = Mix::geometric;
   double c_n = 0, c_t = 0, mu = 0, delta_ua = 1, cut_inner = 0;   // body/rounded/polyhedron
@@ -86,7 +88,7 @@ struct PairStyle {
 
 /// What pair_style and pair_coeff have said so far.
 struct Pairs {
-  bool hybrid = false;
+  bool hybrid = false, overlay = false;          // one style a pair; or several
   std::vector<PairStyle> styles;
   std::vector<PairCoefficient> coefficients;
 };
@@ -99,29 +101,45 @@ struct Fix {
   Where where;
   std::string text;                              // the command
   std::array<bool, 3> directions{true, true, true};   // move, hold: which coordinates
-  Vec3 vector = Vec3::Zero();                    // velocity of move; acceleration; force
+  Vec3 vector = Vec3::Zero();                    // velocity of move; acceleration, force as a run begins
+  Vec3 end = Vec3::Zero();                       // acceleration, force as it ends
+  std::array<std::string, 3> formulas;           // v_NAME of the force's components, of gravity of its size in [0]; "": numbers
+  Vec3 direction = Vec3::Zero();                 // of gravity
   double coefficient = 0;                        // viscous
-  struct Wall { Region region; bool inside = true, curved = true; double effective_modulus = 0; std::string suffix; };
+  struct Wall {
+    Region region;                               // as it is defined
+    bool inside = true, curved = true;
+    double effective_modulus = 0;
+    std::string suffix;
+    std::array<std::string, 4> formulas = {};    // of its displacement and its radius, as of a region
+    std::array<Vec3, 2> moved = {Vec3::Zero(), Vec3::Zero()};   // as a run begins, and ends
+    std::array<double, 2> grown{};               // ΔR of its radius
+  };
   std::vector<Wall> walls;
   std::string damping;                           // keys of [[wall]] for dynamics
   std::string body;                              // keys of [[wall]] of bodies
   bool trap_modulus = false;                     // E/(2(1 − ν)) of hertz/material
 };
 
-/// A run or minimisation of more than no steps, and what was in force then.
+/// A run or minimisation, and what was in force then.
 struct Run {
   Where where;
   std::string text;
   bool minimize = false;
   long long steps = 0;
   double timestep = 0;
-  struct Active { Fix fix; std::vector<int> members; };   // indices of atoms, ascending
+  struct Active {
+    Fix fix;
+    std::vector<int> members;                    // indices of atoms, ascending
+    std::vector<std::array<Vec3, 2>> own;        // force on each of them as the run begins and ends, unless empty
+  };
   std::vector<Active> fixes;
   std::vector<int> atoms;                        // that are there
   Pairs pairs;
   std::map<int, Coefficient> bonds, angles;      // of the types in use
   std::array<double, 3> special_lj{}, special_coul{};
   double time() const { return static_cast<double>(steps) * timestep; }
+  bool still() const { return steps == 0 && !minimize; }         // forces and energies alone
 };
 
 /// Glue that delete_bonds has taken away behind a run.
@@ -146,6 +164,8 @@ struct World {
   double lattice = 1;
   long long step = 0;
   double time = 0;
+  /// How far a run has come, for formulas: its steps, and the share of the way of ramp().
+  struct Moment { long long steps = 0, before = 0, total = 0; } moment;
   // The box.
   bool has_box = false;
   Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
@@ -163,7 +183,8 @@ struct World {
   std::vector<Fix> fixes;
   int fix_serial = 0;
   std::string body_file;                         // the data file that bodies are from
-  std::vector<Run> runs;
+  std::vector<Run> runs;                         // that move something
+  std::optional<Run> still;                      // the last `run 0` before them
   std::vector<Removal> removals;
   Where last_run;                                // that has moved particles
   bool unspecial = false;                        // some bonds were made with `special no`
@@ -181,6 +202,8 @@ struct World {
   const Vec3& at(const Atom& a) const;
   /// Whether x is in a region; throws Wrong if there is none of that name.
   bool matches(const std::string& region, const Vec3& x, std::size_t word, int depth = 0) const;
+  /// Whether what there is has not changed since the run was recorded.
+  bool is_of_now(const Run& run) const;
   /// Index of the particle with that id; throws Wrong if there is none.
   int with_id(long long id, std::size_t word) const;
   /// A new particle with the next id.
