@@ -20,3 +20,19 @@ name = "top"
 of = "column"
 last = 2
 )";
+
+/// Its clamps pushed together by twice the shortening at which it buckles.
+inline const std::string pressed_column = column_and_ends + R"([[support]]
+group = "bottom"
+[[support]]
+group = "top"
+displacement = [0, 0, -0.4e-3]
+)";
+
+/// … with how far it goes sideways as z.
+inline const std::string pressed_column_observed = pressed_column + R"([[observe]]
+name = "z"
+group = "column"
+quantity = "displacement.x"
+reduce = "max"
+)";

@@ -87,17 +87,7 @@ std::set<std::string> compare_restarts(const std::string& text, const std::strin
 
 std::string problem(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
 
-const std::string resumed_column = column_and_ends + R"(
-[[support]]
-group = "bottom"
-[[support]]
-group = "top"
-displacement = [0, 0, -0.4e-3]
-[[observe]]
-name = "z"
-group = "column"
-quantity = "displacement.x"
-reduce = "max"
+const std::string resumed_column = pressed_column_observed + R"(
 [path]
 steps = 10
 [[expect]]

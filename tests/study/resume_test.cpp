@@ -113,28 +113,15 @@ void compare_stopped(const std::string& text, int stops, double checkpoint = at_
 
 std::string example(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
 
-const std::string pressed_column = column_and_ends + R"(
-[[support]]
-group = "bottom"
-[[support]]
-group = "top"
-displacement = [0, 0, -0.4e-3]
-[[observe]]
-name = "z"
-group = "column"
-quantity = "displacement.x"
-reduce = "max"
-)";
-
 }  // namespace
 
 TEST_CASE("load steps that are stopped go on with the same bits: snaps, films, eigenvalues, user events", "[resume]") {
-  compare_stopped(pressed_column + "[path]\nsteps = 40\nframes = 5\neigenvalues = 2\n[[event]]\nname = \"far\"\nobservable = \"z\"\nvalue = 1e-3\n", 6, always);
+  compare_stopped(pressed_column_observed + "[path]\nsteps = 40\nframes = 5\neigenvalues = 2\n[[event]]\nname = \"far\"\nobservable = \"z\"\nvalue = 1e-3\n", 6, always);
   compare_stopped(truss + "[path]\nsteps = 30\nto = 0.1\n", 4);
 }
 
 TEST_CASE("arc length with side branches, deflation and limit points goes on with the same bits", "[resume]") {
-  compare_stopped(pressed_column + "[path]\nmethod = \"arc_length\"\nsteps = 15\nbranches = 1\nframes = 6\n", 6);
+  compare_stopped(pressed_column_observed + "[path]\nmethod = \"arc_length\"\nsteps = 15\nbranches = 1\nframes = 6\n", 6);
   compare_stopped(example("truss_tall"), 5);
   compare_stopped(truss + "[path]\nsteps = 10\nto = 0.1\ndeflate = 2\n", 3);
 }
@@ -157,8 +144,8 @@ TEST_CASE("motions go on with the same bits: grains, bodies, friction, films", "
 }
 
 TEST_CASE("a sweep goes on with the runs that are left, a bisection too", "[resume]") {
-  compare_stopped(pressed_column + "[path]\nsteps = 8\n[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [10, 12, 14, 16]\n", 5);
-  compare_stopped(pressed_column + "[path]\nsteps = 4\n[[sweep]]\nkey = \"support.2.displacement.3\"\nbetween = [-0.1e-3, -0.4e-3]\n"
+  compare_stopped(pressed_column_observed + "[path]\nsteps = 8\n[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [10, 12, 14, 16]\n", 5);
+  compare_stopped(pressed_column_observed + "[path]\nsteps = 4\n[[sweep]]\nkey = \"support.2.displacement.3\"\nbetween = [-0.1e-3, -0.4e-3]\n"
                                    "bisect = \"z\"\nat = \"final\"\nlevel = 0.5e-3\ntolerance = 1e-5\n", 4);
 }
 
@@ -188,7 +175,7 @@ int killed_after(std::vector<std::string> arguments, double seconds) {
 
 TEST_CASE("a program that is killed at any moment goes on with the same bits", "[resume][kills]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("p.toml", pressed_column + "[path]\nsteps = 60\nframes = 4\n");
+  const std::string file = scratch.file("p.toml", pressed_column_observed + "[path]\nsteps = 60\nframes = 4\n");
   const auto run = [&](const std::string& directory) { return std::vector<std::string>{file, "-o", scratch / directory, "--quiet", "--threads", "1", "--checkpoint", "0"}; };
   REQUIRE(killed_after(run("whole"), 60) == exit_done);
   std::mt19937 random(3);

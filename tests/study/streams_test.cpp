@@ -16,15 +16,7 @@
 
 namespace {
 
-const std::string printing_column = column_and_ends + R"(
-[[support]]
-group = "bottom"
-[[support]]
-group = "top"
-displacement = [0, 0, -0.4e-3]
-[path]
-steps = 10
-)";
+const std::string printing_column = pressed_column + "[path]\nsteps = 10\n";
 
 /// Runs `elamin ARGUMENTS` through bash, with what follows them there; the status.
 int status_of(const std::string& arguments, const std::string& more) {
