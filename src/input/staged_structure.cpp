@@ -98,9 +98,10 @@ void hold_absent(const std::vector<bool>& absent, Model& model, const State& now
   Support still;
   still.scaling = Scaling(0, 0);
   still.constrained_rotations = {true, true, true};
-  const auto carried = [&](int p) { return std::any_of(model.glued.begin(), model.glued.end(), [&](const Glued& g) { return g.particle == p; }); };
+  std::vector<bool> carried(model.particles());                  // their body is held
+  for (const Glued& g : model.glued) carried[g.particle] = true;
   for (int p = 0; p < model.particles(); ++p)
-    if (absent[p] && !carried(p)) still.particles.push_back(p), still.reference.push_back(now.at(p));
+    if (absent[p] && !carried[p]) still.particles.push_back(p), still.reference.push_back(now.at(p));
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
     if (gone_body(b)) still.bodies.push_back(b), still.body_reference.push_back(now.bodies[b]);
   model.supports.push_back(std::move(still));

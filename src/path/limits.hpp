@@ -78,9 +78,9 @@ namespace load_steps {
 constexpr int first_detour = 3, next_detour = 6;  // halvings after which the branch is explored in arc length, and every so many more
 constexpr int longest_detour = 400;  // its steps
 constexpr double past_contact = 0.01;  // of a step: where the tangent behind a contact is taken
-constexpr int patience = 32;  // steps that are refused, of a path that may snap and whose contacts nobody asks for, …
-constexpr int caught = patience;  // … as many as one counts for that is refused where what floats is caught: steps do not tell how …
-constexpr double creep = 1.0 / 64;  // … on less than this part of a step
+constexpr int patience = 32;  // steps that are refused, of a path that may snap and whose contacts nobody asks for, on less than …
+constexpr double creep = 1.0 / 64;  // … this part of a step
+constexpr int caught = patience;  // what counts for as many: one step, refused where what floats is caught, as shorter ones would be, too
 constexpr int fine = 6;  // halvings after which bends are no reason to halve again
 constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents at both ends
 }

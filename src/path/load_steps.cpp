@@ -56,7 +56,8 @@ std::optional<Waypoint> LoadSteps::next() {
       if (std::optional<Candidate> c = meet(grid_.next())) return accept(std::move(*c));
       const bool caught = (current_.pushed || current_.point.state.load_factor == met_) && way_is_free(grid_.next());
       patience_.refused += caught ? load_steps::caught : contacts_ ? 0 : 1;
-      if (!(caught && patience_.most > 0) && grid_.halvings() >= load_steps::first_detour && (grid_.halvings() - load_steps::first_detour) % load_steps::next_detour == 0) {
+      const int since_detour = grid_.halvings() - load_steps::first_detour;
+      if (!(caught && patience_.most > 0) && since_detour >= 0 && since_detour % load_steps::next_detour == 0) {
         set_out_on_detour();
         continue;
       }
@@ -72,10 +73,13 @@ std::optional<Waypoint> LoadSteps::next() {
 
 // Right behind a branch point its critical modes are free, or held where that leads to another branch.
 std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& why) {
-  if (at_contact_ && current_.point.state.load_factor != met_) current_ = past_contact(load_steps::past_contact * std::abs(target - current_.point.state.load_factor));
+  const double here = current_.point.state.load_factor;
+  if (at_contact_ && here != met_) current_ = past_contact(load_steps::past_contact * std::abs(target - here));
   at_contact_ = false;
   std::optional<Candidate> c = reach_load(current_, target, why, correct_);
-  if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !(current_.slack && c->e.slack) && !current_.pushed && !c->e.pushed && bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
+  const bool pushed = c && ((current_.slack && c->e.slack) || current_.pushed || c->e.pushed);
+  if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !pushed &&
+      bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;

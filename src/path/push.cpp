@@ -52,7 +52,8 @@ Report push_aside(Newton& newton, const State& from, double way, double others, 
     const Vector step = -factor.solve(force);
     if (!step.allFinite()) return report;
     // Where rounding of what bodies do to each other is more than the ground bears, it moves nothing.
-    const bool stands = (others > 0 || energy.slack()) && energy.relative(energy.gradient()) <= newton.tolerance() && infinity_norm(step) <= exact * infinity_norm(moved);
+    const bool stands = (others > 0 || energy.slack()) && energy.relative(energy.gradient()) <= newton.tolerance() &&
+                        infinity_norm(step) <= exact * infinity_norm(moved);
     if (done || stands) {
       report.status = Status::converged, report.why = "what floats is pushed";
       break;

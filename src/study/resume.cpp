@@ -52,12 +52,16 @@ StoppedRuns stopped_runs(const std::string& directory) {
   return runs;
 }
 
+bool sweep_has_ended(const std::string& directory) {
+  std::error_code error;
+  return fs::exists(fs::path(directory) / "sweep.csv", error) && !fs::exists(checkpoint_file(directory), error);
+}
+
 RunResult resume(const ResumeOptions& options) {
   require_directory(options.directory);
   const bool ended = has_ended(options.directory);
-  std::error_code error;
   if (ended) remove_checkpoint(options.directory);              // it may have been killed before it could
-  if (ended || (!fs::exists(checkpoint_file(options.directory), error) && fs::exists(fs::path(options.directory) / "sweep.csv", error))) {
+  if (ended || sweep_has_ended(options.directory)) {
     if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
     return {exit_done, options.directory, {}};
   }

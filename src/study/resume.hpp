@@ -16,6 +16,9 @@ struct ResumeOptions {
 /// not what it was.
 RunResult resume(const ResumeOptions& options);
 
+/// Whether all runs of a sweep have ended: its table is there and nothing is left to go on from.
+bool sweep_has_ended(const std::string& directory);
+
 /// What was asked for in a directory where not all of it is done yet, read and built again. Throws InputError as resume does.
 struct StoppedRuns {
   RunRecord record;

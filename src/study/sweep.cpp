@@ -117,6 +117,10 @@ std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<Prep
   return results;
 }
 
+std::size_t ended(const std::vector<std::optional<SingleResult>>& results) {
+  return static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [](const auto& r) { return r.has_value(); }));
+}
+
 Row sweep_row_of(const PreparedRun& run, const SingleResult& result, const Problem& first) {
   return sweep_row(swept_values(run), status_name(result.status), result.path, result.events, first);
 }
@@ -149,10 +153,9 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   const auto results = run_side_by_side(runs, all, options, [&](std::size_t k, const SingleResult& result) {
     table.add(static_cast<int>(k), sweep_row_of(runs[k], result, first));
   });
-  const auto finished = std::count_if(results.begin(), results.end(), [](const auto& r) { return r.has_value(); });
-  if (finished == std::ssize(runs) && !interrupted()) remove_checkpoint(options.directory);
+  if (ended(results) == runs.size() && !interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
-    fmt::print("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", finished, runs.size(), watch.seconds(), options.directory);
+    fmt::print("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", ended(results), runs.size(), watch.seconds(), options.directory);
   return result_of_runs(prepared, results, options.directory);
 }
 

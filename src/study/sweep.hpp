@@ -37,6 +37,9 @@ std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<Prep
                                                           const RunOptions& options,
                                                           const std::function<void(std::size_t, const SingleResult&)>& ended = {});
 
+/// How many there are.
+std::size_t ended(const std::vector<std::optional<SingleResult>>& results);
+
 /// The row of a run in sweep.csv. first: the problem of the first run.
 Row sweep_row_of(const PreparedRun& run, const SingleResult& result, const Problem& first);
 

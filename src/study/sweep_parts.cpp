@@ -68,19 +68,18 @@ RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& given) 
   const auto results = run_side_by_side(prepared.runs, own, options);
   RunResult all = result_of_runs(prepared, results, options.directory);
   if (!options.quiet)
-    fmt::print("{} of {} runs of part {}/{} in {:.2f} s\n", std::count_if(results.begin(), results.end(), [](const auto& r) { return r.has_value(); }),
-               own.size(), options.part->number, options.part->of, watch.seconds());
+    fmt::print("{} of {} runs of part {}/{} in {:.2f} s\n", ended(results), own.size(),
+               options.part->number, options.part->of, watch.seconds());
   return all;
 }
 
 RunResult collect(const CollectOptions& options) {
-  std::error_code error;
-  const bool has_table = fs::exists(fs::path(options.directory) / "sweep.csv", error), more = fs::exists(checkpoint_file(options.directory), error);
-  if (!more && !has_table) throw InputError(options.directory + ": is not the directory of a sweep that was run in parts");
-  if (!more) {
+  if (sweep_has_ended(options.directory)) {
     if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
     return {exit_done, options.directory, {}};
   }
+  if (std::error_code error; !fs::exists(checkpoint_file(options.directory), error))
+    throw InputError(options.directory + ": is not the directory of a sweep that was run in parts");
   const StoppedRuns stopped = stopped_runs(options.directory);
   const std::vector<PreparedRun>& runs = stopped.prepared.runs;
   if (!is_sweep(stopped.prepared)) throw InputError(options.directory + ": is one run, not a sweep; elamin resume goes on with it");
@@ -107,7 +106,7 @@ RunResult collect(const CollectOptions& options) {
     fmt::print(stderr, "{}: {} of {} runs have not ended: {}{}; run their parts again, then collect\n", options.directory, missing.size(), runs.size(),
                fmt::join(shown, ", "), missing.size() > shown.size() ? ", …" : "");
   }
-  if (!options.quiet) fmt::print("{} of {} runs\nwritten: {}/sweep.csv\n", runs.size() - missing.size(), runs.size(), options.directory);
+  if (!options.quiet) fmt::print("{} of {} runs\nwritten: {}/sweep.csv\n", ended(results), runs.size(), options.directory);
   return all;
 }
 
