@@ -1,16 +1,12 @@
 // Problems through LAMMPS's script and back: the same energies, forces, loads, driven ends and walls.
 #include "catch.hpp"
-#include "energy/energy.hpp"
-#include "input/stages.hpp"
 #include "lammps/script_reading.hpp"
-#include "study/imperfection.hpp"
+#include "lammps/stage_walk.hpp"
 #include "study/program.hpp"
-#include "study/trace.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 using namespace elamin;
 
@@ -47,49 +43,6 @@ std::vector<std::string> problem_files() {
   return files;
 }
 
-/// Stage after stage of a problem, without the tails of positions that no data file has.
-class Walk {
- public:
-  explicit Walk(const Problem& problem) : problem_(problem), stages_(problem), all_(model_of(problem)) {
-    Energy whole(all_);
-    now_ = State(starting_state(problem, whole).position);
-    path_ = problem.study == StudyType::path;
-  }
-  int count() const { return path_ ? stages_.count() : 1; }
-  void enter() {
-    if (stages_.next() > 0) {
-      energy_->kinematics().prescribe(now_, to_);
-      stages_.leave(to_);
-    }
-    std::string unclear;
-    const bool first = stages_.next() == 0;
-    const Stage stage = stages_.enter(unclear);
-    from_ = !path_ || first ? starting_load_factor(problem_) : stage.path.from;
-    to_ = path_ ? stage.path.to : from_;
-    energy_.reset();
-    model_ = model_in(problem_, stage, all_, now_);
-    energy_.emplace(model_);
-  }
-  struct There { Field position, forces; EnergyTerms terms; };
-  /// That part of the way into the stage.
-  There at(double part) {
-    State state = now_;
-    energy_->kinematics().prescribe(state, from_ + part * (to_ - from_));
-    const EnergyTerms terms = energy_->terms(state);
-    return {state.position, energy_->forces(state).leftCols(energy_->model().particles()), terms};
-  }
-  const Model& model() const { return model_; }
-
- private:
-  const Problem& problem_;
-  Stages stages_;
-  Model all_, model_;
-  State now_;                              // driven ends where the stages before have left them, all else at the start
-  std::optional<Energy> energy_;
-  bool path_ = false;
-  double from_ = 0, to_ = 0;
-};
-
 /// Drag on each particle.
 std::vector<double> drag(const Model& m) {
   std::vector<double> all(static_cast<std::size_t>(m.particles()));
@@ -123,7 +76,7 @@ TEST_CASE("what is exported and imported has the same energies and forces at eac
     INFO(made.toml);
     scratch.file("p.data", made.data);
     const Problem back = read_problem(scratch.file("p.toml", made.toml));
-    Walk ours(problem), theirs(back);
+    StageWalk ours(problem), theirs(back);
     REQUIRE(ours.count() == theirs.count());
     for (int k = 0; k < ours.count(); ++k) {
       INFO("stage " << k);
@@ -137,7 +90,7 @@ TEST_CASE("what is exported and imported has the same energies and forces at eac
       }
       for (const double part : {0.0, 0.5, 1.0}) {
         INFO("part " << part);
-        const Walk::There a = ours.at(part), b = theirs.at(part);
+        const StageWalk::There a = ours.at(part), b = theirs.at(part);
         // ε of places, as driven ends go by way of velocities, and of rest angles, by way of degrees; K and B make forces of it.
         const double eps = 2.3e-16, far = a.position.cwiseAbs().maxCoeff();
         double K = 0, B = 0, count = static_cast<double>(m.bonds.size() + m.angles.size());

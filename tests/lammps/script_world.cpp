@@ -3,6 +3,7 @@
 #include "energy/energy.hpp"
 #include "input/stages.hpp"
 #include "lammps/script_reading.hpp"
+#include "lammps/stage_walk.hpp"
 
 #include <fstream>
 #include <map>
@@ -42,6 +43,33 @@ TEST_CASE("forces of the first state of a script are LAMMPS's", "[script]") {
     }
     CHECK(held == c.held);
     CHECK(off < 1e-12 * largest);
+  }
+}
+
+TEST_CASE("forces are LAMMPS's while variables change loads and walls", "[script]") {
+  const Reading reading = script::read_script(lammps_scripts + "formulas.lmp", {});
+  const ScratchDirectory scratch;
+  const script::Translated made = script::translated(reading, reading.passes.at(0), {}, "p.data");
+  INFO(made.toml);
+  scratch.file("p.data", made.data);
+  const Problem problem = read_problem(scratch.file("p.toml", made.toml));
+  std::map<int, std::map<int, Vec3>> expected;                  // by step and id
+  std::ifstream in(lammps_scripts + "formulas.forces");
+  for (int step, id; in >> step >> id;) {
+    Vec3& f = expected[step][id];
+    in >> f[0] >> f[1] >> f[2];
+  }
+  StageWalk walk(problem);
+  REQUIRE(walk.count() == 2);
+  for (int run = 0; run < 2; ++run) {
+    walk.enter();
+    for (const int half : {0, 1, 2}) {
+      const int step = 20 * run + 10 * half;
+      INFO("step " << step);
+      const Field f = walk.at(half / 2.0).forces;
+      REQUIRE(f.cols() == 3);
+      for (int i = 0; i < 3; ++i) CHECK((f.col(i) - expected.at(step).at(walk.model().id[i])).norm() < 1e-12 * 20);   // the largest is 20
+    }
   }
 }
 

@@ -277,8 +277,18 @@ class Translation {
 
   /// What goes from one value to another during a run, as a constant part and what the load factor scales.
   struct Parts { Vec3 fixed, rate; };
-  Parts parts(int k, const Vec3& begin, const Vec3& end) const {
+  /// Of a fix that goes on along the line of an earlier run, the same parts, so that its table goes on, too.
+  Parts parts(int k, const Fix& fix, const Vec3& begin, const Vec3& end) {
     const auto [from, to] = along_[static_cast<std::size_t>(k)];
+    const auto ends_at = [&](const Parts& p, double at, const Vec3& value) {
+      const double size = (p.fixed.cwiseAbs() + at * p.rate.cwiseAbs()).maxCoeff();
+      return (p.fixed + at * p.rate - value).cwiseAbs().maxCoeff() <= 8e-15 * size;   // rounding of a formula and of this
+    };
+    for (const Parts& p : lines_[fix.serial])
+      if (ends_at(p, from, begin) && ends_at(p, to, end)) return p;
+    return lines_[fix.serial].emplace_back(line(from, to, begin, end));
+  }
+  static Parts line(double from, double to, const Vec3& begin, const Vec3& end) {
     Parts p{begin, (end - begin) / (to - from)};
     if (from == 0) return p;
     p.fixed -= from * p.rate;
@@ -309,7 +319,7 @@ class Translation {
 
   void load_on(int k, const Run::Active& a, const Members& members, const Vec3& begin, const Vec3& end, const std::string& wanted) {
     const bool gravity = a.fix.kind == Fix::Kind::gravity;
-    const Parts p = begin == end ? Parts{begin, Vec3::Zero()} : parts(k, begin, end);
+    const Parts p = begin == end ? Parts{begin, Vec3::Zero()} : parts(k, a.fix, begin, end);
     for (const bool constant : {true, false}) {
       const Vec3& v = constant ? p.fixed : p.rate;
       if (v.isZero(0)) continue;
@@ -358,7 +368,7 @@ class Translation {
     std::string body = fmt::format("group = \"{}\"\n", group), travel;
     if (w.moved[0] == w.moved[1] && w.grown[0] == w.grown[1]) body += region_text(w.region, inside);
     else {
-      const Parts way = parts(k, w.moved[0], w.moved[1]), growth = parts(k, Vec3(w.grown[0], 0, 0), Vec3(w.grown[1], 0, 0));
+      const Parts way = parts(k, a.fix, w.moved[0], w.moved[1]), growth = parts(k, a.fix, Vec3(w.grown[0], 0, 0), Vec3(w.grown[1], 0, 0));
       body += region_text(defined.moved(way.fixed, growth.fixed[0]), inside);
       if (!way.rate.isZero(0)) travel += fmt::format("displacement = {}\n", vec(way.rate));
       if (growth.rate[0] != 0) travel += fmt::format("radius_change = {}\n", growth.rate[0]);
@@ -797,6 +807,7 @@ class Translation {
   std::vector<bool> driven_;                    // of each run
   double unit_time_ = 0, at_ = 0;               // of load factor 1; the load factor behind the last driven run
   std::vector<std::array<double, 2>> along_;    // the load factor as each run begins and ends
+  std::map<int, std::vector<Parts>> lines_;     // by the fix's serial
   std::map<int, std::vector<std::string>> off_;
   std::set<std::pair<std::string, char>> observed_;
   std::map<int, double> stiffer_;
