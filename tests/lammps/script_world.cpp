@@ -170,7 +170,7 @@ TEST_CASE("what lies outside of the script's folder is not read", "[script]") {
   std::filesystem::create_directories(scratch / "inner");
   scratch.file("secret.txt", "create_atoms 1 single 0 0 0\n");
   std::filesystem::create_symlink(scratch / "secret.txt", scratch / "inner/link.txt");
-  for (const std::string name : {std::string("../secret.txt"), scratch / "secret.txt", std::string("link.txt"), std::string("./a/../../secret.txt")}) {
+  for (const std::string& name : {std::string("../secret.txt"), scratch / "secret.txt", std::string("link.txt"), std::string("./a/../../secret.txt")}) {
     const std::string file = scratch.file("inner/in.lmp", small_script_head + "include " + name + "\n");
     CHECK_THROWS_WITH(script::read_script(file, {}), Catch::Matchers::Contains("lies outside of the script's folder"));
   }
