@@ -88,7 +88,9 @@ class Energy {
   /// What that is taken to be at least, for where there is no force: rounding of what is stiffest.
   double force_floor() const { return force_floor_; }
   /// Whether nothing at the evaluated state bears a force: particles overlap by less than 1e-15 of their size then, bodies by 1e-12.
-  bool slack() const { return force_scale_ <= nothing * force_floor_; }
+  bool slack() const { return force_scale_ <= no_force(); }
+  /// A force that counts as none.
+  double no_force() const { return nothing * force_floor_; }
   /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
   double relative(const Vector& force) const;
 

@@ -71,6 +71,8 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
   least_length_ = std::min(metric_.length, arc_steps::least_length * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
   shortest_ = options_.shortest > 0 ? options_.shortest : arc_steps::least_part * step_;
+  for (const double stop : options_.stops)                      // where it begins it need not stop
+    if (stands_at(current_, stop)) last_stop_ = stop;
 }
 
 void ArcSteps::carry(Archive& archive) {
@@ -263,13 +265,20 @@ double ArcSteps::next_load(double part) const {
   return next;
 }
 
+// Whether it is a stop but for rounding, which may put it on either side.
+bool ArcSteps::stands_at(const Equilibrium& e, double stop) const {
+  const double here = e.point.state.load_factor;
+  return std::abs(here - stop) <= arc_steps::load_rounding * std::max({std::abs(here), std::abs(stop), options_.load_step});
+}
+
 // The first of the load factors to stop at, exactly there.
 void ArcSteps::find_stop(Segment segment, Candidate& c) {
   const double from = current_.point.state.load_factor, to = c.e.point.state.load_factor;
   std::optional<double> first;
   for (const double stop : options_.stops) {
     if (last_stop_ && stop == *last_stop_) continue;
-    if ((from - stop) * (to - stop) > 0 || from == stop) continue;
+    const bool crosses = (from - stop) * (to - stop) <= 0;
+    if (!crosses && !stands_at(current_, stop) && !(c.events.empty() && stands_at(c.e, stop))) continue;
     if (!first || std::abs(stop - from) < std::abs(*first - from)) first = stop;
   }
   if (!first) return;
@@ -278,8 +287,8 @@ void ArcSteps::find_stop(Segment segment, Candidate& c) {
   Equilibrium e = at_load(near ? near->at : c.e, *first);
   if (!e.point.report.converged()) return;
   const double s = segment.parameter(e.point.state);
-  if (s < 0 || s > c.parameter * (1 + 1e-6)) return;
-  c.parameter = s, c.e = std::move(e), c.events.clear(), c.stop = first;
+  if (s < -arc_steps::standing * c.parameter || s > c.parameter * (1 + arc_steps::standing)) return;
+  c.parameter = std::max(s, 0.0), c.e = std::move(e), c.events.clear(), c.stop = first;
 }
 
 // The equilibrium at a load factor, from one that is near: as load steps find it, with what is neutral in its phase, or, where no step of the load

@@ -64,6 +64,7 @@ constexpr int most_shifts = 5;  // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
 constexpr double standing = 1e-6;  // of the step: a kink may be where the branch stands
+constexpr double load_rounding = 16 * epsilon;  // of load factors that were summed up
 }
 
 /// Halving of load steps.

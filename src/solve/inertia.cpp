@@ -63,6 +63,9 @@ class Curvature {
   std::vector<Rotation> rotations_;
 };
 
+// |g|; and contacts that count as open may press what stands in a row, which is a saddle of nothing.
+double out_of_balance_of(const Energy& energy) { return std::max(energy.gradient().norm(), energy.no_force()); }
+
 }  // namespace
 
 // The eigenvectors to eigenvalues within ± bound, near enough to span them, by block inverse iteration with a factor near zero; none if
@@ -108,7 +111,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     below = beside_.factor.negative() - static_cast<int>(x.cols());
     near_.outside = [this](const Eigen::MatrixXd& b) { return beside_.factor.solve(b); };
   }
-  const double out_of_balance = energy_.gradient().norm();
+  const double out_of_balance = out_of_balance_of(energy_);
   const Curvature curvature(energy_);
   Inertia inertia;
   for (int k = 0;; ++k) {
@@ -157,7 +160,7 @@ Inertia Factors::inertia() {
   const auto by_pivoted = [&](const Eigen::MatrixXd& b) { return pivoted().solve(b); };
   std::optional<Eigen::MatrixXd> soft;
   bool looked = false, positive = false;
-  const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * energy_.gradient().norm() * Curvature(energy_).largest()); };
+  const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * out_of_balance_of(energy_) * Curvature(energy_).largest()); };
   resolved_ = false;
   if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
     holder_ = &pivoted();

@@ -205,6 +205,47 @@ type = "equilibrium"
   CHECK(run(hanging("2.2")).answer.status == 0);
 }
 
+// Grains of a box push each other apart until each pair overlaps by less than 1e-15 of a diameter: three in a row are a saddle then of
+// forces that count as none.
+TEST_CASE("grains that have parted are at rest, stable, whatever stands in a row", "[study][ends]") {
+  const std::string grains = R"(
+[[grains]]
+name = "grains"
+diameter = 0.03
+density = 0.01
+positions = [[-0.008795667501527155, 0.023354396304868758, 0.0171],
+             [-0.05298787626936144, -0.020952747301024983, 0.0171],
+             [-0.037443875573386014, -0.04321210895450743, 0.0171],
+             [-0.033256417593966886, -0.016370562933436937, 0.0171],
+             [-0.010942647731548986, 0.004114573804355836, 0.0171],
+             [-0.00856538147325075, 0.019633267042056507, 0.0171],
+             [-0.03132806152845915, 0.04008044825744021, 0.0171],
+             [-0.050096915121019825, 0.018069556078910635, 0.0171],
+             [-0.008765690949084541, 0.0062211218152496755, 0.0171],
+             [-0.03811898450890522, -0.03200124215700285, 0.0171],
+             [0.03187892427960689, 0.049635727026256134, 0.0171]]
+[[contact]]
+between = ["grains", "grains"]
+youngs_modulus = 1e3
+poissons_ratio = 0.5
+[[wall]]
+name = "box"
+shape = "block"
+lo = [-0.053, -0.053, -0.002]
+hi = [0.053, 0.053, 0.1]
+effective_modulus = 666.66666666666667
+[study]
+type = "equilibrium"
+)";
+  for (const std::string& method : {std::string("newton"), std::string("auto"), std::string("fire")}) {
+    const Ended e = run(grains, with(method));
+    INFO(method << e.answer.text);
+    CHECK(e.answer.status == 0);
+    CHECK(e.path.back().text("stable") == "true");
+    CHECK(e.says("free at the end: "));
+  }
+}
+
 TEST_CASE("what floats, and nothing pulls on it, is at rest; its free motions are named", "[study][ends]") {
   const std::string sheet = R"(
 [[sheet]]
