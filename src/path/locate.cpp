@@ -155,7 +155,8 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     const double value = critical_value(newton, e, index);
     return Sample{t, value, std::move(e)};
   });
-  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, 4 * newton.factors().zero_level())) return {};
+  // Small beside both ends, too: of slender chains all that decides is below the zero level.
+  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale))) return {};
   Event event = finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   return done(std::move(event), zero->t);
