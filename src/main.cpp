@@ -1,7 +1,9 @@
 // The command line: which command, on which file. Everything else is in study/.
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/say.hpp"
 #include "core/suggest.hpp"
+#include "core/text_file.hpp"
 #include "figures/figure.hpp"
 #include "input/key_tree.hpp"
 #include "report/report.hpp"
@@ -27,7 +29,6 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <system_error>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -68,7 +69,8 @@ const char* const description =
     "  elamin collect DIR             sweep.csv of a sweep that was run in parts (--part K/N), each on a machine of its own\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
 const char* const footer =
-    "\nExit status: 0 done; 1 wrong input; 2 not converged (what was reached is written); 3 an expectation is not met;\n"
+    "\nExit status: 0 done; 1 wrong input; 2 not converged, or no room for the results (what was\n"
+    "reached is written); 3 an expectation is not met;\n"
     "130 interrupted (Ctrl-C; a second one ends at once; elamin resume DIR goes on).\n"
     "A first study to read: problems/column_cylindrical.toml. Keys of a problem file: docs/keys.md, and problems/.\n";
 
@@ -125,6 +127,7 @@ void take_signals() {
   std::signal(SIGTERM, on_interrupt);
   if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);                 // a file that has grown to its limit is one that cannot be written
 }
 
 // The status of a program that has printed all it had to: a standard output that is full is an error, a pipe that nobody reads is none.
@@ -245,43 +248,45 @@ int answer(int argc, char** argv) {
     options.settings = energy.settings = comparison.settings = exported.settings = settings;
     options.file = energy.file = comparison.file = exported.file = file;
     if (*energy_app) return energy_command(energy);
-    if (*schema_app) return fmt::print("{}", markdown ? key_reference() : json_schema()), exit_done;
+    if (*schema_app) return say("{}", markdown ? key_reference() : json_schema()), exit_done;
     if (*check_app) return check_command(file, settings), exit_done;
     if (*export_app) return export_command(exported), exit_done;
     if (*compare_app) return compare_command(comparison);
     if (*verify_app) return verify_command(files, options);
     if (*import_app) return import_command(import), exit_done;
     if (*report_app) return report_command(report), exit_done;
-    if (*plot_app) return fmt::print("written: {}\n", write_figure(figure)), exit_done;
+    if (*plot_app) return say("written: {}\n", write_figure(figure)), exit_done;
     if (*collect_app) return collect(parts).exit_status;
     if (*resume_app) {
       stopped.checkpoint = options.checkpoint;
       const RunResult result = resume(stopped);
       if (and_report) report_command({{result.directory}, "", stopped.quiet});
-      if (!stopped.quiet && result.exit_status == exit_interrupted) fmt::print("{}", next_steps(result.directory, true, true));
+      if (!stopped.quiet && result.exit_status == exit_interrupted) say("{}", next_steps(result.directory, true, true));
       return result.exit_status;
     }
-    if (file.empty()) return fmt::print("{}", app.help()), exit_wrong_input;
+    if (file.empty()) return say("{}", app.help()), exit_wrong_input;
     options.report = and_report;
     if (!part.empty()) options.part = parse_part(part);
     const RunResult result = run(options);
     figure.directory = result.directory;
     if (options.part) {
-      if (!options.quiet) fmt::print("next: elamin collect {}, when all parts have ended\n", result.directory);
+      if (!options.quiet) say("next: elamin collect {}, when all parts have ended\n", result.directory);
       return result.exit_status;
     }
-    if (and_plot) fmt::print("{}", terminal_figure(figure, terminal_width(stdout)));
+    if (and_plot) say("{}", terminal_figure(figure, terminal_width(stdout)));
     if (and_report) report_command({{result.directory}, "", options.quiet});
-    if (!options.quiet) fmt::print("{}", next_steps(result.directory, and_report, result.exit_status == exit_interrupted));
+    if (!options.quiet) say("{}", next_steps(result.directory, and_report, result.exit_status == exit_interrupted));
     return result.exit_status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_wrong_input;
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    complain("{}\n", error.what());
     return exit_wrong_input;
+  } catch (const OutputError& error) {
+    complain("{}\n", error.what());
+    return exit_not_converged;
   } catch (const std::exception& error) {
-    if (dynamic_cast<const std::system_error*>(&error) && std::ferror(stdout)) return exit_not_converged;   // when_printed says why
-    fmt::print(stderr, "elamin: {}\n", error.what());
+    complain("elamin: {}\n", told(error));
     return exit_not_converged;
   }
 }

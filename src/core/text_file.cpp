@@ -2,10 +2,12 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -15,15 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& file) { throw InputError(file + ": cannot be written: " + std::strerror(errno)); }
+constexpr mode_t everybody = 0666;                              // but for whom the user's mask leaves out
 
 std::string unfinished(const std::string& file) { return file + ".new"; }
 
-void write_in_place(const std::string& file, std::string_view text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  if (!out) fail(file);
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
 }
 
 void synchronise(const std::string& place, int flags, int (*how)(int)) {
@@ -34,27 +38,70 @@ void write_whole(const std::string& file, std::string_view text, bool to_disk) {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(file, error).type();
   const std::string beside = unfinished(file);
-  if ((type != fs::file_type::regular && type != fs::file_type::not_found) || !std::ofstream(beside, std::ios::binary)) return write_in_place(file, text);
-  try {
-    write_in_place(beside, text);
-  } catch (const InputError&) {
-    const int reason = errno;
+  const bool replaceable = type == fs::file_type::regular || type == fs::file_type::not_found;
+  const int descriptor = replaceable ? open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, everybody) : -1;
+  if (descriptor < 0) return GrowingFile(file).add(text);
+  const bool whole = write_all(descriptor, text);
+  int reason = errno;
+  if (close(descriptor) != 0 && whole) reason = errno;
+  else if (whole) reason = 0;
+  if (reason == 0 && to_disk) synchronise(beside, O_RDONLY, fsync);
+  if (reason == 0 && std::rename(beside.c_str(), file.c_str()) != 0) reason = errno;
+  if (reason != 0) {
     fs::remove(beside, error);
     errno = reason;
-    fail(file);
+    cannot_write(file);
   }
-  if (to_disk) synchronise(beside, O_RDONLY, fsync);
-  fs::rename(beside, file, error);
-  if (error) throw InputError(file + ": cannot be written: " + error.message());
   const std::string folder = fs::path(file).parent_path().string();
   if (to_disk) synchronise(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, fsync);
 }
 
 }  // namespace
 
+void cannot_write(const std::string& file) { throw OutputError(file + ": cannot be written: " + std::strerror(errno)); }
+
 void write_text(const std::string& file, std::string_view text) { write_whole(file, text, false); }
 
 void write_to_disk(const std::string& file, std::string_view text) { write_whole(file, text, true); }
+
+bool write_over(const std::string& file, std::string_view text) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool whole = write_all(descriptor, text) && ftruncate(descriptor, static_cast<off_t>(text.size())) == 0;
+  close(descriptor);
+  return whole;
+}
+
+GrowingFile::GrowingFile(std::string file, std::uintmax_t bytes) : file_(std::move(file)) {
+  std::error_code error;
+  const std::uintmax_t there = bytes == 0 ? 0 : fs::file_size(file_, error);
+  if (error || (bytes != all && there < bytes)) throw InputError(file_ + ": is not as the run has left it");
+  size_ = std::min(bytes, there);
+  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (bytes == 0 ? O_TRUNC : 0), everybody);
+  if (descriptor_ < 0 || (size_ < there && ftruncate(descriptor_, static_cast<off_t>(size_)) != 0)) cannot_write(file_);
+}
+
+GrowingFile::~GrowingFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
+
+GrowingFile& GrowingFile::operator=(GrowingFile&& other) noexcept {
+  std::swap(file_, other.file_), std::swap(descriptor_, other.descriptor_), std::swap(size_, other.size_);
+  return *this;
+}
+
+void GrowingFile::replace(std::uintmax_t bytes, std::string_view text) {
+  if (lseek(descriptor_, static_cast<off_t>(bytes), SEEK_SET) < 0 && errno != ESPIPE) cannot_write(file_);      // a pipe is only added to
+  const std::uintmax_t before = std::exchange(size_, bytes + text.size());
+  if (write_all(descriptor_, text) && (size_ >= before || ftruncate(descriptor_, static_cast<off_t>(size_)) == 0)) return;
+  const int reason = errno;
+  if (ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0) size_ = bytes;
+  errno = reason;
+  cannot_write(file_);
+}
 
 void remove_unfinished(const std::string& file) {
   std::error_code error;

@@ -1,15 +1,50 @@
 #pragma once
+#include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace elamin {
 
+/// What was computed cannot be kept, as on a disk that is full; what() is `file: cannot be written: the system's reason`.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws OutputError with the reason that errno has.
+[[noreturn]] void cannot_write(const std::string& file);
+
 /// Writes a file whole or not at all: into NAME.new beside it, which then takes its place; over links, devices and where no other file can be made
-/// it is written as it is. Throws InputError with the system's reason if that fails.
+/// it is written as it is. Throws OutputError if that fails.
 void write_text(const std::string& file, std::string_view text);
 
 /// The same, and the bytes are on the disk before the file has its name.
 void write_to_disk(const std::string& file, std::string_view text);
+
+/// Writes where no new file may find room: into the bytes that the file has, and what is too much behind them. False if not all of it could be written.
+bool write_over(const std::string& file, std::string_view text);
+
+/// A file that grows; what was added is there when the call returns, whole or, where OutputError is thrown, not at all.
+class GrowingFile {
+ public:
+  static constexpr std::uintmax_t all = UINTMAX_MAX;
+  /// Keeps the first bytes of the file, `all` of them or none. Throws InputError if it has fewer, OutputError if it cannot be written.
+  explicit GrowingFile(std::string file, std::uintmax_t bytes = 0);
+  ~GrowingFile();
+  GrowingFile(GrowingFile&& other) noexcept;
+  GrowingFile& operator=(GrowingFile&& other) noexcept;
+
+  void add(std::string_view text) { replace(size_, text); }
+  /// Puts the text in the place of all behind these bytes; where that fails, nothing is left behind them.
+  void replace(std::uintmax_t bytes, std::string_view text);
+  std::uintmax_t size() const { return size_; }
+
+ private:
+  std::string file_;
+  int descriptor_ = -1;
+  std::uintmax_t size_ = 0;
+};
 
 /// Removes what a process that was killed while it wrote such a file has left beside it.
 void remove_unfinished(const std::string& file);

@@ -1,6 +1,7 @@
 #include "figures/pdf.hpp"
 
 #include "core/error.hpp"
+#include "core/text_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -15,7 +16,7 @@ namespace elamin {
 void write_pdf(const std::string& svg, const std::string& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> input(std::tmpfile(), std::fclose);
   if (!input || std::fwrite(svg.data(), 1, svg.size(), input.get()) != svg.size() || std::fflush(input.get()) != 0)
-    throw InputError(file + ": cannot be written: there is no room for a temporary file");
+    throw OutputError(file + ": cannot be written: there is no room for a temporary file");
   std::rewind(input.get());
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

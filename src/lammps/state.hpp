@@ -19,11 +19,11 @@ std::string bodies_file(const std::string& data_file);
 ///
 /// Bodies are written in atom style body (rounded/polyhedron): vertices and inertia in the axes of space, faces of more than
 /// four corners cut into such of four and three, velocities with angular momentum. Of a model with particles they go to a
-/// second file, bodies_file(file). Throws InputError if a file cannot be written.
+/// second file, bodies_file(file). Throws OutputError if a file cannot be written.
 void write_state(const std::string& file, const Model& model, const State& state, const std::string& title);
 
 /// The particles of the state with their bonds and angles in atom style "full" (charge 0; of each type the mass of its first particle,
-/// or 1 where that is not known), which more programs read: MDAnalysis and ASE among them. Throws InputError if it cannot be written.
+/// or 1 where that is not known), which more programs read: MDAnalysis and ASE among them. Throws OutputError if it cannot be written.
 void write_topology(const std::string& file, const Model& model, const State& state, const std::string& title);
 
 /// Whether all angles are straight at rest: then they are written as LAMMPS's cosine.

@@ -2,6 +2,7 @@
 #include "python/module.hpp"
 
 #include "core/parallel.hpp"
+#include "core/text_file.hpp"
 #include "input/key_tree.hpp"
 #include "results/summary.hpp"
 
@@ -66,6 +67,8 @@ PYBIND11_MODULE(_elamin, module) {
       if (p) std::rethrow_exception(p);
     } catch (const elamin::InputError& error) {
       raise_input_error(error);
+    } catch (const elamin::OutputError& error) {
+      PyErr_SetString(PyExc_OSError, error.what());
     }
   });
   module.attr("version") = elamin::version();

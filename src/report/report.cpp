@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include "core/say.hpp"
 #include "core/text_file.hpp"
 #include "report/base64.hpp"
 #include "report/parts.hpp"
@@ -123,7 +124,7 @@ void report_command(const ReportOptions& options) {
   const std::string file = file_of(options), page = report_page(options);
   write_text(file, page);
   list_also(fs::path(file).parent_path().string(), fs::path(file).filename().string());
-  if (!options.quiet) fmt::print("written: {} ({:.1f} MB)\n", file, static_cast<double>(page.size()) / 1e6);
+  if (!options.quiet) say("written: {} ({:.1f} MB)\n", file, static_cast<double>(page.size()) / 1e6);
 }
 
 }  // namespace elamin

@@ -18,7 +18,7 @@ struct Surface {
 Surface surface_of(const RoundedShape& shape, int arcs = 4);
 
 /// All bodies at the state as polydata of VTK's legacy format, ASCII, with the cell data `id` and `type`: ParaView and OVITO
-/// open it. Throws InputError if it cannot be written.
+/// open it. Throws OutputError if it cannot be written.
 void write_picture(const std::string& file, const Model& model, const State& state, const std::string& title);
 
 }  // namespace elamin

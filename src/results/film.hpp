@@ -13,7 +13,7 @@ namespace elamin {
 /// frames/STEP.vtu (see write_vtu) by step or time. All of them are whole after each call.
 class Film {
  public:
-  /// name: "path" or "trajectory". The directory must outlive this. Throws InputError if something cannot be written, as the others do.
+  /// name: "path" or "trajectory". The directory must outlive this. Throws OutputError if something cannot be written, as the others do.
   Film(ResultsDirectory& directory, std::string name, const std::vector<std::string>& words, std::string title);
   void add(const Shot& shot);
   /// The files frames/STEP.vtu stay.

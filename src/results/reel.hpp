@@ -1,9 +1,9 @@
 #pragma once
 // A file of frames, one behind the other, of which some may go again.
 #include "core/archive.hpp"
+#include "core/text_file.hpp"
 
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <set>
 #include <string>
@@ -14,7 +14,7 @@ namespace elamin {
 /// The file is whole after each call: the header, the frames in their order, the footer.
 class Reel {
  public:
-  /// Creates the file. Throws InputError if it cannot be written, as the others do.
+  /// Creates the file. Throws OutputError if it cannot be written, as the others do.
   explicit Reel(std::string file, const std::string& header = "", std::string footer = "");
   /// The same of a file that is there, with the frames that the archive tells of: what came later is cut off. `dropping`: the run was stopped while it
   /// dropped frames, as its size tells or not; the same call of drop() comes next.
@@ -31,13 +31,12 @@ class Reel {
     std::size_t bytes;
     void carry(Archive& archive) { archive(step, bytes); }
   };
-  void check() const;
 
   std::string file_, header_, footer_;
   std::vector<Frame> frames_;
   std::size_t end_ = 0;                    // of the frames, from the beginning of the file
   bool dropped_ = false;               // the next call of drop() has been carried out already
-  std::ofstream out_;
+  GrowingFile out_;
 };
 
 }  // namespace elamin

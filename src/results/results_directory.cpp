@@ -42,7 +42,7 @@ std::optional<std::vector<std::string>> listed_in(const std::string& directory, 
 void create(const std::string& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
+  if (error) throw OutputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
 }
 
 // The first names in a directory but for those given; "": there are none.
@@ -90,7 +90,7 @@ void require_results(const std::string& directory) {
 void list_also(const std::string& directory, const std::string& name) {
   const auto listed = listed_in(directory);
   if (!listed || std::count(listed->begin(), listed->end(), name)) return;
-  std::ofstream(place(directory, list_name), std::ios::binary | std::ios::app) << name << '\n';
+  GrowingFile(place(directory, list_name), GrowingFile::all).add(name + "\n");
 }
 
 ResultsDirectory::ResultsDirectory(std::string directory, bool force, const Files& kept) : directory_(std::move(directory)), kept_(kept) {
@@ -137,9 +137,7 @@ std::uintmax_t ResultsDirectory::listed() const { return fs::file_size(place(dir
 
 void ResultsDirectory::list(const std::string& name) {
   if (!listed_.insert(name).second) return;
-  std::ofstream out(place(directory_, list_name), std::ios::binary | std::ios::app);
-  out << name << '\n' << std::flush;
-  if (!out) throw InputError(fmt::format("{}: cannot be written", place(directory_, list_name)));
+  GrowingFile(place(directory_, list_name), GrowingFile::all).add(name + "\n");
 }
 
 std::string ResultsDirectory::file(const std::string& name) {

@@ -36,7 +36,7 @@ class ResultsDirectory {
   using Files = std::set<std::filesystem::path>;
 
   /// Creates the directory, or removes from it what .elamin lists, but for the files `kept` (see located) and folders that are not empty
-  /// then. Throws InputError if something cannot be written, and what require_results throws unless `force` is given.
+  /// then. Throws OutputError if something cannot be written, and what require_results throws unless `force` is given.
   ResultsDirectory(std::string directory, bool force, const Files& kept = {});
   /// The directory of a run that was stopped, as it was when its list had so many bytes: files that came later are removed; none: as it is.
   ResultsDirectory(std::string directory, const Files& kept, std::optional<std::uintmax_t> listed = {});

@@ -1,6 +1,5 @@
 #include "results/run_directory.hpp"
 
-#include "core/error.hpp"
 #include "model/entities.hpp"
 #include "input/state_supplement.hpp"
 #include "path/arc.hpp"
@@ -15,8 +14,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 
@@ -71,7 +68,7 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
       model_(model),
       results_(std::move(directory), force, inputs_),
       title_(problem.title.empty() ? "elamin" : problem.title),
-      log_(results_.file("log.txt"), std::ios::binary),
+      log_(results_.file("log.txt")),
       path_(results_.file(problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns),
       contacts_(results_.file("contacts.csv"), contact_columns),
       frames_(problem.path, span(model), std::max(1, static_cast<int>(problem.stages.size()))),
@@ -90,7 +87,7 @@ RunDirectory::RunDirectory(std::string directory, const Problem& problem, const 
       model_(model),
       results_(std::move(directory), inputs_, sizes.listed),
       title_(problem.title.empty() ? "elamin" : problem.title),
-      log_(results_.file("log.txt"), std::ios::binary | std::ios::app),
+      log_(results_.file("log.txt"), GrowingFile::all),
       path_(results_.file(problem.in_time() ? "trajectory.csv" : "path.csv"), record_.path().columns, sizes.path),
       contacts_(results_.file("contacts.csv"), contact_columns, sizes.contacts),
       frames_(problem.path, span(model), std::max(1, static_cast<int>(problem.stages.size()))),
@@ -262,9 +259,7 @@ void RunDirectory::log(const std::string& line) {
   std::tm local{};
   const std::time_t now = std::time(nullptr);
   localtime_r(&now, &local);
-  log_ << fmt::format("{:%Y-%m-%d %H:%M:%S} {}\n", local, line) << std::flush;
-  if (!log_)
-    throw InputError(fmt::format("{}/log.txt: cannot be written: {}", directory(), std::strerror(errno)));
+  log_.add(fmt::format("{:%Y-%m-%d %H:%M:%S} {}\n", local, line));
 }
 
 void RunDirectory::finish(const Summary& summary) {

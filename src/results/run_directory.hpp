@@ -8,7 +8,6 @@
 #include "results/results_directory.hpp"
 #include "results/summary.hpp"
 
-#include <fstream>
 #include <string>
 
 namespace elamin {
@@ -24,7 +23,7 @@ class RunDirectory {
  public:
   /// Creates the directory and writes resolved.toml. Results of an earlier run in it are removed (see ResultsDirectory), but
   /// for files that the problem reads: these stay as they are, and a state of the same label is written to states/LABEL-again.data.
-  /// problem and model must outlive this. Throws InputError if something cannot be written, or if without `force` the directory has something
+  /// problem and model must outlive this. Throws OutputError if something cannot be written, InputError if without `force` the directory has something
   /// in it and is not results of elamin.
   RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml, bool force = false);
 
@@ -34,6 +33,8 @@ class RunDirectory {
   void carry(Archive& archive);
   /// Writes the summary of a run that has not ended.
   void begin(const std::string& title) { write_running(results_.file("summary.json"), title); }
+  /// The same of one that has to end because a file cannot be written.
+  void break_off(const std::string& title, const std::string& why) { write_broken_off(results_.file("summary.json"), title, why); }
   /// From here on frames that are no longer wanted stay until settle(): where a checkpoint knows of them they must not go before it is told.
   void keep_dropped_frames() { keeps_ = true; }
   bool settled() const { return dropped_.empty(); }
@@ -119,7 +120,7 @@ class RunDirectory {
   bool rising_ = true;                                // … upwards
   ResultsDirectory results_;
   std::string title_;
-  std::ofstream log_;
+  GrowingFile log_;
   CsvFile path_, contacts_;
   std::optional<CsvFile> events_;                     // of equilibria
   std::optional<CsvFile> modes_;                      // made with the first mode

@@ -25,6 +25,22 @@ Json object(const std::vector<std::pair<std::string, double>>& entries) {
   return all;
 }
 
+std::string text_of(const Json& all) { return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }     // replace: text that is not UTF-8
+
+std::string unfinished(const std::string& title, const std::string& status, const std::string& message) {
+  std::tm utc{};
+  const std::time_t now = std::time(nullptr);
+  gmtime_r(&now, &utc);
+  Json all;
+  all["status"] = status;
+  all["message"] = message;
+  all["title"] = title;
+  all["process"] = getpid();
+  all["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
+  all["version"] = version();
+  return text_of(all);
+}
+
 }  // namespace
 
 std::string status_name(Status status) {
@@ -39,17 +55,11 @@ std::string status_name(Status status) {
 std::string version() { return ELAMIN_VERSION; }
 
 void write_running(const std::string& file, const std::string& title) {
-  std::tm utc{};
-  const std::time_t now = std::time(nullptr);
-  gmtime_r(&now, &utc);
-  Json all;
-  all["title"] = title;
-  all["status"] = "running";
-  all["message"] = "not ended yet, or stopped where it could not say so; then elamin resume goes on";
-  all["process"] = getpid();
-  all["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
-  all["version"] = version();
-  write_text(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(file, unfinished(title, "running", "not ended yet, or stopped where it could not say so; then elamin resume goes on"));
+}
+
+void write_broken_off(const std::string& file, const std::string& title, const std::string& message) {
+  write_over(file, unfinished(title, status_name(Status::interrupted), message));
 }
 
 void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events) {
@@ -70,7 +80,7 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["tolerances"] = object(summary.tolerances);
   if (summary.resumed > 0) all["resumed"] = summary.resumed;
   if (summary.imperfection > 0) all["imperfection"] = {{"max_displacement", json_of(summary.imperfection)}};
-  write_to_disk(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");   // replace: text that is not UTF-8
+  write_to_disk(file, text_of(all));
 }
 
 }  // namespace elamin

@@ -23,14 +23,17 @@ struct Summary {
 /// "done", "not_converged" or "interrupted".
 std::string status_name(Status status);
 
-/// Writes the summary of a run that has not ended: "status": "running", process, started. Throws InputError as write_summary does.
+/// Writes the summary of a run that has not ended: "status": "running", process, started. Throws OutputError as write_summary does.
 void write_running(const std::string& file, const std::string& title);
+
+/// Over that, where a file could not be written, which the message tells: "status": "interrupted". It may be that this cannot be written either.
+void write_broken_off(const std::string& file, const std::string& title, const std::string& message);
 
 /// The version of this program.
 std::string version();
 
 /// Writes status, message, warnings, points, events (rows as objects), final (all columns of the last row, or null), times,
-/// version, input_sha256, tolerances, and where there is one the imperfection. Numbers that are not finite become null. Throws InputError if it cannot be
+/// version, input_sha256, tolerances, and where there is one the imperfection. Numbers that are not finite become null. Throws OutputError if it cannot be
 /// written.
 void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events);
 

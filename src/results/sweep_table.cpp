@@ -1,13 +1,11 @@
 #include "results/sweep_table.hpp"
 
-#include "core/error.hpp"
-
 namespace elamin {
 
 SweepTable::~SweepTable() {
   try {
     for (const auto& [run, row] : waiting_) csv_.add(row);
-  } catch (const InputError&) {
+  } catch (const OutputError&) {
     // a destructor has nobody to tell; the rows before were written
   }
 }

@@ -13,7 +13,7 @@ namespace elamin {
 /// threads.
 class SweepTable {
  public:
-  /// columns: see sweep_columns. Throws InputError if the file cannot be written, as add does.
+  /// columns: see sweep_columns. Throws OutputError if the file cannot be written, as add does.
   SweepTable(std::string file, const std::vector<std::string>& columns) : csv_(std::move(file), columns) {}
   /// Writes what still waits, for an interrupted sweep.
   ~SweepTable();

@@ -1,15 +1,11 @@
 #include "results/table.hpp"
 
-#include "core/error.hpp"
-#include "core/text_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
+#include <stdexcept>
+#include <utility>
 
 namespace elamin {
 namespace {
@@ -59,32 +55,16 @@ void write_csv(const std::string& file, const Table& table) {
 }
 
 CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits)
-    : file_(std::move(file)), columns_(columns.size()), digits_(digits), out_(file_, std::ios::binary) {
-  if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
+    : out_(std::move(file)), columns_(columns.size()), digits_(digits) {
   add(Row(columns.begin(), columns.end()));
 }
 
 CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, std::uintmax_t bytes)
-    : file_(std::move(file)), columns_(columns.size()), digits_(Digits::shortest), bytes_(bytes) {
-  cut(file_, bytes);
-  out_.open(file_, std::ios::binary | std::ios::app);
-  if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
-}
-
-void cut(const std::string& file, std::uintmax_t bytes) {
-  std::error_code error;
-  if (std::filesystem::file_size(file, error) < bytes || error) throw InputError(file + ": is not as the run has left it");
-  std::filesystem::resize_file(file, bytes, error);
-  if (error) throw InputError(fmt::format("{}: cannot be written: {}", file, error.message()));
-}
+    : out_(std::move(file), bytes), columns_(columns.size()), digits_(Digits::shortest) {}
 
 void CsvFile::add(const Row& row) {
-  if (row.size() != columns_)
-    throw std::logic_error(fmt::format("{}: a row of {} entries for {} columns", file_, row.size(), columns_));
-  const std::string line = csv_line(row, digits_);
-  out_ << line << std::flush;
-  if (!out_) throw InputError(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
-  bytes_ += line.size();
+  if (row.size() != columns_) throw std::logic_error(fmt::format("a row of {} entries for {} columns", row.size(), columns_));
+  out_.add(csv_line(row, digits_));
 }
 
 }  // namespace elamin

@@ -1,7 +1,8 @@
 #pragma once
 // Tables of results: kept in memory, and written row by row to a CSV file.
+#include "core/text_file.hpp"
+
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <variant>
@@ -30,29 +31,24 @@ enum class Digits { shortest, all };
 /// A cell as it stands in a CSV file (RFC 4180): a number, true/false, text in quotes where it needs them; empty if empty.
 std::string csv_text(const Cell& cell, Digits digits = Digits::shortest);
 
-/// Writes a whole table as a CSV file. Throws InputError if it cannot be written.
+/// Writes a whole table as a CSV file. Throws OutputError if it cannot be written.
 void write_csv(const std::string& file, const Table& table);
-
-/// Cuts a file to its first bytes. Throws InputError if it has fewer.
-void cut(const std::string& file, std::uintmax_t bytes);
 
 /// A CSV file with a header; every row is on the disk before add returns.
 class CsvFile {
  public:
-  /// Creates the file and writes the header. Throws InputError if it cannot be written, as add does.
+  /// Creates the file and writes the header. Throws OutputError if it cannot be written, as add does.
   CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits = Digits::shortest);
-  /// The same of a file that is there, cut to its first bytes: rows come behind them.
+  /// The same of a file that is there, cut to its first bytes: rows come behind them. Throws InputError if it has fewer.
   CsvFile(std::string file, const std::vector<std::string>& columns, std::uintmax_t bytes);
   void add(const Row& row);
   /// Bytes so far.
-  std::uintmax_t size() const { return bytes_; }
+  std::uintmax_t size() const { return out_.size(); }
 
  private:
-  std::string file_;
+  GrowingFile out_;
   std::size_t columns_;
   Digits digits_;
-  std::ofstream out_;
-  std::uintmax_t bytes_ = 0;
 };
 
 }  // namespace elamin

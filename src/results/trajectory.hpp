@@ -25,7 +25,7 @@ Row trajectory_row(const Moment& moment, const std::vector<double>& observables)
 
 /// frames/STEP.csv: id, x, y, z, vx, vy, vz, fx, fy, fz of all particles; and of bodies, if there are any, STEP.bodies.csv: id,
 /// place, unit quaternion qw ≥ 0, qx, qy, qz, velocity, angular momentum L, force, torque about the place t; of bodies of a LAMMPS
-/// data file the quaternion is the turn from there. Throws InputError if it cannot be written.
+/// data file the quaternion is the turn from there. Throws OutputError if it cannot be written.
 void write_frame(const std::string& file, const Model& model, const Motion& motion);
 
 }  // namespace elamin

@@ -10,7 +10,7 @@ namespace elamin {
 ///      the point of contact each: gap, force (on the first)                        5  bodies, polygons
 /// `first` and `second` are the ids of who bonds or touches; of a wall its number from 1, negative. What a kind does not have is 0. Points: id
 /// (of particles and on bodies), radius (of particles), columns_of, and mode_1 … the null vectors as displacements. Of the whole: step,
-/// load_factor or time, label. Throws InputError if it cannot be written.
+/// load_factor or time, label. Throws OutputError if it cannot be written.
 void write_vtu(const std::string& file, const Shot& shot);
 
 }  // namespace elamin

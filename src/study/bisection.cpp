@@ -1,10 +1,11 @@
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
+#include "core/say.hpp"
+#include "core/text_file.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
 #include "results/run_directory.hpp"
 #include "results/summary.hpp"
-#include "core/text_file.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
 
@@ -50,7 +51,7 @@ class Halving {
     const auto observed = ended ? value_at(b_.observable, b_.at, {&r.path, &r.events}, why) : std::nullopt;
     const Side outcome = !observed ? Side::missing : *observed > b_.level ? Side::above : Side::below;
     if (!options_.quiet)
-      fmt::print("run {}: {}: {} at {} {}\n", count_, name, b_.observable, b_.at,
+      say("run {}: {}: {} at {} {}\n", count_, name, b_.observable, b_.at,
                  observed ? fmt::format("is {:.10g}, {} {:.10g}", *observed, name_of(outcome), b_.level) : "is missing: " + why);
     return outcome;
   }
@@ -131,8 +132,8 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
   write_text(runs.directory().file("summary.json"), all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   if (!interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
-    fmt::print("{}\n{} runs in {:.2f} s\nwritten: {}/sweep.csv\n", message, runs.count(), watch.seconds(), options.directory);
-  else if (!changes) fmt::print(stderr, "{}\n", message);
+    say("{}\n{} runs in {:.2f} s\nwritten: {}/sweep.csv\n", message, runs.count(), watch.seconds(), options.directory);
+  else if (!changes) complain("{}\n", message);
   return result;
 }
 

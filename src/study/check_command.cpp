@@ -1,5 +1,6 @@
 #include "study/check_command.hpp"
 
+#include "core/say.hpp"
 #include "input/build_lammps.hpp"
 #include "study/prepare.hpp"
 #include "study/describe.hpp"
@@ -69,9 +70,9 @@ void check_command(const std::string& file, const std::vector<Setting>& settings
   const PreparedRuns prepared = prepare_runs(file, settings);
   const std::vector<PreparedRun>& runs = prepared.runs;
   const Problem& problem = runs.front().problem;
-  fmt::print("{}: {}\n{}", problem.file, problem.title.empty() ? "(no title)" : problem.title, describe(problem, runs.front().model));
-  if (prepared.bisection) fmt::print("a sweep that halves; its first run is shown\n");
-  else if (runs.size() > 1) fmt::print("a sweep of {} runs; the first one is shown\n", runs.size());
+  say("{}: {}\n{}", problem.file, problem.title.empty() ? "(no title)" : problem.title, describe(problem, runs.front().model));
+  if (prepared.bisection) say("a sweep that halves; its first run is shown\n");
+  else if (runs.size() > 1) say("a sweep of {} runs; the first one is shown\n", runs.size());
 }
 
 }  // namespace elamin

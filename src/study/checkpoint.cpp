@@ -130,6 +130,13 @@ void Checkpointing::stop() {
   if (kept_) write(Phase::going);
 }
 
+void Checkpointing::try_to_stop() {
+  try {
+    stop();
+  } catch (const OutputError&) {                                // the one before it stays
+  }
+}
+
 void Checkpointing::end(const std::function<void(Archive&)>& carry) {
   if (!written_) return;
   Archive archive;

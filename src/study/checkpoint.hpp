@@ -61,6 +61,8 @@ class Checkpointing {
   void offer(const std::function<void(Archive&)>& carry);
   /// The run stops: the last place that was kept is written.
   void stop();
+  /// The same where that may not be possible either.
+  void try_to_stop();
   /// The run is all but at its end, which begins here, with all that it carries.
   void end(const std::function<void(Archive&)>& carry);
   /// The results are whole.

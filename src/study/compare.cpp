@@ -4,6 +4,7 @@
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
+#include "core/say.hpp"
 #include "core/timing.hpp"
 #include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
@@ -184,8 +185,8 @@ int compare_command(const CompareOptions& options) {
       throw InputError(fmt::format("--methods: {}: there is no such method; there are auto, newton, ipopt, fire, and nlopt:LD_LBFGS and NLopt's other names", m));
   set_threads(options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   const std::vector<Compared> rows = compare(problem, methods, options.limit);
-  if (options.json) fmt::print("{}\n", json(rows).dump(2));
-  else fmt::print("{}", table(rows));
+  if (options.json) say("{}\n", json(rows).dump(2));
+  else say("{}", table(rows));
   int status = exit_done;
   for (const Compared& r : rows) {
     if (r.status == Status::interrupted) return exit_interrupted;

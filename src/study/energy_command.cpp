@@ -1,5 +1,6 @@
 #include "study/energy_command.hpp"
 
+#include "core/say.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
 #include "input/read.hpp"
@@ -104,7 +105,7 @@ int energy_command(const EnergyOptions& options) {
 
   const auto status = [&] {
     if (std::isfinite(terms.total()) && std::isfinite(max_force)) return exit_done;
-    fmt::print(stderr, "{}\n", not_finite(energy, state));
+    complain("{}\n", not_finite(energy, state));
     return exit_not_converged;
   };
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:24.17g}", v) : fmt::format("{:>24}", "not finite"); };
@@ -114,17 +115,17 @@ int energy_command(const EnergyOptions& options) {
     terms.for_each([&](const auto& name, double value) { out["energy"][name] = json_of(value); });
     out["max_force"] = json_of(max_force);
     out["particles"] = model.particles(), out["bodies"] = model.bodies.size(), out["dofs"] = energy.dofs();
-    fmt::print("{}\n", out.dump());
+    say("{}\n", out.dump());
     return status();
   }
-  fmt::print("load factor {:.17g}\n", state.load_factor);
-  fmt::print("energy      {}\n", number(terms.total()));
-  terms.for_each([&](const auto& name, double value) { fmt::print("  {:<10}{}\n", name, number(value)); });
+  say("load factor {:.17g}\n", state.load_factor);
+  say("energy      {}\n", number(terms.total()));
+  terms.for_each([&](const auto& name, double value) { say("  {:<10}{}\n", name, number(value)); });
   if (!std::isfinite(max_force)) return status();
   if (model.bodies.empty())
-    fmt::print("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
+    say("largest force on a particle {:.17g}\n{} particles, {} free dofs\n", max_force, model.particles(), energy.dofs());
   else
-    fmt::print("largest force {:.17g}\n{} particles, {} bodies, {} free dofs\n", max_force, model.particles(), model.bodies.size(), energy.dofs());
+    say("largest force {:.17g}\n{} particles, {} bodies, {} free dofs\n", max_force, model.particles(), model.bodies.size(), energy.dofs());
   return status();
 }
 

@@ -1,6 +1,7 @@
 #include "study/export_command.hpp"
 
 #include "core/error.hpp"
+#include "core/say.hpp"
 #include "core/text_file.hpp"
 #include "dynamics/timestep.hpp"
 #include "study/imperfection.hpp"
@@ -112,10 +113,10 @@ void export_command(const ExportOptions& options) {
   write_state(data.string(), out.written, study.start, (problem.title.empty() ? study.source : problem.title) + ", by elamin export");
   for (const auto& [name, text] : out.files) write_text((std::filesystem::path(script).parent_path() / name).string(), text);
   write_text(script.string(), out.script);
-  fmt::print("written: {} and {}: {} particles, {} bonds, {} angles, {} {}\n", script.string(), data.string(), model.particles(),
+  say("written: {} and {}: {} particles, {} bonds, {} angles, {} {}\n", script.string(), data.string(), model.particles(),
              model.bonds.size(),
              model.angles.size(), study.stages.size(), study.stages.size() == 1 ? "run" : "runs");
-  for (const std::string& what : out.refused) fmt::print("left out: {}\n", what);
+  for (const std::string& what : out.refused) say("left out: {}\n", what);
 }
 
 }  // namespace elamin

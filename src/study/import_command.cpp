@@ -1,6 +1,7 @@
 #include "study/import_command.hpp"
 
 #include "core/error.hpp"
+#include "core/say.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
 #include "core/text_file.hpp"
@@ -75,12 +76,12 @@ void import_command(const ImportOptions& o) {
   for (const File& f : files) may_write(f.name, o.force);
   for (const File& f : files) write_text(f.name, f.text);
   if (o.quiet) return;
-  fmt::print("{}", script::report(reading, notes));
+  say("{}", script::report(reading, notes));
   std::string names;
   for (std::size_t k = 0; k < files.size(); ++k)
     if (files.size() <= 8 || k < 4 || k + 2 >= files.size()) names += (names.empty() ? "" : ", ") + files[k].name;
     else if (k == 4) names += ", ...";
-  fmt::print("written: {}\nnext: elamin check {}\n", names, files.front().name);
+  say("written: {}\nnext: elamin check {}\n", names, files.front().name);
 }
 
 }  // namespace elamin

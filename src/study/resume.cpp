@@ -2,6 +2,7 @@
 
 #include "core/directory_lock.hpp"
 #include "core/error.hpp"
+#include "core/say.hpp"
 #include "results/results_directory.hpp"
 #include "results/stored_run.hpp"
 #include "study/checkpoint.hpp"
@@ -62,7 +63,7 @@ RunResult resume(const ResumeOptions& options) {
   const bool ended = has_ended(options.directory);
   if (ended) remove_checkpoint(options.directory);              // it may have been killed before it could
   if (ended || sweep_has_ended(options.directory)) {
-    if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
+    if (!options.quiet) say("{}: is finished\n", options.directory);
     return {exit_done, options.directory, {}};
   }
   StoppedRuns stopped = stopped_runs(options.directory);

@@ -1,6 +1,7 @@
 #include "study/run.hpp"
 
 #include "core/parallel.hpp"
+#include "core/say.hpp"
 #include "results/closing.hpp"
 #include "results/summary.hpp"
 #include "study/single.hpp"
@@ -39,8 +40,8 @@ std::string closing(StudyType study, const SingleResult& result, const Ink& ink)
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   const SingleResult result = run_single(run.problem, run.model, {options.directory, options.force, Progress::style_for(stdout, options.quiet), options.record,
                                                                   options.checkpoint, options.resumes});
-  if (!options.quiet) std::fputs(fmt::format("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory).c_str(), stdout);
-  else if (result.status != Status::converged) fmt::print(stderr, "{}: {}\n", status_name(result.status), result.why);
+  if (!options.quiet) say("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory);
+  else if (result.status != Status::converged) complain("{}: {}\n", status_name(result.status), result.why);
   return {exit_status(result), options.directory, result.verdicts};
 }
 

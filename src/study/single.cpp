@@ -1,5 +1,6 @@
 #include "study/single.hpp"
 
+#include "core/say.hpp"
 #include "core/text_file.hpp"
 #include "core/timing.hpp"
 #include "input/resolved.hpp"
@@ -145,23 +146,29 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
       },
       .progress = [&](const std::string& line, double step) { teller.moved(line, step); },
       .checkpoint = [&](const std::function<void(Archive&)>& of_study) { checkpoints.offer([&](Archive& a) { carry(a), of_study(a); }); }};
-  if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
-  if (outcome.status == Status::interrupted) checkpoints.stop();
-  else if (results.has_film()) checkpoints.end(carry);
-  teller.finish();
-  for (const std::string& warning : strains.warnings()) teller.warn(warning);
-  teller.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
+  try {
+    if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
+    if (outcome.status == Status::interrupted) checkpoints.stop();
+    else if (results.has_film()) checkpoints.end(carry);
+    teller.finish();
+    for (const std::string& warning : strains.warnings()) teller.warn(warning);
+    teller.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
 
-  summary.warnings = teller.warnings();
-  summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
-  summary.input = problem.file, summary.input_sha256 = problem.sha256;
-  summary.imperfection = model.imperfection;
-  summary.times = {{"setup", setup}, {"total", before + total.seconds()}};
-  summary.resumed = resumed;
-  summary.tolerances = {{"residual", problem.solver.tolerance}};
-  if (total.seconds() > options.checkpoint) flush_to_disk(options.directory);      // what took less is soon run again
-  results.finish(summary);
-  if (outcome.status != Status::interrupted) checkpoints.remove();
+    summary.warnings = teller.warnings();
+    summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
+    summary.input = problem.file, summary.input_sha256 = problem.sha256;
+    summary.imperfection = model.imperfection;
+    summary.times = {{"setup", setup}, {"total", before + total.seconds()}};
+    summary.resumed = resumed;
+    summary.tolerances = {{"residual", problem.solver.tolerance}};
+    if (total.seconds() > options.checkpoint) flush_to_disk(options.directory);      // what took less is soon run again
+    results.finish(summary);
+    if (outcome.status != Status::interrupted) checkpoints.remove();
+  } catch (const std::exception& error) {
+    results.break_off(problem.title, told(error) + "; what was found until then is kept, and elamin resume goes on from there");
+    teller.finish(), checkpoints.try_to_stop();
+    throw;
+  }
 
   const Record& record = results.record();
   SingleResult result{outcome.status, outcome.why, record.path(), record.events(), record.columns(), std::move(found), summary.zero_modes,

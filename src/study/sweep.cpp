@@ -3,6 +3,7 @@
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
+#include "core/say.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
 #include "results/run_directory.hpp"
@@ -155,7 +156,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   });
   if (ended(results) == runs.size() && !interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
-    fmt::print("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", ended(results), runs.size(), watch.seconds(), options.directory);
+    say("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", ended(results), runs.size(), watch.seconds(), options.directory);
   return result_of_runs(prepared, results, options.directory);
 }
 

@@ -2,6 +2,8 @@
 
 #include "core/directory_lock.hpp"
 #include "core/error.hpp"
+#include "core/say.hpp"
+#include "core/text_file.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
 #include "results/results_directory.hpp"
@@ -29,7 +31,7 @@ constexpr double patience = 20;                                 // seconds, for 
 void join(const std::string& directory, const RunRecord& record) {
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error) throw InputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
+  if (error) throw OutputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
   const DirectoryLock lock(directory, patience);
   if (const std::optional<Checkpoint> there = read_checkpoint(directory)) {
     const RunRecord& r = there->record;
@@ -68,14 +70,14 @@ RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& given) 
   const auto results = run_side_by_side(prepared.runs, own, options);
   RunResult all = result_of_runs(prepared, results, options.directory);
   if (!options.quiet)
-    fmt::print("{} of {} runs of part {}/{} in {:.2f} s\n", ended(results), own.size(),
+    say("{} of {} runs of part {}/{} in {:.2f} s\n", ended(results), own.size(),
                options.part->number, options.part->of, watch.seconds());
   return all;
 }
 
 RunResult collect(const CollectOptions& options) {
   if (sweep_has_ended(options.directory)) {
-    if (!options.quiet) fmt::print("{}: is finished\n", options.directory);
+    if (!options.quiet) say("{}: is finished\n", options.directory);
     return {exit_done, options.directory, {}};
   }
   if (std::error_code error; !fs::exists(checkpoint_file(options.directory), error))
@@ -103,10 +105,10 @@ RunResult collect(const CollectOptions& options) {
     all.exit_status = std::max<int>(all.exit_status, exit_not_converged);
     constexpr std::size_t most_shown = 10;
     const std::vector<std::size_t> shown(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(std::min(most_shown, missing.size())));
-    fmt::print(stderr, "{}: {} of {} runs have not ended: {}{}; run their parts again, then collect\n", options.directory, missing.size(), runs.size(),
+    complain("{}: {} of {} runs have not ended: {}{}; run their parts again, then collect\n", options.directory, missing.size(), runs.size(),
                fmt::join(shown, ", "), missing.size() > shown.size() ? ", …" : "");
   }
-  if (!options.quiet) fmt::print("{} of {} runs\nwritten: {}/sweep.csv\n", ended(results), runs.size(), options.directory);
+  if (!options.quiet) say("{} of {} runs\nwritten: {}/sweep.csv\n", ended(results), runs.size(), options.directory);
   return all;
 }
 

@@ -1,6 +1,8 @@
 #include "study/verify_command.hpp"
 
 #include "core/error.hpp"
+#include "core/say.hpp"
+#include "core/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -20,20 +22,23 @@ int verify_command(const std::vector<std::string>& files, const RunOptions& opti
       int here = 0;
       for (const Verdict& v : result.verdicts) {
         here += v.met;
-        if (!v.met || !options.quiet) fmt::print("{} {}\n", v.met ? "met    " : "NOT MET", v.sentence);
+        if (!v.met || !options.quiet) say("{} {}\n", v.met ? "met    " : "NOT MET", v.sentence);
       }
       const int all = static_cast<int>(result.verdicts.size());
       met += here, expectations += all;
-      if (all == 0) fmt::print("{}: nothing is expected of this file: it has no [[expect]]\n", file);
+      if (all == 0) say("{}: nothing is expected of this file: it has no [[expect]]\n", file);
       status = std::max(status, here < all ? std::max<int>(result.exit_status, exit_not_met) : result.exit_status);
       if (result.exit_status == exit_interrupted) return exit_interrupted;
     } catch (const InputError& error) {
-      fmt::print(stderr, "{}\n", error.what());
+      complain("{}\n", error.what());
       ++wrong;
+    } catch (const OutputError& error) {
+      complain("{}\n", error.what());
+      status = std::max<int>(status, exit_not_converged);
     }
   }
   if (wrong < static_cast<int>(files.size()))
-    fmt::print("{} of {} expectations met in {} file{}\n", met, expectations, files.size(), files.size() == 1 ? "" : "s");
+    say("{} of {} expectations met in {} file{}\n", met, expectations, files.size(), files.size() == 1 ? "" : "s");
   return wrong > 0 ? exit_wrong_input : status;
 }
 

@@ -88,7 +88,7 @@ TEST_CASE("a reel is whole after every call", "[film]") {
   reel.add(9, "9"), reel.drop({7});
   CHECK(text_of(file) == "<9>");
   CHECK(files_in(scratch / "").size() == 1);
-  CHECK_THROWS_AS(Reel(scratch / "none/reel"), InputError);
+  CHECK_THROWS_AS(Reel(scratch / "none/reel"), OutputError);
 }
 
 TEST_CASE("a film holds the states that are stored, to the last bit", "[film]") {

@@ -316,7 +316,7 @@ TEST_CASE("a directory that cannot be made is a sentence, and a wrong observable
   try {
     RunDirectory(scratch / "taken", problem, m, "");
     FAIL("no error");
-  } catch (const InputError& e) {
+  } catch (const OutputError& e) {
     CHECK(std::string(e.what()).find("taken: cannot be created: ") != std::string::npos);
   }
   problem.observe[0].group = "nobody";

@@ -57,8 +57,8 @@ TEST_CASE("a CSV file has every row as soon as it is added", "[table]") {
   csv.add({Cell{}, true});
   CHECK(text_of(scratch / "a.csv") == "x,\"a,b\"\n1,0.5\n,true\n");
   CHECK_THROWS_AS(csv.add({1}), std::logic_error);
-  CHECK_THROWS_AS(CsvFile(scratch / "none/a.csv", {"x"}), InputError);
-  if (std::ifstream("/dev/full")) CHECK_THROWS_AS(CsvFile("/dev/full", {"x"}), InputError);
+  CHECK_THROWS_AS(CsvFile(scratch / "none/a.csv", {"x"}), OutputError);
+  if (std::ifstream("/dev/full")) CHECK_THROWS_AS(CsvFile("/dev/full", {"x"}), OutputError);
 }
 
 TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[table]") {

@@ -1,4 +1,4 @@
-// What is printed goes nowhere: the program says so, and what it computed is kept.
+// What is printed or written goes nowhere: the program says so, and what it computed is kept.
 #include "catch.hpp"
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
@@ -6,12 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <thread>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace {
@@ -70,4 +73,63 @@ TEST_CASE("a terminal that is closed stops a run in order", "[study][streams]") 
   CHECK(WEXITSTATUS(status) == 130);
   CHECK(status_in(scratch / "out") == "interrupted");
   CHECK(std::filesystem::exists(scratch / "out/states/final.data"));
+}
+
+TEST_CASE("a sweep and a bisection run to their end where standard output is full, and what is wrong is no crash where standard error is", "[study][streams]") {
+  const ScratchDirectory scratch;
+  const std::string sweep = scratch.file("sweep.toml", printing_column + "[[sweep]]\nkey = \"path.steps\"\nvalues = [2, 3, 4]\n");
+  CHECK(status_of(sweep + " -o " + (scratch / "sweep"), "> /dev/full 2> /dev/null") == 2);
+  CHECK(csv_rows(scratch / "sweep/sweep.csv").size() == 4);
+  const std::string halving = scratch.file("halving.toml", printing_column + "[[sweep]]\nkey = \"beam.column.youngs_modulus\"\nbetween = [0.5e6, 2e6]\n"
+                                           "bisect = \"energy\"\nlevel = 1e-30\n");
+  CHECK(status_of(halving + " -o " + (scratch / "halving"), "> /dev/full 2> /dev/null") == 2);
+  CHECK(status_in(scratch / "halving") == "not_converged");              // the same at both ends, and both were run
+  CHECK(csv_rows(scratch / "halving/sweep.csv").size() == 3);
+  CHECK(status_of("no_such_file.toml", "2> /dev/full") == 1);
+}
+
+TEST_CASE("a file that meets its limit at any byte ends a run in a sentence; what was written is whole, and the run goes on to the same bits", "[study][streams]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("column.toml", printing_column + "frames = 3\n"), said = scratch / "said";
+  REQUIRE(status_of(file + " --quiet -o " + (scratch / "whole"), "") == 0);
+  std::uintmax_t largest = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "whole"))
+    if (entry.is_regular_file()) largest = std::max(largest, entry.file_size());
+  std::uint64_t seed = 19;
+  int stopped = 0, resumed = 0;
+  for (rlim_t limit = 0; limit < largest; limit += 1 + (seed = seed * 6364136223846793005u + 1442695040888963407u) % (largest / 40)) {
+    INFO(limit);
+    const std::string out = scratch / "out";
+    std::filesystem::remove_all(out);
+    const pid_t child = fork();
+    if (child == 0) {
+      const int descriptor = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      const rlimit limits{limit, limit};
+      if (limit > 0) dup2(descriptor, STDERR_FILENO);                     // which is not to be a file of no bytes
+      setrlimit(RLIMIT_FSIZE, &limits);
+      execl(ELAMIN_PROGRAM, ELAMIN_PROGRAM, file.c_str(), "--quiet", "--checkpoint", "0", "-o", out.c_str(), nullptr);
+      _exit(127);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(WIFEXITED(status));
+    REQUIRE(WEXITSTATUS(status) == 2);
+    if (limit > 200) CHECK(text_of(said).find(": cannot be written: File too large") != std::string::npos);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+      if (entry.path().extension() != ".csv") continue;
+      const std::string text = text_of(entry.path().string());
+      CHECK((text.empty() || text.back() == '\n'));
+    }
+    if (std::filesystem::exists(out + "/summary.json")) {
+      ++stopped;
+      CHECK(nlohmann::json::parse(text_of(out + "/summary.json"))["status"] == "interrupted");
+    }
+    if (std::filesystem::exists(out + "/.elamin.checkpoint")) {
+      ++resumed;
+      REQUIRE(status_of("resume --quiet " + out, "") == 0);
+      for (const char* name : {"path.csv", "events.csv", "states/final.data"}) CHECK(text_of(out + "/" + name) == text_of(scratch / "whole/" + name));
+    }
+  }
+  CHECK(stopped > 5);
+  CHECK(resumed > 5);
 }
