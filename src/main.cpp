@@ -26,12 +26,14 @@
 #include <cctype>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace {
@@ -128,6 +130,18 @@ void take_signals() {
   if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);                 // a file that has grown to its limit is one that cannot be written
+}
+
+// OpenBLAS begins with a thread for each core, that are not used here, and each of them waits without end for memory that a limit keeps from it.
+void without_idle_threads(char** argv) {
+  const char* const one_thread = "OPENBLAS_NUM_THREADS";
+  const auto limited = [](auto what) {
+    rlimit limit;
+    return getrlimit(what, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  };
+  const char* const now = std::getenv(one_thread);
+  if ((now && std::strcmp(now, "1") == 0) || !(limited(RLIMIT_AS) || limited(RLIMIT_DATA))) return;
+  setenv(one_thread, "1", 1), execv("/proc/self/exe", argv);
 }
 
 // The status of a program that has printed all it had to: a standard output that is full is an error, a pipe that nobody reads is none.
@@ -294,6 +308,7 @@ int answer(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  without_idle_threads(argv);
   open_standard_streams();
   take_signals();
   return when_printed(answer(argc, argv));

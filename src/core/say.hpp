@@ -6,12 +6,17 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace elamin {
 
 /// What an exception says, in words.
-inline std::string told(const std::exception& error) { return dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what(); }
+inline std::string told(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);           // of a thread that cannot be made
+  const bool no_room = dynamic_cast<const std::bad_alloc*>(&error) || (system && system->code() == std::errc::resource_unavailable_try_again);
+  return no_room ? "there is not enough memory" : error.what();
+}
 
 /// Prints on standard output, as fmt::print, but for what it does where that is full: nothing.
 template <typename... T>

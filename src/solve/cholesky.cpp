@@ -2,14 +2,14 @@
 
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
+#include "solve/blas.hpp"
 
 #include <cholmod.h>
 #include <omp.h>
 
-extern "C" void openblas_set_num_threads(int);
-
 #include <cassert>
 #include <stdexcept>
+#include <string>
 
 namespace elamin {
 
@@ -23,6 +23,11 @@ cholmod_sparse view(const SparseMatrix& m) {
   a.x = const_cast<double*>(m.valuePtr());
   a.stype = -1, a.itype = CHOLMOD_INT, a.xtype = CHOLMOD_REAL, a.dtype = CHOLMOD_DOUBLE, a.sorted = 1, a.packed = 1;
   return a;
+}
+
+[[noreturn]] void cholmod_failed(const std::string& what, int status) {
+  if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw OutOfMemory("there is not enough memory for a factor of the Hessian (CHOLMOD, " + what + ")");
+  throw std::runtime_error("CHOLMOD: the " + what + " failed, status " + std::to_string(status));
 }
 
 // CHOLMOD opens teams of four threads for loops of a few hundred numbers, whatever it is told: none while this lives.
@@ -40,12 +45,12 @@ struct Cholesky::Cholmod {
   cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;      // kept between solves: no allocation in the loop
 
   Cholmod() {
+    ready_blas();
     cholmod_start(&common);
     common.print = 0;
     common.final_ll = 1;
     common.quick_return_if_not_posdef = 1;
     common.supernodal = CHOLMOD_AUTO;
-    openblas_set_num_threads(1);                                // threaded sums would depend on the number of threads
   }
   ~Cholmod() {
     release();
@@ -70,7 +75,7 @@ void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders
   const Doing doing("ordering the unknowns");
   cholmod_sparse a = view(pattern);
   cholmod_->factor = cholmod_analyze(&a, &cholmod_->common);
-  if (!cholmod_->factor) throw std::runtime_error("CHOLMOD: the analysis of the pattern failed (out of memory?)");
+  if (!cholmod_->factor) cholmod_failed("analysis", cholmod_->common.status);
 }
 
 bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unused]] const Eigen::MatrixXd& borders) {
@@ -83,7 +88,7 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unus
   cholmod_sparse a = view(hessian);
   double beta[2] = {shift, 0};
   const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, cholmod_->factor, &cholmod_->common);
-  if (!ok && cholmod_->common.status < 0) throw std::runtime_error("CHOLMOD: the factorisation failed (out of memory?)");
+  if (!ok && cholmod_->common.status < 0) cholmod_failed("factorisation", cholmod_->common.status);
   return cholmod_->common.status == CHOLMOD_OK && cholmod_->factor->minor == cholmod_->factor->n;
 }
 
@@ -98,7 +103,7 @@ Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) {
   rhs.x = const_cast<double*>(b.data()), rhs.xtype = CHOLMOD_REAL, rhs.dtype = CHOLMOD_DOUBLE;
   Cholmod& c = *cholmod_;
   if (!cholmod_solve2(system, c.factor, &rhs, nullptr, &c.x, nullptr, &c.y, &c.e, &c.common))
-    throw std::runtime_error("CHOLMOD: the solve failed");
+    cholmod_failed("solve", c.common.status);
   return Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(c.x->x), b.rows(), b.cols());
 }
 

@@ -1,6 +1,7 @@
 #include "solve/mumps.hpp"
 
 #include "core/heartbeat.hpp"
+#include "solve/blas.hpp"
 
 #include <dmumps_c.h>
 
@@ -18,6 +19,12 @@ namespace elamin {
 namespace {
 
 constexpr int fortran_communicator = -987654;              // MPI_COMM_WORLD of the sequential build
+
+[[noreturn]] void mumps_failed(const std::string& what, int infog) {
+  for (const int out_of_memory : {-5, -7, -8, -9, -13, -19})                    // of integers, reals, pointers; workspace too small
+    if (infog == out_of_memory) throw OutOfMemory("there is not enough memory for a factor of the Hessian (MUMPS, " + what + ")");
+  throw std::runtime_error("MUMPS: the " + what + " failed, INFOG(1) = " + std::to_string(infog));
+}
 
 }  // namespace
 
@@ -76,7 +83,7 @@ void Mumps::analyze(const SparseMatrix& pattern, int borders) {
   m.id.irn = m.rows.data(), m.id.jcn = m.columns.data(), m.id.a = m.values.data();
   const Doing doing("ordering the unknowns");
   m.call(1);
-  if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the analysis failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
+  if (m.id.infog[0] < 0) mumps_failed("analysis", m.id.infog[0]);
 }
 
 bool Mumps::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
@@ -100,7 +107,7 @@ bool Mumps::factorize(const SparseMatrix& hessian, double shift, const Eigen::Ma
     m.icntl(14) *= 3;
   }
   if (m.id.infog[0] == -10) return false;                  // numerically singular
-  if (m.id.infog[0] < 0) throw std::runtime_error("MUMPS: the factorisation failed, INFOG(1) = " + std::to_string(m.id.infog[0]));
+  if (m.id.infog[0] < 0) mumps_failed("factorisation", m.id.infog[0]);
   return true;
 }
 
@@ -114,7 +121,7 @@ Eigen::MatrixXd Mumps::solve(const Eigen::MatrixXd& b) {
   x.topRows(b.rows()) = b;
   instance_->id.rhs = x.data(), instance_->id.nrhs = static_cast<int>(x.cols()), instance_->id.lrhs = static_cast<int>(x.rows());
   instance_->call(3);
-  if (instance_->id.infog[0] < 0) throw std::runtime_error("MUMPS: the solve failed");
+  if (instance_->id.infog[0] < 0) mumps_failed("solve", instance_->id.infog[0]);
   return x.topRows(b.rows());
 }
 

@@ -4,6 +4,7 @@
 #include "core/say.hpp"
 #include "results/closing.hpp"
 #include "results/summary.hpp"
+#include "solve/blas.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
 #include "study/sweep_parts.hpp"
@@ -62,7 +63,7 @@ RunResult run(const RunOptions& options) {
 RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   RunOptions options = given;
   if (options.threads <= 0) options.threads = cores();
-  set_threads(options.threads);
+  set_threads(options.threads), ready_blas();
   if (options.directory.empty()) options.directory = default_directory(options.file);
   if (options.report)
     for (PreparedRun& run : prepared.runs) keep_frames(run.problem);

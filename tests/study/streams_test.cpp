@@ -133,3 +133,48 @@ TEST_CASE("a file that meets its limit at any byte ends a run in a sentence; wha
   CHECK(stopped > 5);
   CHECK(resumed > 5);
 }
+
+TEST_CASE("under any limit of memory a run ends, in a sentence where that is too little, and what was begun says so", "[study][memory]") {
+  const ScratchDirectory scratch;
+  const std::string column = scratch.file("column.toml", printing_column), said = scratch / "said", problems = ELAMIN_ROOT "/problems/";
+  const std::string sheet = scratch.file("sheet.toml", R"(
+[[sheet]]
+name = "plate"
+shape = "rectangle"
+size = [0.15, 0.15]
+spacing = 1.0e-3
+youngs_modulus = 1.0e6
+density = 800.0
+[[group]]
+name = "edge"
+of = "plate"
+inside = {shape = "block", lo = [-1, -1, -1], hi = [-0.0740, 1, 1]}
+[[support]]
+group = "edge"
+[[gravity]]
+acceleration = [0, 0, -0.01]
+[path]
+steps = 2
+)");
+  int done = 0, refused = 0, broken_off = 0;
+  for (const std::string& file : {column, problems + "sheet_indented.toml", problems + "boxes_stacked.toml", sheet})
+    for (const int kilobytes : {100000, 130000, 160000, 200000, 240000, 270000, 300000, 350000, 400000, 500000}) {
+      INFO(file << " " << kilobytes);
+      const std::string out = scratch / "out";
+      std::filesystem::remove_all(out);
+      const std::string limited = "bash -c \"ulimit -v " + std::to_string(kilobytes) + "; timeout -s KILL 60 '" ELAMIN_PROGRAM "' " + file + " --threads 2 --quiet -o " + out +
+                                  " > " + said + " 2>&1\"";
+      const int status = WEXITSTATUS(std::system(limited.c_str()));
+      INFO(text_of(said));
+      ++(status == 0 ? done : refused);
+      if (status == 0) continue;
+      CHECK(status == 2);
+      CHECK(text_of(said).find("not enough memory") != std::string::npos);
+      if (!std::filesystem::exists(out + "/summary.json")) continue;
+      ++broken_off;
+      CHECK(status_in(out) == "interrupted");
+    }
+  CHECK(done > 5);
+  CHECK(refused > 5);
+  CHECK(broken_off > 2);
+}
