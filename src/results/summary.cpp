@@ -78,6 +78,11 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["input"] = summary.input;
   all["input_sha256"] = summary.input_sha256;
   all["tolerances"] = object(summary.tolerances);
+  if (const auto& c = summary.check) {
+    all["check"] = {{"verdict", c->passed ? "passed" : "failed"}, {"residual", json_of(c->residual)}, {"energy_error", json_of(c->energy_error)},
+                    {"directions", c->directions}};
+    if (!c->passed) all["check"]["what"] = c->what;
+  }
   if (summary.resumed > 0) all["resumed"] = summary.resumed;
   if (summary.imperfection > 0) all["imperfection"] = {{"max_displacement", json_of(summary.imperfection)}};
   write_to_disk(file, text_of(all));

@@ -3,11 +3,20 @@
 #include "results/table.hpp"
 #include "solve/report.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace elamin {
+
+/// What an independent look at the last point of a run came to (see study/end_check.hpp).
+struct EndCheck {
+  bool passed = true;
+  std::string what;                                            // is not as it was told; "" if it passed
+  double residual = 0, energy_error = 0;                       // as found anew [1, energy]
+  int directions = 0;                                          // along which the energy was followed, and told something, where the point is called stable
+};
 
 struct Summary {
   std::string title, status, message;                          // status: see status_name
@@ -17,6 +26,7 @@ struct Summary {
   std::vector<std::string> zero_modes;                         // of the last equilibrium, by name: rattlers, rigid motions
   double imperfection = 0;                                     // how far a particle was moved at most before all [length]; 0: none was
   int resumed = 0;                                             // how often the run was stopped and went on
+  std::optional<EndCheck> check = {};                          // of equilibria
   std::vector<std::string> warnings = {};                      // what is doubtful about the model or the result, a sentence each
 };
 

@@ -10,6 +10,7 @@
 #include "study/observed.hpp"
 #include "study/run.hpp"
 #include "study/describe.hpp"
+#include "study/end_check.hpp"
 #include "study/strain_watch.hpp"
 #include "study/teller.hpp"
 #include "study/trace.hpp"
@@ -61,7 +62,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   teller.log(fmt::format("elamin {}: {}{}", version(), problem.file, stopped ? ", resumed" : ""));
   Energy* energy = nullptr;                                    // of the stage
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
-  double setup = 0, before = 0;                                // seconds; of the sessions before this one
+  double setup = 0, checking = 0, before = 0;                                // seconds; of the sessions before this one
 
   Summary summary;
   StrainWatch strains;
@@ -104,6 +105,11 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     }
     strains.look(energy->model(), point.state, fmt::format("load factor {:.7g}", point.state.load_factor));
     summary.zero_modes = point.stability.zero_modes;
+    if (last && point.report.status != Status::interrupted) {
+      const Doing doing("checking");
+      const Timed timed(checking);
+      summary.check = check_end(energy->model(), point, problem.solver.tolerance);
+    }
     teller.found(point, touches);
   };
   const Sink sink{
@@ -152,13 +158,17 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     else if (results.has_film()) checkpoints.end(carry);
     teller.finish();
     for (const std::string& warning : strains.warnings()) teller.warn(warning);
+    if (summary.check && !summary.check->passed) {
+      teller.warn("the last point is not what it is told to be: " + summary.check->what);
+      if (outcome.status == Status::converged) outcome = {Status::not_converged, "the last point did not pass the check at the end: " + summary.check->what};
+    }
     teller.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
 
     summary.warnings = teller.warnings();
     summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
     summary.input = problem.file, summary.input_sha256 = problem.sha256;
     summary.imperfection = model.imperfection;
-    summary.times = {{"setup", setup}, {"total", before + total.seconds()}};
+    summary.times = {{"setup", setup}, {"check", checking}, {"total", before + total.seconds()}};
     summary.resumed = resumed;
     summary.tolerances = {{"residual", problem.solver.tolerance}};
     if (total.seconds() > options.checkpoint) flush_to_disk(options.directory);      // what took less is soon run again
