@@ -58,7 +58,7 @@ std::string describe(const Problem& problem, const Model& model) {
   const State start = built ? model.start : starting_state(problem, energy);
   text += describe_contacts(model, energy, start);
   for (const std::string& warning : doubts(problem, model)) text += "warning: " + warning + "\n";
-  for (const std::string& warning : core_overlaps(model, energy, start)) text += "warning: " + warning + "\n";
+  for (const std::string& warning : deep_overlaps(model, energy, start)) text += "warning: " + warning + "\n";
   for (const Group& g : model.groups)
     text += fmt::format("group '{}': {} particles{}\n", g.name, g.particles.size(), g.bodies.empty() ? "" : fmt::format(", {} bodies", g.bodies.size()));
   text += describe_motions(model);

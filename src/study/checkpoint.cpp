@@ -120,6 +120,12 @@ void Checkpointing::offer(const std::function<void(Archive&)>& carry) {
   since_ = Stopwatch();
 }
 
+void Checkpointing::replace(std::string state) {
+  if (!any_) return;
+  latest_.state = std::move(state);
+  write(Phase::going);
+}
+
 void Checkpointing::write(Phase phase) {
   latest_.phase = phase;
   write_checkpoint(results_.directory(), latest_);

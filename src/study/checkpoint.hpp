@@ -59,6 +59,8 @@ class Checkpointing {
 
   /// A place that the run can go on from, with all that it carries there.
   void offer(const std::function<void(Archive&)>& carry);
+  /// The place that the run goes on from, anew: the results have changed since.
+  void replace(std::string state);
   /// The run stops: the last place that was kept is written.
   void stop();
   /// The same where that may not be possible either.

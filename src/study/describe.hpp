@@ -19,8 +19,9 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
 /// Shape, size, volume, mass, inertia and place of the bodies of a structure; of many, a few lines a shape.
 std::string describe_bodies(const Model& model, const Structure& structure);
 
-/// Warnings of pairs whose cores overlap at a state that the energy has been evaluated at, or starts from.
-std::vector<std::string> core_overlaps(const Model& model, const Energy& energy, const State& state);
+/// Warnings of particles that overlap by more than a quarter of the smaller one, if they feel each other or no bond holds them, and of bodies whose cores
+/// overlap, at a state that the energy has been evaluated at, or starts from.
+std::vector<std::string> deep_overlaps(const Model& model, Energy& energy, const State& state);
 
 /// Warnings of friction, damping and drag in a study that has no motion.
 std::vector<std::string> idle_at_rest(const Problem& problem);

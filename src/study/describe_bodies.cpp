@@ -1,14 +1,15 @@
 #include "study/describe.hpp"
 
 #include "core/dense.hpp"
+#include "core/near_pairs.hpp"
 #include "laws/rounded/closest.hpp"
 #include "model/entities.hpp"
 
 #include <fmt/format.h>
 
-
 #include <algorithm>
 #include <limits>
+#include <set>
 
 namespace elamin {
 
@@ -67,17 +68,33 @@ std::string describe_bodies(const Model& model, const Structure& s) {
   return text;
 }
 
-std::vector<std::string> core_overlaps(const Model& model, const Energy& energy, const State& state) {
-  constexpr int most = 10;
+std::vector<std::string> deep_overlaps(const Model& model, Energy& energy, const State& state) {
+  constexpr std::size_t most = 10;
+  constexpr double deep = 0.25;                               // of the smaller diameter: far beyond what a law of contact means
+  std::set<IndexPair> particles;
+  const auto overlap = [&](int i, int j) { return (model.diameter[i] + model.diameter[j]) / 2 - (state.at(j) - state.at(i)).hi.norm(); };
+  const auto take = [&](int i, int j) {
+    if (overlap(i, j) > deep * std::min(model.diameter[i], model.diameter[j])) particles.insert({std::min(i, j), std::max(i, j)});
+  };
+  for (const Touch& t : energy.touches(state))
+    if (t.other >= 0 && std::max(t.particle, t.other) < model.particles()) take(t.particle, t.other);
+  std::vector<double> radii(model.diameter.begin(), model.diameter.end());
+  for (double& r : radii) r /= 2;
+  for (const Bond& b : model.bonds) radii[b.particles[0]] = radii[b.particles[1]] = 0;
+  for (const Glued& g : model.glued) radii[g.particle] = 0;
+  for (const auto& [i, j] : near_pairs(state.position, radii, [](int, int) { return true; })) take(i, j);
   std::vector<std::string> lines;
-  int count = 0;
+  for (const auto& [i, j] : particles)
+    if (lines.size() < most)
+      lines.push_back(fmt::format("{} and {} overlap by {:.3g} of a diameter at the start; no law of contact means much there", called(model, i), called(model, j),
+                                  overlap(i, j) / std::min(model.diameter[i], model.diameter[j])));
+  std::size_t count = particles.size();
   const BodyRules& rules = energy.body_rules();
-  for (const auto& [i, j] : energy.body_neighbours().pairs()) {
-    if (!cores_overlap(rules.body(i, state), rules.body(j, state)) || ++count > most) continue;
-    lines.push_back(fmt::format("the cores of {} and {} overlap, deeper than their rounding; no law of rounded bodies means much there",
-                                called(model, i), called(model, j)));
-  }
-  if (count > most) lines.push_back(fmt::format("and the cores of {} more pairs overlap", count - most));
+  for (const auto& [i, j] : energy.body_neighbours().pairs())
+    if (cores_overlap(rules.body(i, state), rules.body(j, state)) && ++count <= most)
+      lines.push_back(fmt::format("the cores of {} and {} overlap, deeper than their rounding; no law of rounded bodies means much there",
+                                  called(model, i), called(model, j)));
+  if (count > most) lines.push_back(fmt::format("and {} more pairs overlap", count - most));
   return lines;
 }
 

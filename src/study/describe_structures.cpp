@@ -226,6 +226,9 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
 std::vector<std::string> doubts(const Problem& problem, const Model& model) {
   std::vector<std::string> lines = idle_at_rest(problem);
   for (const std::string& warning : lammps_remarks(problem).warnings) lines.push_back(warning);
+  for (const ExpectTable& e : problem.expect)
+    if (e.value != 0 && e.rtol * std::abs(e.value) + e.atol >= std::abs(e.value))
+      lines.push_back(Mistake{problem.file, e.place.line, e.place.column, e.place.key, fmt::format("the tolerance on {} is as large as the value: nothing at all would meet it, too", e.observable)}.sentence());
   const auto remedy = [&](const Structure& s) {
     const auto x = model.start.position.middleCols(s.first, s.count);
     const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace elamin {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr int random_directions = 3;
 constexpr double of_energy = 1e-12;             // of the parts, to which two sums of them agree
-constexpr double farthest = 1e-3;               // of the smallest particle or body, that a direction is followed
+constexpr double nearest = 1e-7, farthest = 1e-3;     // of the smallest particle or body, that a direction is followed
 constexpr double above_rounding = 1e4;          // D(t) over its rounding, that t is chosen for
 constexpr double within_rounding = 10;          // less than that many times it means nothing
 constexpr double roughly = 1e-3;                // of eigenvectors: whatever the direction, its energies tell the truth
@@ -29,7 +30,8 @@ class Neighbourhood {
  public:
   Neighbourhood(Energy& energy, const State& here)
       : energy_(energy), here_(here), external_(!energy.model().bodies.empty() || !energy.model().pressures.empty()), middle_(at(here)),
-        rounding_(4 * epsilon * (middle_.parts.cwiseAbs().sum() + others_size())) {}
+        rounding_(4 * epsilon * (middle_.parts.cwiseAbs().sum() + others_size() +
+                                 energy.force_floor() * energy.kinematics().mean_size() * static_cast<double>(middle_.parts.size()))) {}
 
   double rounding() const { return rounding_; }
   const Energies& middle() const { return middle_; }
@@ -105,12 +107,14 @@ EndCheck check_end(const Model& model, const PathPoint& point, double tolerance)
     Vector& v = directions[k];
     if (const double largest = v.cwiseAbs().maxCoeff(); largest > 0) v /= largest;
     const double told_curvature = energy.quadratic_form(v);
-    const double most = farthest * energy.kinematics().smallest_size();
-    const double t = told_curvature != 0 ? std::min(most, std::sqrt(above_rounding * around.rounding() / std::abs(told_curvature))) : most;
-    const double rise = (16 * around.second_difference(v, t) - around.second_difference(v, 2 * t)) / 12;
-    if (std::abs(rise) <= within_rounding * around.rounding()) continue;
+    const double size_here = energy.kinematics().smallest_size();
+    const double wanted = std::sqrt(above_rounding * around.rounding() / std::max(std::abs(told_curvature), std::numeric_limits<double>::min()));
+    const double t = std::clamp(wanted, nearest * size_here, farthest * size_here);
+    const double near = around.second_difference(v, t), rise = (16 * near - around.second_difference(v, 2 * t)) / 12;
+    const double least = within_rounding * around.rounding();
+    if (std::abs(rise) <= least) continue;
     ++check.directions;
-    if (rise < 0) fail(fmt::format("called stable, but the energy falls along {}: by {:.3g} over {:.3g}", k == 0 ? "the lowest mode" : "a random direction", -rise, t));
+    if (std::max(rise, near) < -least) fail(fmt::format("called stable, but the energy falls along {}: by {:.3g} over {:.3g}", k == 0 ? "the lowest mode" : "a random direction", -rise, t));
   }
   return check;
 }

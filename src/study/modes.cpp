@@ -82,7 +82,6 @@ Outcome trace_modes(const Problem& problem, Newton& newton, const Sink& sink) {
   const Report report = newton.correct(state, assess(newton, state, {}).zero_modes);
   Equilibrium e = assess(newton, state, report);
   if (!report.converged()) {
-    e.point.stability.stable = false;                     // nothing is known of an equilibrium
     sink.point(e.point, true);
     return {report.status, report.why};
   }

@@ -33,6 +33,14 @@ std::string log_line(const PathPoint& p) {
   return line;
 }
 
+// What the results carry, as the text that it is in the archive of a run.
+void carry_results(Archive& archive, RunDirectory& results) {
+  Archive own;
+  own(results);
+  std::string bytes = own.bytes();
+  archive(bytes);
+}
+
 std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics) {
   std::vector<Field> vectors;
   for (Eigen::Index k = 0; k < p.modes.cols(); ++k) vectors.push_back(kinematics.extend(p.modes.col(k), p.state));
@@ -47,17 +55,25 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   if (!problem.path.start.empty()) stored = read_supplement(problem.path.start);
   std::optional<Checkpoint> stopped = options.resumes ? read_checkpoint(options.directory) : std::nullopt;
   if (stopped && stopped->phase == Phase::begun) stopped.reset();
-  Archive archive(stopped ? std::move(stopped->state) : std::string());
+  Archive archive(stopped ? stopped->state : std::string());
+  std::string of_results;                                      // their part of the archive, the first
+  if (stopped) archive(of_results);
   const auto open = [&]() -> RunDirectory {
-    if (stopped) return {options.directory, problem, model, archive, stopped->phase == Phase::dropping || stopped->phase == Phase::ending};
+    Archive own(of_results);
+    if (stopped) return {options.directory, problem, model, own, stopped->phase == Phase::dropping || stopped->phase == Phase::ending};
     return {options.directory, problem, model, resolved_toml(problem), options.force};
   };
   RunDirectory results = open();
   const int resumed = stopped ? stopped->resumed + 1 : 0;
   if (options.record && !stopped) write_checkpoint(options.directory, {*options.record});
   results.begin(problem.title);
-  if (stopped && stopped->phase == Phase::dropping) results.settle();
   Checkpointing checkpoints(results, options.record, options.checkpoint, resumed);
+  if (stopped && stopped->phase == Phase::dropping) {
+    results.settle();                                          // told at once: frames that are added now must not be taken for what was left
+    Archive now;
+    carry_results(now, results);
+    checkpoints.replace(now.bytes() + stopped->state.substr(sizeof(std::uint64_t) + of_results.size()));
+  }
   Teller teller(problem, results, options.style);
   teller.log(fmt::format("elamin {}: {}{}", version(), problem.file, stopped ? ", resumed" : ""));
   Energy* energy = nullptr;                                    // of the stage
@@ -74,13 +90,14 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     Archive own;
     if (!a.reads() && lowest) own(*lowest);
     std::string eigenvalues = own.bytes();
-    if (!a.reads()) a(results);                                // which has been read as it was made
-    a(strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why);
+    if (!a.reads()) carry_results(a, results);                 // which have been read as they were made
+    a(strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check);
     if (a.reads()) before = seconds, of_lowest = std::move(eigenvalues);
   };
   if (stopped) carry(archive);
   const auto add = [&](PathPoint point, bool last, const std::vector<double>& eigenvalues) {
     if (last && point.label.empty()) point.label = "final";
+    if (!point.report.converged()) point.stability.stable = false;          // only an equilibrium is
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
       const Iteration& i = point.report.history[k];
       teller.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy),
@@ -105,7 +122,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     }
     strains.look(energy->model(), point.state, fmt::format("load factor {:.7g}", point.state.load_factor));
     summary.zero_modes = point.stability.zero_modes;
-    if (last && point.report.status != Status::interrupted) {
+    if (last && point.report.status != Status::interrupted && std::isfinite(point.energy.total())) {
       const Doing doing("checking");
       const Timed timed(checking);
       summary.check = check_end(energy->model(), point, problem.solver.tolerance);
@@ -125,7 +142,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
         if (setup > 0) return;
         for (const std::string& note : problem.notes) teller.log("note: " + note);
         for (const std::string& warning : doubts(problem, model)) teller.warn(warning);
-        for (const std::string& warning : core_overlaps(model, *energy, model.restart.value_or(model.start))) teller.warn(warning);
+        for (const std::string& warning : deep_overlaps(model, *energy, model.restart.value_or(model.start))) teller.warn(warning);
         setup = total.seconds();
       },
       .point = [&](const PathPoint& point, bool last) {

@@ -24,8 +24,9 @@ Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
   Equilibrium e = assess(newton, state, {});
   e.point.report.residual = newton.energy().relative(newton.energy().gradient());
   e.point.report.status = Status::converged;
+  if (e.point.report.residual > problem.solver.tolerance) e.point.stability.stable = false;                // it is no equilibrium
   const bool finite = std::isfinite(e.point.energy.total());
-  if (!finite) e.point.report.status = Status::not_converged, e.point.stability.stable = false;
+  if (!finite) e.point.report.status = Status::not_converged;
   sink.point(e.point, true);
   if (finite) return {Status::converged, "energies and forces of the state in the file"};
   return {Status::not_converged, not_finite(newton.energy(), state)};
@@ -85,7 +86,6 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
   if (report.status == Status::not_converged)
     if (const std::string what = obstacle(newton.energy(), state); report.why.find(what) == std::string::npos) report.why += "; " + what;
   Equilibrium e = assess(newton, state, report);
-  if (!report.converged()) e.point.stability.stable = false;
   sink.point(e.point, true);
   return {report.status, report.why};
 }
