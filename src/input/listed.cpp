@@ -72,7 +72,8 @@ class Finder {
       }
       const auto found = number == std::trunc(number) && std::abs(number) < 2e9 ? index_.find(static_cast<int>(number)) : index_.end();
       if (found == index_.end())
-        return wrong(row, fmt::format("{} is no id of a particle; there are {} to {}", number, index_.begin()->first, index_.rbegin()->first));
+        return wrong(row, fmt::format("{} is no id of a particle; there are {}", number,
+                                      index_.empty() ? "none" : fmt::format("{} to {}", index_.begin()->first, index_.rbegin()->first)));
       particles[k] = found->second;
     }
     for (std::size_t k = 1; k < n; ++k)
