@@ -1,6 +1,7 @@
 #include "lammps/state.hpp"
 
 #include "catch.hpp"
+#include "core/text_file.hpp"
 #include "core/error.hpp"
 #include "laws/section.hpp"
 #include "lammps/data.hpp"
@@ -124,7 +125,7 @@ TEST_CASE("particles without bonds, density or a sane title", "[lammps_state]") 
   const LammpsData data = read_lammps_data(scratch / "a.data");
   CHECK(data.bonds.empty());
   CHECK(data.density == std::vector<double>(5, 1.0));
-  CHECK_THROWS_AS(write_state(scratch / "none/a.data", m, m.start, ""), InputError);
+  CHECK_THROWS_AS(write_state(scratch / "none/a.data", m, m.start, ""), OutputError);
 }
 
 TEST_CASE("types that no bond or angle has are left out of a state, the others counted anew", "[lammps_state]") {
