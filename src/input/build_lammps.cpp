@@ -35,11 +35,13 @@ void move_bodies(LammpsData& from, LammpsData& to) {
 std::optional<LammpsData> read(const LammpsTable& table, Mistakes& mistakes) {
   if (table.place.broken) return std::nullopt;
   std::optional<LammpsData> data, bodies;
-  if (!table.data.empty()) data = read(table.data, reading_of(table), mistakes);
+  const bool particles = has_particles(table);
+  if (particles) data = read(table.script ? table.input : table.data, reading_of(table), mistakes);
   LammpsReading of_bodies = reading_of(table);
-  if (!table.data.empty()) of_bodies.atom_style.clear();
+  of_bodies.text = nullptr;
+  if (particles) of_bodies.atom_style.clear();
   if (!table.bodies.empty()) bodies = read(table.bodies, of_bodies, mistakes);
-  if ((!table.data.empty() && !data) || (!table.bodies.empty() && !bodies)) return std::nullopt;
+  if ((particles && !data) || (!table.bodies.empty() && !bodies)) return std::nullopt;
   if (bodies && !bodies->id.empty()) {
     mistakes.add(table.place, "bodies", fmt::format("holds {} particles; these belong into the file of `data`", bodies->id.size()));
     return std::nullopt;

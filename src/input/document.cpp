@@ -104,7 +104,7 @@ void set_place(Node& node, Place place) {
 }  // namespace
 
 Document parse_document(const std::string& text, const std::string& file) {
-  Document document{file, sha256(text), parse(std::string(without_mark(text)), file)};
+  Document document{file, sha256(text), parse(std::string(without_mark(text)), file), {}};
   take_lammps_input(document);
   return document;
 }

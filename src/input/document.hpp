@@ -3,6 +3,7 @@
 #include "input/problem.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,6 +30,7 @@ struct Entry {
 struct Document {
   std::string file, sha256;            // as given; of the bytes
   Entries root;
+  std::optional<ScriptReading> script; // what [lammps] input gave besides tables
 };
 
 /// Reads a TOML file. Throws InputError if it is not there, not a text in UTF-8, or not TOML.

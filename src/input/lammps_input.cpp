@@ -2,8 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
-#include "core/text.hpp"
-#include "core/text_file.hpp"
+#include "lammps/script/report.hpp"
 #include "lammps/script/translation.hpp"
 
 #include <fmt/format.h>
@@ -41,42 +40,37 @@ void merge(Entries& own, Entries&& script) {
   }
 }
 
-/// Written anew where something differs, and only over a file of this kind.
-void keep_data(const std::string& file, const std::string& data) {
-  if (fs::exists(file)) {
-    const std::string old = read_data(file, "LAMMPS data file");
-    if (old == data) return;
-    if (old.substr(0, old.find('\n')).find("by elamin import") == std::string::npos)
-      throw InputError(file + ": is in the way: the particles of the script beside it go there; give that file another name");
-  }
-  write_text(file, data);
-}
-
 }  // namespace
 
 void take_lammps_input(Document& document) {
   Node* const table = find(document.root, "lammps");
-  if (!table || !std::holds_alternative<Entries>(table->value)) return;
+  if (document.script || !table || !std::holds_alternative<Entries>(table->value)) return;
   Entries& lammps = std::get<Entries>(table->value);
-  const auto input = std::find_if(lammps.begin(), lammps.end(), [](const Entry& e) { return e.key == "input"; });
-  if (input == lammps.end() || !std::holds_alternative<std::string>(input->node.value)) return;
-  const Place place = input->node.place;
-  const std::string name = std::get<std::string>(input->node.value);
+  const Node* const input = find(lammps, "input");
+  if (!input || !std::holds_alternative<std::string>(input->value)) return;
+  const Place place = input->place;
+  const std::string name = std::get<std::string>(input->value);
   const auto wrong = [&](const std::string& what) { throw InputError({Mistake{document.file, place.line, place.column, "lammps.input", what}}); };
   if (name.empty()) wrong("is empty; the name of a LAMMPS input script is wanted");
+  Node* const only = find(lammps, "particles_only");
+  const bool tables = !only || !std::holds_alternative<bool>(only->value) || !std::get<bool>(only->value);
   for (const char* key : {"data", "bodies"})
-    if (find(lammps, key)) wrong(fmt::format("and {} are both given; the script says where its particles are from", in_quotes(key)));
-  const std::string script = fs::path(name).is_absolute() ? name : (fs::path(document.file).parent_path() / name).string();
-  const script::Reading reading = script::read_script(script, {});
+    if (find(lammps, key) && (tables || key[0] == 'd')) wrong(fmt::format("and {} are both given; the script says where its particles are from", in_quotes(key)));
+  const script::Reading reading = script::read_script((fs::path(document.file).parent_path() / name).string(), {});
   if (reading.passes.size() != 1)
     wrong(reading.passes.empty() ? "makes no particle that is there at its end" : fmt::format("begins anew and gives {} problems; `elamin import` writes them all", reading.passes.size()));
   if (reading.passes[0].stopped)
     wrong(fmt::format("needs positions behind a run at {}; `elamin import` writes what comes before, and with --after what follows", reading.place(*reading.passes[0].stopped)));
-  const script::Translated made = script::translated(reading, reading.passes[0], {}, name + ".data");
-  if (!made.data.empty()) keep_data(script + ".data", made.data);
-  Entries entries = parse_entries(made.toml, script);
+  script::Translated made = script::translated(reading, reading.passes[0], {}, "");
+  document.script = {std::move(made.data), {}, script::notes_of(reading, made.notes)};
+  for (const auto& files : {reading.files, reading.data_files})
+    for (const std::string& f : files) document.script->files.push_back(fs::absolute(f).lexically_normal().string());
+  Entries entries = parse_entries(made.toml, reading.files.front());
   for (Entry& e : entries) e.place = place, put_at(e.node, place);
-  lammps.erase(input);
+  std::erase_if(std::get<Entries>(find(entries, "lammps")->value), [](const Entry& e) { return e.key == "data"; });
+  if (!tables) std::erase_if(entries, [](const Entry& e) { return e.key != "lammps"; });
+  else if (only) only->value = true;
+  else lammps.push_back({"particles_only", place, {place, true}});
   merge(document.root, std::move(entries));
 }
 

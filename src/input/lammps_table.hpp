@@ -6,9 +6,18 @@
 
 namespace elamin {
 
+/// What a LAMMPS input script gives besides tables.
+struct ScriptReading {
+  std::string particles;                             // as a data file
+  std::vector<std::string> files, notes;             // that were read, the script first; what is to know
+  bool operator==(const ScriptReading&) const = default;
+};
+
 struct LammpsTable {
   TablePlace place;
   std::string data, bodies, atom_style, input;
+  bool particles_only = false;
+  std::optional<ScriptReading> script;               // of `input`
   std::optional<std::vector<std::string>> ignore;
   std::optional<std::vector<std::vector<double>>> bond_coefficients, angle_coefficients;
   std::vector<std::pair<std::string, int>> labels;   // of the atom types of `data`, groups too; read from the file
@@ -17,6 +26,8 @@ struct LammpsTable {
 
 void describe(Keys& keys, LammpsTable& t);
 
+/// Whether there is a file, or a script, with particles.
+bool has_particles(const LammpsTable& t);
 /// How the files are to be read.
 LammpsReading reading_of(const LammpsTable& t);
 

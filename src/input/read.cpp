@@ -3,6 +3,7 @@
 #include "dynamics/relax.hpp"
 #include "input/build.hpp"
 #include "input/check.hpp"
+#include "input/lammps_input.hpp"
 #include "input/old_names.hpp"
 #include "input/reader.hpp"
 #include "input/state_supplement.hpp"
@@ -85,6 +86,7 @@ ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
   reader.finish();
   file.problem.file = document.file;
   file.problem.sha256 = document.sha256;
+  if (file.problem.lammps) file.problem.lammps->script = document.script;
   complete(file.problem);
   const Problem& p = file.problem;
   const bool empty =
@@ -114,8 +116,10 @@ Problem read_problem_text(const std::string& text, const std::string& file, cons
 
 Problem read_problem(Document document, const std::vector<Setting>& settings) {
   Mistakes mistakes(document.file);
+  take_lammps_input(document);
   for (const Setting& setting : settings) apply(setting, document, mistakes);
   std::vector<std::string> notes = take_old_names(document);
+  if (document.script) notes.insert(notes.end(), document.script->notes.begin(), document.script->notes.end());
   Problem problem = read_tables(document, mistakes).problem;
   problem.notes = std::move(notes);
   if (mistakes.any()) {

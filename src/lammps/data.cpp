@@ -141,10 +141,10 @@ void take_forms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
 
 /// Bonds (2 sites) or angles (3): ids to indices, types from 0, every one with coefficients.
 template <int sites, class Element>
-void take_topology(LammpsLines& lines, const LammpsRows& rows, const std::vector<TopologyRow>& from,
+void take_topology(LammpsLines& lines, const LammpsRows& rows, const LammpsReading& how, const std::vector<TopologyRow>& from,
                    const std::string& kind, std::size_t types, const LammpsData& data, std::vector<Element>& to) {
   const std::string section = kind + "s", coefficients = kind + " Coeffs";
-  const bool coefficients_known = rows.sound(coefficients) || !rows.sections.count(coefficients);
+  const bool coefficients_known = !how.coefficients_may_lack && (rows.sound(coefficients) || !rows.sections.count(coefficients));
   std::set<int> missing;                            // types
   int first = 0;                                    // line that has one
   for (const TopologyRow& r : from) {
@@ -189,8 +189,8 @@ void take_notes(const LammpsLines& lines, const LammpsRows& rows, const std::str
 }  // namespace
 
 LammpsData read_lammps_data(const std::string& file, const LammpsReading& how) {
-  if (const std::string what = other_format(file); !what.empty()) throw InputError({Mistake{file, 0, 0, {}, what}});
-  LammpsLines lines(file);
+  if (const std::string what = how.text ? "" : other_format(file); !what.empty()) throw InputError({Mistake{file, 0, 0, {}, what}});
+  LammpsLines lines = how.text ? LammpsLines(file, *how.text) : LammpsLines(file, "LAMMPS data file", " (write_data, not write_restart)");
   LammpsRows rows = read_lammps_rows(lines, how);
   LammpsData data;
   for (const auto& c : how.bond_coefficients) data.bond_types.push_back({c[0], c[1]});
@@ -210,8 +210,8 @@ LammpsData read_lammps_data(const std::string& file, const LammpsReading& how) {
     if (rows.atoms.empty())
       lines.mistake(rows.sections["Atoms"].line, 1, "Atoms", "there are none; at least one is needed");
     if (take_atoms(lines, rows, data)) {
-      take_topology<2>(lines, rows, rows.bonds, "Bond", data.bond_types.size(), data, data.bonds);
-      take_topology<3>(lines, rows, rows.angles, "Angle", data.angle_types.size(), data, data.angles);
+      take_topology<2>(lines, rows, how, rows.bonds, "Bond", data.bond_types.size(), data, data.bonds);
+      take_topology<3>(lines, rows, how, rows.angles, "Angle", data.angle_types.size(), data, data.angles);
       if (rows.sound("Velocities")) take_velocities(lines, rows, data);
       if (rows.sound("Bodies") || (rows.count("bodies") == 0 && !data.bodies.empty())) take_forms(lines, rows, data);
     }

@@ -26,7 +26,9 @@ std::string joined(const DataLine& line, std::size_t first) {
 }
 
 LammpsLines::LammpsLines(std::string file, const std::string& kind, const std::string& hint)
-    : file_(std::move(file)), text_(read_data(file_, kind, hint)) {
+    : LammpsLines(file, read_data(file, kind, hint)) {}
+
+LammpsLines::LammpsLines(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
   position_ = text_.find('\n');
   position_ = position_ == std::string::npos ? text_.size() : position_ + 1;
   number_ = 1;

@@ -33,8 +33,9 @@ class LammpsLines {
  public:
   /// Reads the whole file. Throws InputError, which names the kind of file that is wanted, if it cannot be opened, is no
   /// regular file, or is not text.
-  explicit LammpsLines(std::string file, const std::string& kind = "LAMMPS data file",
-                       const std::string& hint = " (write_data, not write_restart)");
+  LammpsLines(std::string file, const std::string& kind, const std::string& hint);
+  /// Goes through a text that is told of as `file`.
+  LammpsLines(std::string file, std::string text);
 
   /// The next line that is not blank; the first line of the file is a title and is left out. False at the end.
   bool next(DataLine& line);

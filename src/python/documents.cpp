@@ -73,7 +73,7 @@ py::object python_of(const Node& node) {
 }
 
 Document document_of(const py::dict& tables, const std::string& name) {
-  Document document{name, "", std::get<Entries>(node_of(tables, "").value)};
+  Document document{name, "", std::get<Entries>(node_of(tables, "").value), {}};
   return document;
 }
 

@@ -45,6 +45,8 @@ std::vector<std::string> inputs_of(const Problem& problem) {
   };
   add(problem.path.start);
   if (problem.lammps) add(problem.lammps->data), add(problem.lammps->bodies);
+  if (problem.lammps && problem.lammps->script)
+    for (const std::string& file : problem.lammps->script->files) all.push_back(file);
   for (const GrainsTable& t : problem.grains) all.push_back(t.file);
   for (const BodyTable& t : problem.bodies) all.push_back(t.molecule);
   std::erase_if(all, [](const std::string& file) { return file.empty() || !fs::exists(file); });

@@ -11,6 +11,7 @@
 #include "lammps/export.hpp"
 #include "lammps/state.hpp"
 #include "model/entities.hpp"
+#include "results/run_directory.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
@@ -99,9 +100,11 @@ void export_command(const ExportOptions& options) {
       : std::filesystem::path(options.script);
   const std::filesystem::path data = std::filesystem::path(script).replace_extension(".data");
   std::error_code error;
-  for (const std::string& own : {problem.file, problem.lammps ? problem.lammps->data : std::string()})
+  std::vector<std::string> read = inputs_of(problem);
+  read.push_back(problem.file);
+  for (const std::string& own : read)
     for (const auto& file : {script, data})
-      if (!own.empty() && std::filesystem::equivalent(own, file, error))
+      if (std::filesystem::equivalent(own, file, error))
         throw InputError(fmt::format("{}: is a file that the problem is read from; give another name, -o in.lmp", file.string()));
   const LammpsExport out = export_to_lammps(study, data.filename().string());
   if (!out.refused.empty() && (!options.skip || model.particles() == 0)) {

@@ -3,6 +3,8 @@
 #include "energy/energy.hpp"
 #include "input/stages.hpp"
 #include "lammps/script_reading.hpp"
+#include "results/run_directory.hpp"
+#include "study/check_command.hpp"
 #include "study/program.hpp"
 #include "study/run.hpp"
 
@@ -101,7 +103,7 @@ TEST_CASE("traps are told", "[script]") {
       "pair_style hybrid/overlay granular lj/cut 1\npair_coeff * * granular hertz/material 1e3 0 0.3 tangential mindlin NULL 1 0.5\npair_coeff 1 2 lj/cut 1 0.1\n"
       "special_bonds lj 0 1 1 coul 0 0.5 1\nfix 1 all nve\ngroup two id 1 2\nfix s two setforce 0 0 0\n"
       "fix w all wall/gran granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 zplane -0.5 0.5\nrun 10\n");
-  for (const char* part : {"E/(2(1 - nu))", "the energy of this cohesion jumps", "friction that remembers", "a clamp. It sits in the middle"}) CHECK(holds(all, part));
+  for (const char* part : {"E/(2(1 - nu))", "do not know special_bonds", "the energy of this cohesion jumps", "friction that remembers", "a clamp. It sits in the middle"}) CHECK(holds(all, part));
   CHECK(holds(notes(three_in_a_row + "special_bonds lj/coul 0 0.5 1\nfix 1 all nve\nrun 10\n"), "weights of special_bonds between 0 and 1 are ignored by granular"));
   CHECK(holds(notes(three_in_a_row + "create_atoms 1 single 5 0 0\nfix 1 all nve\nrun 10\n"), "lies outside of the box"));
   CHECK(holds(notes(three_in_a_row + "region b block 0.05 1 -1 1 -1 1\nfix 1 all nve\nfix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 10\n"),
@@ -114,11 +116,14 @@ TEST_CASE("sheets of LAMMPSStructures are kept or mended", "[script]") {
   const Reading r = script::read_script(scratch.file("in.lmp", small_script_head + "include sheet_1.txt\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\n"
                                                      "create_bonds single/angle 1 1 2 3\nset type 1 diameter 0.1\nfix 1 all nve\nrun 1\n"), {});
   CHECK(imported(r).model.angle_types.at(0).stiffness == 0.25);
-  CHECK(imported(r).files.notes.size() == 1);
-  CHECK(imported(r, 0, {false, false, true}).files.notes.empty());
+  const auto told = [](const script::Translated& t, const std::string& part) {
+    return std::any_of(t.notes.begin(), t.notes.end(), [&](const script::Note& n) { return holds(n.text, part); });
+  };
+  CHECK(told(imported(r).files, "it is kept as it is"));
+  CHECK_FALSE(told(imported(r, 0, {false, false, true}).files, "LAMMPSStructures"));
   const ImportedProblem mended = imported(r, 0, {false, true, false});
   CHECK(mended.model.angle_types.at(0).stiffness == 0.25 * 3 * std::sqrt(3.0));
-  CHECK(holds(mended.files.notes.at(0).text, "it is mended here"));
+  CHECK(told(mended.files, "it is mended here"));
 }
 
 TEST_CASE("formulas that are linear in a run's steps become loads and walls with a load factor", "[script]") {
@@ -385,8 +390,30 @@ TEST_CASE("a problem file takes a script with its own tables besides", "[script]
   const ScratchDirectory scratch;
   scratch.file("bad.lmp", "units si\nfoo\n");
   CHECK_THROWS_WITH(read_problem(scratch.file("p.toml", "[lammps]\ninput = \"bad.lmp\"\n")), Catch::Matchers::Contains("bad.lmp:2:1: foo: "));
-  scratch.file("small.lmp", small_script_head + "create_atoms 1 single 0 0 0\n");
-  scratch.file("small.lmp.data", "mine\n");
-  CHECK_THROWS_WITH(read_problem(scratch.file("q.toml", "[lammps]\ninput = \"small.lmp\"\n")), Catch::Matchers::Contains("is in the way"));
-  CHECK(text_of(scratch / "small.lmp.data") == "mine\n");
+}
+
+TEST_CASE("a script in a problem file is read in memory, and what is to know of it is told", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string script = three_in_a_row + "thermo 10\nfix 1 all nve\ngroup last id 3\nfix m last move linear 0.1 0 0\nrun 100\n";
+  scratch.file("three.lmp", script);
+  const std::string file = scratch.file("p.toml", "[lammps]\ninput = \"three.lmp\"\n");
+  const auto files = [&] {
+    std::vector<std::string> names;
+    for (const auto& e : std::filesystem::directory_iterator(scratch / "")) names.push_back(e.path().filename().string());
+    return names.size();
+  };
+  const Problem p = read_problem(file);
+  const Model m = build_model(p);
+  CHECK(files() == 2);
+  CHECK(m.particles() == 3);
+  CHECK(inputs_of(p) == std::vector<std::string>{scratch / "three.lmp"});
+  const std::string told = describe(p, m);
+  INFO(told);
+  CHECK(holds(told, "note: " + (scratch / "three.lmp") + ": thermo ignored: "));
+  // Only its particles: the tables are the file's own.
+  const Problem alone = read_problem(scratch.file("q.toml", "[lammps]\ninput = \"three.lmp\"\nparticles_only = true\n[[support]]\ngroup = \"type1\"\n"));
+  CHECK(alone.supports.size() == 1);
+  CHECK(alone.path.place.key.empty());
+  CHECK(build_model(alone).bonds.size() == m.bonds.size());
+  CHECK_THROWS_WITH(read_problem(file, {{"lammps.input", "p.toml"}}), Catch::Matchers::Contains("they cannot change the script"));
 }
