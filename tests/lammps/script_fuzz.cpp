@@ -1,8 +1,14 @@
-// Scripts that are damaged in every way: each is read, or refused with a sentence; none crashes or hangs.
+// Scripts that are damaged in every way: each becomes a model, or is refused with a sentence; none crashes, hangs or fills the memory.
 #include "catch.hpp"
 #include "lammps/script_reading.hpp"
 
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <map>
 #include <random>
+#include <sstream>
 
 using namespace elamin;
 
@@ -19,79 +25,209 @@ std::string without_remarks(const std::string& toml) {
   return text;
 }
 
-/// Reads one text after another; what is read becomes a problem.
+/// Reads one text after another; what is read becomes a problem, and that a model.
 struct ScriptAttempts {
-  int read = 0, refused = 0;
+  int read = 0, refused = 0, refused_problems = 0;
+  bool models = false;                          // are built
+  double slowest = 0;                           // [s] of one
   ScratchDirectory scratch;
 
+  ScriptAttempts() { scratch.file("strip.data", text_of(lammps_scripts + "strip.data")); }
+
   void operator()(const std::string& text) {
-    const std::string file = scratch.file(std::to_string(read + refused) + ".lmp", text);
-    script::ReadingOptions options;
-    options.skip = (read + refused) % 2;
-    options.most_commands = 5000;
+    const std::string file = scratch.file("in.lmp", text);       // where it lies after a crash
+    const std::clock_t begin = std::clock();
     try {
-      const script::Reading r = script::read_script(file, options);
-      for (const script::Pass& p : r.passes) {
-        const script::Translated t = script::translated(r, p, {}, "p.data");
-        REQUIRE(t.toml.starts_with("# Written by elamin import"));
-        for (const char* number : {"= nan", "= -nan", "= inf", "= -inf", "[nan", "[-nan", "[inf", "[-inf", ", nan", ", -nan", ", inf", ", -inf"}) {
-          INFO(t.toml);
-          REQUIRE(without_remarks(t.toml).find(number) == std::string::npos);
-        }
-        REQUIRE(t.data.find(" nan") == std::string::npos);
-      }
-      REQUIRE_FALSE(script::report(r, {}).empty());
+      attempt(file);
       ++read;
     } catch (const InputError& e) {
       REQUIRE_FALSE(e.mistakes().empty());
       REQUIRE(e.mistakes().size() <= 21);
       for (const Mistake& m : e.mistakes()) REQUIRE_FALSE(m.what.empty());
       ++refused;
+    } catch (const std::exception& e) {
+      FAIL(e.what() << "\n" << text);
     }
-    std::filesystem::remove(file);
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    slowest = std::max(slowest, seconds);
+    INFO(text);
+    REQUIRE(seconds < 5);
+  }
+
+ private:
+  void attempt(const std::string& file) {
+    script::ReadingOptions options;
+    options.skip = (read + refused) % 2;
+    options.most_commands = 5000;
+    const script::Reading r = script::read_script(file, options);
+    REQUIRE_FALSE(script::report(r, {}).empty());
+    for (const script::Pass& p : r.passes) {
+      const script::Translated t = script::translated(r, p, {}, "p.data");
+      REQUIRE(t.toml.starts_with("# Written by elamin import"));
+      for (const char* number : {"= nan", "= -nan", "= inf", "= -inf", "[nan", "[-nan", "[inf", "[-inf", ", nan", ", -nan", ", inf", ", -inf"}) {
+        INFO(t.toml);
+        REQUIRE(without_remarks(t.toml).find(number) == std::string::npos);
+      }
+      REQUIRE(t.data.find(" nan") == std::string::npos);
+      if (!models) continue;
+      scratch.file("p.data", t.data);
+      const std::string problem = scratch.file("p.toml", t.toml);
+      try {
+        build_model(read_problem(problem));
+      } catch (const InputError& e) {
+        REQUIRE_FALSE(e.mistakes().empty());
+        if (++refused_problems; std::getenv("ELAMIN_FUZZ")) std::fprintf(stderr, "%s\n", e.mistakes().front().sentence().c_str());
+      }
+    }
   }
 };
 
-const std::vector<std::string> script_words{"",     "0",      "-1",    "1e999", "nan",   "99999999999999999999", "*",    "2*",    "*0",      "all",  "$x",     "${d}", "$(1/0)", "v_x",
-                                            "\"",   "'",      "\"\"\"", "&\n",   "#",     "\n",                   "NULL", "INF",   "EDGE",    "SELF", "delete", "\t",   "\xff",   "1e-320",
-                                            "loop", "region", "label", "run 5", "units", "1e20",                 "clear", "group all id 1", "fix 1 all nve", "$(xcm(all,x))"};
+using Words = std::vector<std::string>;
+using Lines = std::vector<Words>;
+
+const Words odd_words{"",     "0",      "-1",    "1e999", "nan",   "99999999999999999999", "*",    "2*",    "*0",      "all",  "$x",     "${d}", "$(1/0)", "v_x",
+                      "\"",   "'",      "\"\"\"", "&\n",   "#",     "\n",                   "NULL", "INF",   "EDGE",    "SELF", "delete", "\t",   "\xff",   "1e-320",
+                      "loop", "region", "label", "run 5", "units", "1e20",                 "clear", "group all id 1", "fix 1 all nve", "$(xcm(all,x))",
+                      "$(x[1])", "$(v_n)", "${n}", "1000000", "2147483647", "-2147483648", "../a", "/etc/passwd", "strip.data", "in.lmp", "add", "append", "none"};
+
+Lines lines_of_text(const std::string& text) {
+  Lines lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    Words words;
+    std::istringstream row(line);
+    for (std::string word; row >> word;) words.push_back(word);
+    if (!words.empty()) lines.push_back(std::move(words));
+  }
+  return lines;
+}
+
+std::string text_of_lines(const Lines& lines) {
+  std::string text;
+  for (const Words& line : lines) {
+    for (const std::string& word : line) text += word + " ";
+    text += "\n";
+  }
+  return text;
+}
+
+/// Changes scripts at their words, numbers, lines and bytes.
+class Damage {
+ public:
+  explicit Damage(unsigned seed) : random_(seed) {
+    for (const char* name : {"column", "grains", "glued", "stages", "formulas", "read", "shifted", "hertz", "material", "hybrid"}) {
+      texts_.push_back(text_of(lammps_scripts + name + ".lmp"));
+      scripts_.push_back(lines_of_text(texts_.back()));
+      for (const Words& line : scripts_.back()) like_[line[0]].push_back(line);
+    }
+  }
+
+  std::string next() {
+    Lines lines = some(scripts_);
+    for (std::size_t changes = 1 + pick(4); changes > 0; --changes) change(lines);
+    std::string text = text_of_lines(lines);
+    if (pick(4) == 0 && !text.empty()) text[pick(text.size())] = static_cast<char>(random_());
+    if (pick(16) == 0) text.resize(pick(text.size() + 1));
+    return text.empty() ? "\n" : text;
+  }
+
+ private:
+  std::size_t pick(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
+  template <class T> const T& some(const std::vector<T>& list) { return list[pick(list.size())]; }
+
+  /// One that a number is near, or far from.
+  std::string number(const std::string& old) {
+    char* end = nullptr;
+    const double v = std::strtod(old.c_str(), &end);
+    if (end == old.c_str()) return some(odd_words);
+    const double factors[]{0, -1, 0.5, 2, 10, 1e3, 1e6, 1e-6, 1e150, 1e-150, 1 + 1e-15};
+    const double w = pick(3) == 0 ? v + static_cast<double>(pick(5)) - 2 : v * factors[pick(std::size(factors))];
+    std::ostringstream out;
+    if (w == std::trunc(w) && std::abs(w) < 1e15) out << static_cast<long long>(w);
+    else out << w;
+    return out.str();
+  }
+
+  void change(Lines& lines) {
+    if (lines.empty()) lines.push_back(some(some(scripts_)));
+    const auto at = [&] { return lines.begin() + static_cast<std::ptrdiff_t>(pick(lines.size())); };
+    Words& line = *at();
+    const std::size_t w = pick(line.size());
+    switch (pick(12)) {
+      case 0: line[w] = some(odd_words); break;
+      case 1:
+      case 2: line[w] = number(line[w]); break;
+      case 3:                                     // a word that stands there elsewhere
+        if (const auto found = like_.find(line[0]); found != like_.end())
+          if (const Words& other = some(found->second); w < other.size()) line[w] = other[w];
+        break;
+      case 4: line.erase(line.begin() + static_cast<std::ptrdiff_t>(w)); break;
+      case 5: line.insert(line.begin() + static_cast<std::ptrdiff_t>(w), pick(2) ? some(odd_words) : some(some(some(scripts_)))); break;
+      case 6: lines.erase(at()); break;
+      case 7: lines.insert(at(), Words(*at())); break;
+      case 8: std::swap(*at(), *at()); break;
+      case 9: lines.insert(at(), some(some(scripts_))); break;
+      case 10: {                                  // again and again
+        const auto begin = at();
+        const std::size_t from = static_cast<std::size_t>(begin - lines.begin()), to = from + pick(lines.size() - from) + 1;
+        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(to), {{"next", "again"}, {"jump", "SELF", "again"}});
+        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(from), {{"variable", "again", "loop", std::to_string(1 + pick(30))}, {"label", "again"}});
+        break;
+      }
+      default: {                                  // another script behind
+        const Lines& other = some(scripts_);
+        const std::size_t from = pick(other.size());
+        lines.insert(lines.end(), other.begin() + static_cast<std::ptrdiff_t>(from), other.end());
+      }
+    }
+    std::erase_if(lines, [](const Words& l) { return l.empty(); });
+  }
+
+  std::mt19937 random_;
+  std::vector<std::string> texts_;
+  std::vector<Lines> scripts_;
+  std::map<std::string, Lines> like_;             // lines by command
+};
+
+unsigned setting(const char* name, unsigned otherwise) {
+  const char* value = std::getenv(name);
+  return value ? static_cast<unsigned>(std::strtoul(value, nullptr, 10)) : otherwise;
+}
+
+/// No more memory than this from here on [bytes].
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit now = before_;
+    now.rlim_cur = bytes;
+    setrlimit(RLIMIT_AS, &now);
+  }
+  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_;
+};
 
 }  // namespace
 
 TEST_CASE("damaged scripts are read or refused", "[script][fuzz]") {
   ScriptAttempts attempt;
-  std::mt19937 random(20261);
-  const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-  std::vector<std::string> texts;
-  for (const char* name : {"column", "grains", "glued", "stages"}) texts.push_back(text_of(std::string(ELAMIN_ROOT) + "/data/lammps/scripts/" + name + ".lmp"));
-  for (int k = 0; k < 10000; ++k) {
-    std::string text = texts[pick(texts.size())];
-    for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
-      const std::size_t at = pick(text.size());
-      switch (random() % 5) {
-        case 0: text[at] = static_cast<char>(random()); break;
-        case 1: {                                 // a word is another one
-          const std::size_t begin = std::min(text.find_first_not_of(" \n", at), text.size()), end = std::min(text.find_first_of(" \n", begin), text.size());
-          text = text.substr(0, begin) + script_words[pick(script_words.size())] + text.substr(end);
-          break;
-        }
-        case 2: {                                 // a line is gone, or twice
-          const std::size_t begin = std::min(text.find('\n', at), text.size() - 1) + 1, end = std::min(text.find('\n', begin), text.size());
-          if (random() % 2) text.erase(begin, end - begin);
-          else text.insert(begin, text.substr(begin, end - begin) + "\n");
-          break;
-        }
-        case 3: text = text.substr(0, at); break;
-        default: {                                // a line of another script
-          const std::string& other = texts[pick(texts.size())];
-          const std::size_t begin = std::min(other.find('\n', pick(other.size())), other.size() - 1) + 1, end = std::min(other.find('\n', begin), other.size());
-          text.insert(std::min(text.find('\n', at), text.size()), "\n" + other.substr(begin, end - begin));
-        }
-      }
-      if (text.empty()) text = "\n";
-    }
-    attempt(text);
+  Damage damage(20261);
+  for (int k = 0; k < 4000; ++k) {
+    attempt.models = k % 4 == 0;
+    attempt(damage.next());
   }
-  CHECK(attempt.read > 1000);                     // both ends are reached
-  CHECK(attempt.refused > 1000);
+  CHECK(attempt.read > 400);                      // both ends are reached
+  CHECK(attempt.refused > 400);
+}
+
+// ELAMIN_FUZZ=100000 ELAMIN_SEED=1 elamin_tests "damaged scripts, as many as asked for"
+TEST_CASE("damaged scripts, as many as asked for", "[.]") {
+  const MemoryLimit limit(4000000000);
+  ScriptAttempts attempt;
+  attempt.models = true;
+  Damage damage(setting("ELAMIN_SEED", 1));
+  for (unsigned k = 0; k < setting("ELAMIN_FUZZ", 1000); ++k) attempt(damage.next());
+  WARN(attempt.read << " read, " << attempt.refused << " refused, " << attempt.refused_problems << " refused as problems, the slowest in " << attempt.slowest << " s");
 }

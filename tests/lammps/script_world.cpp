@@ -1,4 +1,4 @@
-// What scripts build: forces of every atom against LAMMPS's own.
+// What scripts build.
 #include "catch.hpp"
 #include "energy/energy.hpp"
 #include "input/stages.hpp"
@@ -10,41 +10,6 @@
 
 using namespace elamin;
 using script::Reading;
-
-namespace {
-
-
-std::map<int, Vec3> lammps_forces(const std::string& name) {
-  std::map<int, Vec3> forces;
-  std::ifstream in(lammps_scripts + name + ".forces");
-  for (int id; in >> id;) in >> forces[id][0] >> forces[id][1] >> forces[id][2];
-  return forces;
-}
-
-}  // namespace
-
-TEST_CASE("forces of the first state of a script are LAMMPS's", "[script]") {
-  struct Case { const char* name; std::size_t atoms, held; };
-  for (const Case& c : {Case{"column", 24, 0}, Case{"grains", 110, 39}, Case{"glued", 18, 2}}) {
-    INFO(c.name);
-    const Reading reading = script::read_script(lammps_scripts + c.name + ".lmp", {});
-    ImportedProblem p = imported(reading);
-    Energy energy(p.model);
-    const Field f = energy.forces(p.model.start);
-    const auto expected = lammps_forces(c.name);
-    REQUIRE(expected.size() == c.atoms);
-    REQUIRE(p.model.id.size() == c.atoms);
-    double largest = 0, off = 0;
-    std::size_t held = 0;
-    for (int i = 0; i < p.model.particles(); ++i) {
-      const Vec3& e = expected.at(p.model.id[i]);
-      if (e.isZero(0)) ++held;
-      else largest = std::max(largest, e.norm()), off = std::max(off, (f.col(i) - e).norm());
-    }
-    CHECK(held == c.held);
-    CHECK(off < 1e-12 * largest);
-  }
-}
 
 TEST_CASE("forces are LAMMPS's while variables change loads and walls", "[script]") {
   const Reading reading = script::read_script(lammps_scripts + "formulas.lmp", {});

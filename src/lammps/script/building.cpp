@@ -1,28 +1,17 @@
-// Commands that make, change and remove particles and what glues them.
-#include "lammps/script/interpreter.hpp"
+// Commands that make and change particles and what glues them.
+#include "lammps/script/building.hpp"
 
 #include "core/near_pairs.hpp"
 #include "core/suggest.hpp"
-#include "core/text.hpp"
-#include "lammps/data.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 namespace elamin::script::command {
 namespace {
-
-constexpr std::size_t most_atoms = 10000000;
-constexpr int largest_id = 1000000000;
-
-
-void needs_box(const Interpreter& in) {
-  if (!in.world.has_box) throw Wrong(0, "stands before create_box or read_data");
-}
 
 bool in_box(const World& w, const Vec3& x) { return (x.array() >= w.lo.array()).all() && (x.array() < w.hi.array()).all(); }
 
@@ -80,7 +69,26 @@ void create_random(Interpreter& in, int type) {
   }
 }
 
-/// A range of atoms as `set` and `group` have them.
+/// The number of one atom: a number, or v_name of style equal or atom.
+Value each_value(const Interpreter& in, std::size_t i) {
+  if (i < in.size() && in.word(i).starts_with("v_")) {
+    const auto found = in.names.variables.find(in.word(i).substr(2));
+    const bool each = found != in.names.variables.end() && found->second.style == Variable::Style::atom;
+    return evaluate(in.word(i), in.world, in.names, i, each);
+  }
+  return {in.number(i), {}};
+}
+
+}  // namespace
+
+}  // namespace elamin::script::command
+
+namespace elamin::script {
+
+void needs_box(const Interpreter& in) {
+  if (!in.world.has_box) throw Wrong(0, "stands before create_box or read_data");
+}
+
 std::vector<int> chosen(Interpreter& in, const std::string& style, std::size_t i) {
   World& w = in.world;
   std::vector<int> list;
@@ -109,17 +117,9 @@ std::vector<int> chosen(Interpreter& in, const std::string& style, std::size_t i
   return list;
 }
 
-/// The number of one atom: a number, or v_name of style equal or atom.
-Value each_value(const Interpreter& in, std::size_t i) {
-  if (i < in.size() && in.word(i).starts_with("v_")) {
-    const auto found = in.names.variables.find(in.word(i).substr(2));
-    const bool each = found != in.names.variables.end() && found->second.style == Variable::Style::atom;
-    return evaluate(in.word(i), in.world, in.names, i, each);
-  }
-  return {in.number(i), {}};
-}
+}  // namespace elamin::script
 
-}  // namespace
+namespace elamin::script::command {
 
 void create_atoms(Interpreter& in) {
   in.wants(3, "create_atoms TYPE single X Y Z, or random N SEED REGION");
@@ -333,333 +333,6 @@ void set(Interpreter& in) {
   }
 }
 
-namespace {
-
-void mark(World& w, int bit, const auto& wanted) {
-  for (Atom& a : w.atoms)
-    if (World::there(a) && wanted(a)) a.groups |= 1u << bit;
-}
-
-/// Whether a number is chosen by `v`, `a:b`, `a:b:c`, or a comparison such as `<= 3` or `<> 2 5`.
-void mark_numbers(Interpreter& in, int bit, const auto& number_of_atom) {
-  World& w = in.world;
-  static const std::vector<std::string> signs{"<", ">", "<=", ">=", "==", "!=", "<>"};
-  if (in.size() > 4 && std::find(signs.begin(), signs.end(), in.word(3)) != signs.end()) {
-    const std::string& s = in.word(3);
-    const long long a = in.integer(4, 0, largest_id), b = s == "<>" ? in.integer(5, 0, largest_id) : 0;
-    return mark(w, bit, [&](const Atom& atom) {
-      const long long v = number_of_atom(atom);
-      return s == "<"    ? v < a
-             : s == ">"  ? v > a
-             : s == "<=" ? v <= a
-             : s == ">=" ? v >= a
-             : s == "==" ? v == a
-             : s == "!=" ? v != a
-                         : v >= a && v <= b;
-    });
-  }
-  std::set<long long> singles;
-  for (std::size_t i = 3; i < in.size(); ++i) {
-    const std::string& t = in.word(i);
-    if (t.find(':') == std::string::npos) {
-      singles.insert(in.integer(i, 0, largest_id));
-      continue;
-    }
-    std::array<long long, 3> r{0, 0, 1};
-    std::size_t n = 0;
-    for (std::size_t begin = 0; begin <= t.size() && n < 4; ++n) {
-      const std::size_t colon = std::min(t.find(':', begin), t.size());
-      const std::string part = t.substr(begin, colon - begin);
-      if (n == 3 || part.empty() || part.size() > 9 || part.find_first_not_of("0123456789") != std::string::npos)
-        throw Wrong(i, in_quotes(t) + " is no range; a:b and a:b:step are");
-      r[n] = std::stoll(part);
-      begin = colon + 1;
-    }
-    if (r[2] < 1) throw Wrong(i, "the step of the range is not above 0");
-    mark(w, bit, [&](const Atom& a) {
-      const long long v = number_of_atom(a);
-      return v >= r[0] && v <= r[1] && (v - r[0]) % r[2] == 0;
-    });
-  }
-  if (!singles.empty()) mark(w, bit, [&](const Atom& a) { return singles.count(number_of_atom(a)) > 0; });
-}
-
-}  // namespace
-
-void group(Interpreter& in) {
-  in.wants(3, "group NAME STYLE …");
-  needs_box(in);
-  World& w = in.world;
-  const std::string name = in.word(1), style = in.word(2);
-  if (style == "delete" || style == "clear") {
-    const int bit = w.group(name, 1);
-    if (bit == 0) throw Wrong(1, "the group all stays as it is");
-    if (style == "delete")
-      for (const Fix& f : w.fixes)
-        if (f.group == name) throw Wrong(1, fmt::format("is the group of the fix {}, which is in force", f.id));
-    for (Atom& a : w.atoms) a.groups &= ~(1u << bit);
-    if (style == "delete") w.groups[static_cast<std::size_t>(bit)].clear();
-    return;
-  }
-  if (style == "dynamic") throw Wrong(2, "groups that change as things move are not followed", true);
-  if (style == "static") return;
-  if (name == "all") throw Wrong(1, "the group all stays as it is");
-  static const std::vector<std::string> styles{"type",  "id",       "molecule",  "region",  "variable",
-                                               "union", "subtract", "intersect", "include", "empty"};
-  if (std::find(styles.begin(), styles.end(), style) == styles.end())
-    throw Wrong(
-        2, in_quotes(style) + " is no style of a group; there are: " + listed(styles) + ", clear, delete" + did_you_mean(style, styles),
-        true);
-  if (style != "empty") in.wants(4, "group NAME " + style + " …");
-  // What it is made of comes first: a mistake leaves no half a group.
-  std::vector<int> others;
-  for (std::size_t i = 3; i < in.size() && (style == "union" || style == "subtract" || style == "intersect"); ++i)
-    others.push_back(w.group(in.word(i), i));
-  int bit = -1;
-  if (const auto found = w.find_group(name)) bit = *found;
-  else {
-    const auto hole = std::find(w.groups.begin() + 1, w.groups.end(), "");
-    bit = static_cast<int>(hole - w.groups.begin());
-    if (bit >= 32) throw Wrong(1, "is the 33rd group; LAMMPS has 32 at most");
-    if (hole == w.groups.end()) w.groups.push_back(name);
-    else *hole = name;
-  }
-  if (style == "id" && in.size() == 4 && in.word(3).find(':') == std::string::npos) {
-    const long long id = in.integer(3, 0, largest_id);
-    if (id < static_cast<long long>(w.of_id.size()) && w.of_id[static_cast<std::size_t>(id)] >= 0)
-      w.atoms[static_cast<std::size_t>(w.of_id[static_cast<std::size_t>(id)])].groups |= 1u << bit;
-  } else if (style == "id") mark_numbers(in, bit, [](const Atom& a) { return static_cast<long long>(a.id); });
-  else if (style == "type") mark_numbers(in, bit, [](const Atom& a) { return static_cast<long long>(a.type); });
-  else if (style == "molecule") mark_numbers(in, bit, [](const Atom& a) { return static_cast<long long>(a.molecule); });
-  else if (style == "region") mark(w, bit, [&](const Atom& a) { return w.matches(in.word(3), w.at(a), 3); });
-  else if (style == "variable") {
-    const Value v = evaluate("v_" + in.word(3), w, in.names, 3, true);
-    for (std::size_t k = 0; k < w.atoms.size(); ++k)
-      if (World::there(w.atoms[k]) && v.at(k) != 0) w.atoms[k].groups |= 1u << bit;
-  } else if (style == "union")
-    mark(w, bit, [&](const Atom& a) { return std::any_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
-  else if (style == "intersect")
-    mark(w, bit, [&](const Atom& a) { return std::all_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
-  else if (style == "subtract")
-    mark(w, bit, [&](const Atom& a) {
-      return w.in(a, others[0]) && std::none_of(others.begin() + 1, others.end(), [&](int g) { return w.in(a, g); });
-    });
-  else if (style == "include") {
-    if (in.word(3) != "molecule") throw Wrong(3, in_quotes(in.word(3)) + " is nothing that a group includes; molecule is");
-    std::set<int> molecules;
-    for (const Atom& a : w.atoms)
-      if (World::there(a) && w.in(a, bit)) molecules.insert(a.molecule);
-    mark(w, bit, [&](const Atom& a) { return molecules.count(a.molecule) > 0; });
-  }
-}
-
-void delete_atoms(Interpreter& in) {
-  in.wants(3, "delete_atoms group NAME, or region NAME");
-  needs_box(in);
-  World& w = in.world;
-  if (in.word(1) != "group" && in.word(1) != "region")
-    throw Wrong(1, in_quotes(in.word(1)) + " is no way of choosing atoms that is taken; group and region are", true);
-  std::vector<bool> gone(w.atoms.size());
-  std::size_t count = 0;
-  for (const int a : chosen(in, in.word(1), 2)) gone[static_cast<std::size_t>(a)] = true, ++count;
-  bool compress = true;
-  for (std::size_t i = 3; i < in.size(); i += 2)
-    if (in.word(i) == "compress") compress = in.yes(i + 1);
-    else if (in.word(i) == "bond" || in.word(i) == "mol") in.yes(i + 1);
-    else throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of delete_atoms");
-  const auto there = static_cast<std::size_t>(std::count_if(w.atoms.begin(), w.atoms.end(), World::there));
-  if (count == there && count > 0) {             // nothing is left: what comes is another problem
-    in.end_pass();
-    w.atoms.clear(), w.of_id.clear(), w.bonds.clear(), w.angles.clear(), w.runs.clear(), w.still.reset(), w.sheets.clear(), w.removals.clear();
-    w.body_file.clear();
-    return;
-  }
-  w.remove(gone);
-  if (compress && !w.molecular && count > 0)
-    in.note("LAMMPS numbers the atoms that are left anew (compress yes); here they keep their ids");
-}
-
-void delete_bonds(Interpreter& in) {
-  in.wants(3, "delete_bonds GROUP multi, or GROUP bond TYPE, or GROUP angle TYPE");
-  needs_box(in);
-  World& w = in.world;
-  const int g = w.group(in.word(1), 1);
-  const std::string& style = in.word(2);
-  std::size_t i = 3;
-  std::array<int, 2> types{1, always - 1};
-  if (style == "bond" || style == "angle") types = in.range(i++, style == "bond" ? w.bond_types : w.angle_types);
-  else if (style == "stats") return in.ignore("output: a run of elamin writes its own");
-  else if (style != "multi")
-    throw Wrong(2, in_quotes(style) + " is no way of choosing glue that is taken; multi, bond and angle are", true);
-  bool any = false, special = false;
-  for (; i < in.size(); ++i)
-    if (in.word(i) == "any") any = true;
-    else if (in.word(i) == "special") special = true;
-    else if (in.word(i) != "remove")
-      throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of delete_bonds that is taken; any, remove and special are", true);
-  const auto inside = [&](int a) { return w.in(w.atoms[static_cast<std::size_t>(a)], g); };
-  const auto meant = [&](const auto& glue) {
-    return glue.gone == always && types[0] <= glue.type && glue.type <= types[1] &&
-           (any ? std::any_of(glue.atoms.begin(), glue.atoms.end(), inside) : std::all_of(glue.atoms.begin(), glue.atoms.end(), inside));
-  };
-  if (!w.runs.empty()) {                         // as a [[remove]]: all glue within the group, bonds with the angles over them
-    Removal r{w.run_number(), style == "angle", {}, in.word(1), in.text(), in.where};
-    const auto over_bond = [&](const Glue<3>& a) {
-      return (inside(a.atoms[0]) && inside(a.atoms[1])) || (inside(a.atoms[1]) && inside(a.atoms[2]));
-    };
-    for (const auto& b : w.bonds)
-      if (b.gone == always && meant(b) != (style != "angle" && inside(b.atoms[0]) && inside(b.atoms[1]))) throw NeedsPositions{w.last_run};
-    for (const auto& a : w.angles)
-      if (a.gone == always &&
-          (style != "bond" && meant(a)) != (r.angles ? inside(a.atoms[0]) && inside(a.atoms[1]) && inside(a.atoms[2]) : over_bond(a)))
-        throw NeedsPositions{w.last_run};
-    for (std::size_t k = 0; k < w.atoms.size(); ++k)
-      if (World::there(w.atoms[k]) && inside(static_cast<int>(k))) r.members.push_back(static_cast<int>(k));
-    w.removals.push_back(std::move(r));
-  }
-  const auto end = [&](auto& list) {
-    for (auto& glue : list)
-      if (meant(glue)) glue.gone = w.run_number();
-  };
-  if (style != "angle") end(w.bonds);
-  if (style != "bond") end(w.angles);
-  if (!special && style != "angle")
-    in.note("without `special` LAMMPS leaves pairs that were bonded out of contacts; here they touch as all others");
-}
-
-namespace {
-
-/// What the header of a data file says and LammpsData does not keep.
-struct Header {
-  Vec3 lo = Vec3::Constant(-0.5), hi = Vec3::Constant(0.5);
-  int atom_types = 0, bond_types = 0, angle_types = 0;
-};
-
-Header header_of(const std::string& file) {
-  Header h;
-  const std::string text = elamin::read_data(file, "LAMMPS data file");
-  int lines = 0;
-  for (std::size_t begin = 0; begin < text.size() && lines < 100; ++lines) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::vector<Word> words;
-    try {
-      words = split(without_comment(std::string_view(text).substr(begin, end - begin)));
-    } catch (const Wrong&) {                      // a title with a quote
-    }
-    begin = end + 1;
-    const auto number = [&](std::size_t i) { return std::strtod(words[i].text.c_str(), nullptr); };
-    for (int c = 0; c < 3; ++c)
-      if (words.size() == 4 && words[2].text == std::string(1, static_cast<char>('x' + c)) + "lo") h.lo[c] = number(0), h.hi[c] = number(1);
-    if (words.size() != 3 || words[2].text != "types") continue;
-    const int n = static_cast<int>(std::clamp(number(0), 0.0, 1e6));
-    if (words[1].text == "atom") h.atom_types = n;
-    if (words[1].text == "bond") h.bond_types = n;
-    if (words[1].text == "angle") h.angle_types = n;
-  }
-  return h;
-}
-
-bool six_digits(double v) { return std::strtod(fmt::format("{:.6g}", v).c_str(), nullptr) == v; }
-
-}  // namespace
-
-void read_data(Interpreter& in) {
-  in.wants(2, "read_data FILE …");
-  namespace fs = std::filesystem;
-  World& w = in.world;
-  const fs::path root = fs::path(in.reading.files.front()).parent_path();
-  const std::string file = (fs::path(in.word(1)).is_absolute() ? fs::path(in.word(1)) : root / in.word(1)).string();
-  bool add = false;
-  int group_bit = -1;
-  Vec3 shift = Vec3::Zero();
-  std::array<int, 3> offset{}, extra{};
-  std::string group_name;
-  for (std::size_t i = 2; i < in.size();) {
-    const std::string& k = in.word(i);
-    if (i + 1 >= in.size() && k != "nocoeff") throw Wrong(i, in_quotes(k) + " is followed by nothing");
-    if (k == "add") {
-      if (in.word(i + 1) != "append") throw Wrong(i + 1, "append is taken", true);
-      add = true, i += 2;
-    } else if (k == "offset" && i + 5 < in.size()) {
-      for (std::size_t c = 0; c < 3; ++c) offset[c] = static_cast<int>(in.integer(i + 1 + c, 0, most_atoms));
-      i += 6;
-    } else if (k == "shift" && i + 3 < in.size()) shift = Vec3(in.number(i + 1), in.number(i + 2), in.number(i + 3)), i += 4;
-    else if (k == "group") group_name = in.word(i + 1), i += 2;
-    else if (k == "nocoeff") ++i;
-    else if (k.starts_with("extra/")) {
-      const int n = static_cast<int>(in.integer(i + 1, 0, 1000000));
-      if (k == "extra/atom/types") extra[0] = n;
-      if (k == "extra/bond/types") extra[1] = n;
-      if (k == "extra/angle/types") extra[2] = n;
-      i += 2;
-    } else
-      throw Wrong(i, in_quotes(k) + " is no keyword of read_data that is taken; add append, offset, shift, group, nocoeff and extra/… are",
-                  true);
-  }
-  if (w.has_box && !add) throw Wrong(0, "there is a box already; `add append` adds to it");
-  const LammpsData data = read_lammps_data(file, w.atom_style);
-  const Header header = header_of(file);
-  in.reading.data_files.push_back(file);
-  if (!w.has_box) w.lo = header.lo + shift, w.hi = header.hi + shift, w.has_box = true;
-  int largest = 0;
-  for (const int t : data.type) largest = std::max(largest, t);
-  for (const Body& b : data.bodies) largest = std::max(largest, b.type);
-  const auto grow = [](int& now, int by, int extra_types) { now = std::max(now, by) + extra_types; };
-  grow(w.atom_types, std::max(largest, header.atom_types) + offset[0], extra[0]);
-  grow(w.bond_types, std::max(static_cast<int>(data.bond_types.size()), header.bond_types) + offset[1], extra[1]);
-  grow(w.angle_types, std::max(static_cast<int>(data.angle_types.size()), header.angle_types) + offset[2], extra[2]);
-  w.mass.resize(static_cast<std::size_t>(w.atom_types));
-  w.bond_coefficients.resize(static_cast<std::size_t>(w.bond_types)), w.angle_coefficients.resize(static_cast<std::size_t>(w.angle_types));
-  bool short_numbers = !data.bond_types.empty() || !data.angle_types.empty();
-  for (std::size_t t = 0; t < data.bond_types.size(); ++t) {
-    w.bond_coefficients[t + static_cast<std::size_t>(offset[1])] = {data.bond_types[t].stiffness, data.bond_types[t].rest_length, true};
-    short_numbers = short_numbers && six_digits(data.bond_types[t].stiffness) && six_digits(data.bond_types[t].rest_length);
-  }
-  for (std::size_t t = 0; t < data.angle_types.size(); ++t) {
-    w.angle_coefficients[t + static_cast<std::size_t>(offset[2])] = {data.angle_types[t].stiffness, data.angle_types[t].rest, true};
-    short_numbers = short_numbers && six_digits(data.angle_types[t].stiffness);
-  }
-  if (short_numbers)
-    in.note(
-        "the coefficients in this data file have six digits, as write_data writes them: loads at which things buckle may be off by 0.3 %; "
-        "bond_coeff and angle_coeff behind read_data give all digits");
-  if (!group_name.empty()) {
-    const auto found = w.find_group(group_name);
-    group_bit = found ? *found : static_cast<int>(w.groups.size());
-    if (group_bit >= 32) throw Wrong(0, "makes the 33rd group; LAMMPS has 32 at most");
-    if (!found) w.groups.push_back(group_name);
-  }
-  int id_offset = 0;
-  if (add)
-    for (const Atom& a : w.atoms)
-      if (World::there(a)) id_offset = std::max(id_offset, a.id);
-  const auto put = [&](int id, int type, const Vec3& x) -> Atom& {
-    Atom a;
-    a.id = id + id_offset, a.type = type + offset[0], a.x = a.start = x + shift, a.born = w.run_number();
-    if (group_bit >= 0) a.groups |= 1u << group_bit;
-    if (a.id >= static_cast<int>(w.of_id.size())) w.of_id.resize(static_cast<std::size_t>(a.id) + 1, -1);
-    w.of_id[static_cast<std::size_t>(a.id)] = static_cast<int>(w.atoms.size());
-    return w.atoms.emplace_back(a);
-  };
-  const auto base = static_cast<int>(w.atoms.size());
-  for (std::size_t k = 0; k < data.id.size(); ++k) {
-    if (data.id[k] > static_cast<int>(most_atoms)) throw Wrong(1, fmt::format("an id is above {}", most_atoms));
-    Atom& a = put(data.id[k], data.type[k], data.position.col(static_cast<Eigen::Index>(k)));
-    a.molecule = data.molecule[k], a.diameter = data.diameter[k], a.density = data.density[k];
-    if (data.velocity.cols() > 0) a.v = data.velocity.col(static_cast<Eigen::Index>(k));
-    if (!w.sphere && data.mass.size() > k) w.mass[static_cast<std::size_t>(a.type - 1)] = data.mass[k];
-  }
-  for (const Bond& b : data.bonds)
-    w.bonds.push_back({b.type + 1 + offset[1], {b.particles[0] + base, b.particles[1] + base}, w.run_number()});
-  for (const Angle& a : data.angles)
-    w.angles.push_back({a.type + 1 + offset[2], {a.particles[0] + base, a.particles[1] + base, a.particles[2] + base}, w.run_number()});
-  if (data.bodies.empty()) return;
-  if (!w.body_file.empty()) throw Wrong(1, "bodies come from one data file", true);
-  w.body_file = file, w.bodies = true;
-  for (std::size_t b = 0; b < data.bodies.size(); ++b)
-    put(data.bodies[b].id, data.bodies[b].type, data.body_position.col(static_cast<Eigen::Index>(b))).is_body = true;
-}
-
 void velocity(Interpreter& in) {
   in.wants(3, "velocity GROUP set VX VY VZ");
   World& w = in.world;
@@ -715,23 +388,3 @@ void uncompute(Interpreter& in) {
 }
 
 }  // namespace elamin::script::command
-
-namespace elamin::script {
-
-void take_positions(Interpreter& in, const std::string& file) {
-  const LammpsData data = read_lammps_data(file, "");
-  World& w = in.world;
-  std::vector<bool> found(w.atoms.size());
-  for (std::size_t k = 0; k < data.id.size(); ++k) {
-    const int id = data.id[k];
-    const int i = id < static_cast<int>(w.of_id.size()) ? w.of_id[static_cast<std::size_t>(id)] : -1;
-    if (i < 0) throw Wrong(0, fmt::format("{} holds an atom {} that is not there behind this run", in_quotes(file), id));
-    w.atoms[static_cast<std::size_t>(i)].x = data.position.col(static_cast<Eigen::Index>(k));
-    found[static_cast<std::size_t>(i)] = true;
-  }
-  for (std::size_t i = 0; i < w.atoms.size(); ++i)
-    if (World::there(w.atoms[i]) && !found[i] && !w.atoms[i].is_body)
-      throw Wrong(0, fmt::format("{} does not hold the atom {}, which is there behind this run", in_quotes(file), w.atoms[i].id));
-}
-
-}  // namespace elamin::script

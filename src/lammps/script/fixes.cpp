@@ -179,7 +179,8 @@ struct Making {
   void wall_body() {
     in.wants(9, "fix ID GROUP wall/body/polyhedron K_N C_N C_T xplane LO HI");
     fix.kind = Fix::Kind::wall;
-    fix.body = fmt::format("k_n = {}\nc_n = {}\nc_t = {}\n", in.number(4), in.number(5), in.number(6));
+    const double normal = in.number(5), tangential = in.word(6) == "NULL" ? normal / 2 : in.number(6);   // as LAMMPS has it
+    fix.body = fmt::format("k_n = {}\nc_n = {}\nc_t = {}\n", in.number(4), normal, tangential);
     plane_or_tube(7, 0);
   }
 

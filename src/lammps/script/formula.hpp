@@ -40,6 +40,8 @@ struct Value {
 /// What the value of a formula depends on, besides numbers.
 struct Dependence { bool time = false, places = false; };
 
+constexpr int most_nested = 60;                 // formulas, brackets or signs in each other
+
 /// What a formula says now. With LAMMPS's operators by rising precedence || |^, &&, == !=, < <= > >=, + −, * / %, ^ (from the left), and
 /// before all of these − and ! of one operand. `each`: an atom-style formula, with x, y, z, id, type, … of every particle. `on`, if
 /// given, tells what it depends on. Throws Wrong at `word`, or NeedsPositions.

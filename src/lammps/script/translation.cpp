@@ -1,8 +1,12 @@
 #include "lammps/script/translation.hpp"
 
 #include "core/suggest.hpp"
-#include "laws/section.hpp"
+#include "lammps/script/flat.hpp"
+#include "lammps/script/group_names.hpp"
+#include "lammps/script/held.hpp"
+#include "lammps/script/mixing.hpp"
 #include "lammps/script/particles.hpp"
+#include "lammps/script/table_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,21 +22,6 @@ namespace {
 
 using Members = std::vector<int>;               // indices of World::atoms, ascending
 
-std::string vec(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0); }
-std::string quoted(const std::string& s) { return '"' + s + '"'; }
-
-/// A list over several lines where it is long.
-std::string list_of(const std::vector<std::string>& items) {
-  std::string text = "[";
-  std::size_t line = 7;
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    if (line + items[k].size() > 130) text += "\n  ", line = 2;
-    text += items[k] + (k + 1 < items.size() ? ", " : "");
-    line += items[k].size() + 2;
-  }
-  return text + "]";
-}
-
 /// A table of the file that may be in force in some of the runs.
 struct Table {
   std::string kind, name, body;                 // "wall"; the keys behind its name
@@ -46,7 +35,7 @@ struct Table {
 class Translation {
  public:
   Translation(const Reading& reading, const Pass& pass, const TranslationOptions& options, const std::string& data_name)
-      : reading_(reading), pass_(pass), world_(pass.world), options_(options), data_name_(data_name), particles_(world_) {}
+      : reading_(reading), pass_(pass), world_(pass.world), options_(options), data_name_(data_name), particles_(world_), groups_(world_, particles_) {}
 
   Translated problem() {
     collect();
@@ -71,67 +60,6 @@ class Translation {
     throw InputError({Mistake{reading_.files[static_cast<std::size_t>(w.file)], w.line, 1, key, what}});
   }
 
-  std::string unique(std::string name) {
-    for (char& c : name)
-      if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-    if (name.empty()) name = "some";
-    const auto reserved = [](const std::string& w) {
-      return w == "all" || w == "lammps" || (w.starts_with("type") && w.find_first_not_of("0123456789", 4) == std::string::npos);
-    };
-    if (name.size() > 58) name.resize(58);
-    if (!std::isalpha(static_cast<unsigned char>(name[0])) && name[0] != '_') name = "_" + name;
-    if (reserved(name)) name += "_";
-    std::string n = name;
-    for (int k = 2; !names_.insert(n).second; ++k) n = fmt::format("{}_{}", name, k);
-    return n;
-  }
-
-  // Groups -------------------------------------------------------------------------------------------------------------------
-
-  /// The name of the group of these atoms, as they are in a run.
-  std::string group_of(const Members& members, const std::string& wanted, int run) {
-    if (wanted == "all") return "all";
-    if (const auto found = groups_.find(members); found != groups_.end()) return found->second;
-    const std::string name = unique(wanted);
-    group_text_ += fmt::format("\n[[group]]\nname = \"{}\"\n{}", name, selection(members, run));
-    return groups_[members] = name;
-  }
-
-  /// The keys of a group that choose these: types where they are all that there are of them, else ids.
-  std::string selection(const Members& members, int run) const {
-    std::set<int> types;
-    for (const int i : members) types.insert(atom(i).type);
-    const bool whole = std::all_of(alive(run).begin(), alive(run).end(), [&](int i) {
-      return !types.count(atom(i).type) || std::binary_search(members.begin(), members.end(), i);
-    });
-    std::vector<std::string> items;
-    if (whole) {
-      for (const int t : types) items.push_back(fmt::format("\"type{}\"", t));
-      return fmt::format("of = {}\n", list_of(items));
-    }
-    std::vector<int> ids;
-    for (const int i : members) ids.push_back(particles_.id(i));
-    std::sort(ids.begin(), ids.end());
-    for (const int id : ids) items.push_back(std::to_string(id));
-    return fmt::format("ids = {}\n", list_of(items));
-  }
-
-  std::string group_of_types(const std::vector<int>& types) {
-    if (types == particles_.types()) return "all";
-    if (types.size() == 1) return "type" + std::to_string(types[0]);
-    if (const auto found = type_groups_.find(types); found != type_groups_.end()) return found->second;
-    std::vector<std::string> items, parts;
-    for (const int t : types) items.push_back(fmt::format("\"type{}\"", t)), parts.push_back(std::to_string(t));
-    const std::string name = unique(types.size() < 5 ? fmt::format("types_{}", fmt::join(parts, "_"))
-                                                     : fmt::format("types_{}_to_{}", types.front(), types.back()));
-    group_text_ += fmt::format("\n[[group]]\nname = \"{}\"\nof = {}\n", name, list_of(items));
-    return type_groups_[types] = name;
-  }
-
-  const Members& alive(int run) const {
-    return world_.runs.empty() ? particles_.atoms() : world_.runs[static_cast<std::size_t>(run)].atoms;
-  }
-
   // Tables -------------------------------------------------------------------------------------------------------------------
 
   /// The table is in force in a run; the same one as in the run before if nothing of it differs.
@@ -154,7 +82,7 @@ class Translation {
         if (a.fix.kind == Fix::Kind::viscous && options_.dynamics)
           put(k, {"viscosity",
                   "",
-                  fmt::format("group = \"{}\"\ncoefficient = {}\n", group_of(a.members, a.fix.group, k), a.fix.coefficient),
+                  fmt::format("group = \"{}\"\ncoefficient = {}\n", groups_.of(a.members, a.fix.group, k), a.fix.coefficient),
                   a.fix.where,
                   a.fix.text,
                   a.fix.serial,
@@ -163,53 +91,15 @@ class Translation {
       }
       contacts(k, run);
     }
-    for (Table& t : tables_) t.name = t.kind == "contact" || t.kind == "viscosity" ? "" : unique(t.name);
+    for (Table& t : tables_) t.name = t.kind == "contact" || t.kind == "viscosity" ? "" : groups_.unique(t.name);
     presence();
     sheets();
   }
 
-  static Vec3 only(const Vec3& v, const std::array<bool, 3>& directions) {
-    Vec3 r = Vec3::Zero();
-    for (std::size_t c = 0; c < 3; ++c)
-      if (directions[c]) r[static_cast<Eigen::Index>(c)] = v[static_cast<Eigen::Index>(c)];
-    return r;
-  }
-
-  /// What holds a particle along its coordinates, and how fast.
-  struct Held {
-    std::array<bool, 3> directions{};
-    Vec3 velocity = Vec3::Zero();
-    int fix = -1;                               // of Run::fixes; −1: nothing integrates it
-    auto key() const { return std::tuple(fix, directions, velocity[0], velocity[1], velocity[2]); }
-    bool operator<(const Held& o) const { return key() < o.key(); }
-  };
-
   void supports(int k, const Run& run) {
-    const std::size_t n = world_.atoms.size();
-    std::vector<char> integrated(n, run.minimize);
-    for (const Run::Active& a : run.fixes)
-      if (a.fix.kind == Fix::Kind::integrate || a.fix.kind == Fix::Kind::move)
-        for (const int i : a.members) integrated[static_cast<std::size_t>(i)] = 1;
-    std::vector<std::vector<Held>> held(n);
     const std::array<bool, 3> whole{true, true, true};
-    for (const int i : run.atoms)
-      if (!integrated[static_cast<std::size_t>(i)]) held[static_cast<std::size_t>(i)].push_back({whole, Vec3::Zero(), -1});
-    for (std::size_t f = 0; f < run.fixes.size(); ++f) {
-      const Run::Active& a = run.fixes[f];
-      const bool moves = a.fix.kind == Fix::Kind::move;
-      if (a.fix.kind != Fix::Kind::hold && !(moves && !run.minimize)) continue;
-      for (const int i : a.members) {
-        auto& list = held[static_cast<std::size_t>(i)];
-        if (!list.empty() && list[0].fix < 0 && !moves) continue;
-        const bool stands = run.still() || run.minimize || (!moves && a.fix.style == "freeze");
-        const Vec3 v = stands ? Vec3(Vec3::Zero()) : moves ? a.fix.vector : atom(i).v;
-        for (Held& h : list)                    // the later fix has the last word
-          for (std::size_t c = 0; c < 3; ++c)
-            if (a.fix.directions[c]) h.directions[c] = false, h.velocity[static_cast<Eigen::Index>(c)] = 0;
-        std::erase_if(list, [](const Held& h) { return h.directions == std::array<bool, 3>{}; });
-        if (a.fix.directions != std::array<bool, 3>{}) list.push_back({a.fix.directions, only(v, a.fix.directions), static_cast<int>(f)});
-      }
-      if (moves && a.fix.directions != whole && options_.dynamics)
+    for (const Run::Active& a : run.fixes)
+      if (a.fix.kind == Fix::Kind::move && a.fix.directions != whole && options_.dynamics && !run.minimize)
         for (const Run::Active& other : run.fixes)
           if (other.fix.kind == Fix::Kind::integrate && std::any_of(a.members.begin(), a.members.end(), [&](int i) {
                 return std::binary_search(other.members.begin(), other.members.end(), i);
@@ -217,10 +107,7 @@ class Translation {
             note(a.fix.where,
                  fmt::format("the free coordinates of these atoms are integrated twice by LAMMPS, by this fix and by {}; here once",
                              other.fix.id));
-    }
-    std::map<Held, Members> by;
-    for (const int i : run.atoms)
-      for (const Held& h : held[static_cast<std::size_t>(i)]) by[h].push_back(i);
+    const std::map<Held, Members> by = held_in(world_, run);
     bool drives = false;
     for (const auto& [h, members] : by) drives = drives || !h.velocity.isZero(0);
     for (const Run::Active& a : run.fixes) drives = drives || varies(a);
@@ -231,7 +118,7 @@ class Translation {
     at_ = end;
     for (const auto& [h, members] : by) {
       const Fix* fix = h.fix < 0 ? nullptr : &run.fixes[static_cast<std::size_t>(h.fix)].fix;
-      const std::string group = group_of(members, fix ? fix->group : "still", k);
+      const std::string group = groups_.of(members, fix ? fix->group : "still", k);
       std::string body = fmt::format("group = \"{}\"\n", group), letters;
       for (std::size_t c = 0; c < 3; ++c)
         if (h.directions[c]) letters += "xyz"[c];
@@ -325,7 +212,7 @@ class Translation {
       if (v.isZero(0)) continue;
       const char* key = gravity == constant ? "" : constant ? "constant = true\n" : "constant = false\n";
       put(k, {gravity ? "gravity" : "load", a.fix.id,
-              fmt::format("group = \"{}\"\n{} = {}\n{}", group_of(members, wanted, k), gravity ? "acceleration" : "force", vec(v), key),
+              fmt::format("group = \"{}\"\n{} = {}\n{}", groups_.of(members, wanted, k), gravity ? "acceleration" : "force", vec(v), key),
               a.fix.where, a.fix.text, a.fix.serial, {}});
     }
   }
@@ -337,22 +224,22 @@ class Translation {
       if (w.effective_modulus == 0 && a.fix.body.empty()) continue;
       const Region defined = w.region;
       w.region = defined.moved(w.moved[0], w.grown[0]);
-      // Of regions LAMMPS lets those feel nothing that are on the other side; planes of wall/gran push them away, there too.
+      // Of regions LAMMPS lets those feel nothing that are on the other side; those of wall/gran push them away, there too.
       Members members, beyond;
       for (const int i : a.members) {
         const bool known = k == 0 || atom(i).born == k;
         (!known || w.region.any_open() || atom(i).is_body || w.region.contains(atom(i).start) == w.inside ? members : beyond).push_back(i);
       }
-      const bool either = a.fix.style == "wall/gran" && w.region.shape == Shape::plane;
+      const bool either = a.fix.style == "wall/gran";
       if (!beyond.empty() && !either)
         note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they "
                                       "are left out of its group",
                                       beyond.size(), a.members.size()));
       if (!members.empty())
         one_wall(k, a, w, defined, w.inside, a.fix.id + w.suffix,
-                 beyond.empty() ? group_of(members, a.fix.group, k) : group_of(members, a.fix.id + w.suffix + "_before", k));
+                 beyond.empty() ? groups_.of(members, a.fix.group, k) : groups_.of(members, a.fix.id + w.suffix + "_before", k));
       if (!beyond.empty() && either)
-        one_wall(k, a, w, defined, !w.inside, a.fix.id + w.suffix + "_back", group_of(beyond, a.fix.id + w.suffix + "_behind", k));
+        one_wall(k, a, w, defined, !w.inside, a.fix.id + w.suffix + "_back", groups_.of(beyond, a.fix.id + w.suffix + "_behind", k));
       if (w.region.shape == Shape::cone && w.region.radius_lo != w.region.radius_hi)
         note(a.fix.where,
              "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
@@ -382,45 +269,7 @@ class Translation {
     put(k, {"wall", name, body, a.fix.where, a.fix.text, a.fix.serial, {}});
   }
 
-  static std::string region_text(const Region& r, bool inside) {
-    static constexpr const char* shapes[]{"plane", "block", "cylinder", "sphere", "cone"};
-    std::string t = fmt::format("shape = \"{}\"\n", shapes[static_cast<int>(r.shape)]);
-    if (!inside) t += "side = \"outside\"\n";
-    std::vector<std::string> open;
-    static constexpr const char *of_block[]{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"}, *of_tube[]{"lo", "hi", "side"};
-    for (std::size_t f = 0; f < 6; ++f)
-      if (r.open[f]) open.push_back(quoted(r.shape == Shape::block ? of_block[f] : of_tube[std::min<std::size_t>(f, 2)]));
-    switch (r.shape) {
-      case Shape::plane: t += fmt::format("point = {}\nnormal = {}\n", vec(r.center), vec(r.normal)); break;
-      case Shape::block: t += fmt::format("lo = {}\nhi = {}\n", vec(r.lo), vec(r.hi)); break;
-      case Shape::sphere: t += fmt::format("center = {}\nradius = {}\n", vec(r.center), r.radius); break;
-      case Shape::cylinder:
-      case Shape::cone:
-        t += fmt::format("axis = \"{}\"\ncenter = {}\n", "xyz"[r.axis], vec(r.center));
-        t += r.shape == Shape::cylinder ? fmt::format("radius = {}\n", r.radius)
-                                        : fmt::format("radius_lo = {}\nradius_hi = {}\n", r.radius_lo, r.radius_hi);
-        if (r.axial_lo > -1e20) t += fmt::format("lo = {}\n", r.axial_lo);
-        if (r.axial_hi < 1e20) t += fmt::format("hi = {}\n", r.axial_hi);
-        break;
-    }
-    if (!open.empty()) t += fmt::format("open = {}\n", list_of(open));
-    return t;
-  }
-
   // Contacts -----------------------------------------------------------------------------------------------------------------
-
-  /// How many bonds the pairs are apart, at most, that feel nothing; `why` is the sentence if no number says it.
-  static int excluded(const std::array<double, 3>& lj, const std::array<double, 3>& coul, bool granular, bool& partial) {
-    int deepest = 0;
-    bool gap = false;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const bool out = lj[c] == 0 && (!granular || coul[c] == 0);
-      if (out && deepest == static_cast<int>(c)) deepest = static_cast<int>(c) + 1;
-      else if (out) gap = true;
-      if (!out && lj[c] != 1) partial = true;
-    }
-    return gap ? -1 : deepest;
-  }
 
   std::string contact_keys(const PairCoefficient& c, const PairStyle& style, const Run& run) {
     using Law = PairCoefficient::Law;
@@ -456,18 +305,16 @@ class Translation {
     if (partial)
       note(c.where,
            "weights of special_bonds between 0 and 1 are ignored by granular contacts: LAMMPS takes them in full, and so does this");
+    if (c.law == Law::hertz && bonds > 0)
+      note(run.where, "granular contacts of LAMMPS before 2022 do not know special_bonds: bonded particles that overlap push each other there. "
+                      "Here they are left out, as in later releases; exclude_bonds = 0 in [[contact]] takes them in");
     return keys + fmt::format("exclude_bonds = {}\n", bonds);
-  }
-
-  static bool nothing(const PairCoefficient& c) {
-    if (c.law == PairCoefficient::Law::hertz) return c.effective_modulus.value_or(c.youngs_modulus) == 0;
-    return c.law == PairCoefficient::Law::lj ? c.epsilon == 0 || c.cutoff == 0 || c.sigma == 0 : false;
   }
 
   void contacts(int k, const Run& run) {
     using Law = PairCoefficient::Law;
     std::vector<PairCoefficient> list = run.pairs.coefficients;
-    for (PairCoefficient& m : mixed(run)) list.push_back(std::move(m));
+    for (PairCoefficient& m : mixed(run, particles_.types())) list.push_back(std::move(m));
     std::vector<const PairCoefficient*> acting;
     for (const PairCoefficient& c : list) {
       if (c.law == Law::none) continue;
@@ -500,7 +347,7 @@ class Translation {
       const auto add = [&](const std::vector<int>& a, const std::vector<int>& b) {
         put(k, {"contact",
                 "",
-                fmt::format("between = [\"{}\", \"{}\"]\n", group_of_types(a), group_of_types(b)) + keys,
+                fmt::format("between = [\"{}\", \"{}\"]\n", groups_.of_types(a), groups_.of_types(b)) + keys,
                 c.where,
                 c.text,
                 0,
@@ -520,65 +367,6 @@ class Translation {
     }
   }
 
-  static const PairStyle* style_of(const Run& run, PairCoefficient::Law law) {
-    using Law = PairCoefficient::Law;
-    for (const PairStyle& s : run.pairs.styles)
-      if ((law == Law::lj) == s.name.starts_with("lj/") && (law == Law::rounded) == s.name.starts_with("body")) return &s;
-    return &run.pairs.styles.front();
-  }
-
-  /// Pairs of unlike types that no line names: mixed of those of like types, as LAMMPS does.
-  std::vector<PairCoefficient> mixed(const Run& run) const {
-    using Law = PairCoefficient::Law;
-    std::vector<PairCoefficient> all;
-    const std::vector<int>& types = particles_.types();
-    for (const Law law : {Law::hertz, Law::lj, Law::rounded}) {
-      const auto last = [&](int i, int j) -> const PairCoefficient* {
-        const PairCoefficient* found = nullptr;
-        for (const PairCoefficient& c : run.pairs.coefficients)
-          if (c.law == law && c.covers(i, j)) found = &c;
-        return found;
-      };
-      const PairStyle& style = *style_of(run, law);
-      for (std::size_t a = 0; a < types.size(); ++a)
-        for (std::size_t b = a + 1; b < types.size(); ++b) {
-          const auto named = [&](const PairCoefficient& c) { return c.covers(types[a], types[b]); };
-          const auto& said = run.pairs.coefficients;
-          if (last(types[a], types[b])) continue;
-          if ((run.pairs.hybrid || run.pairs.overlay) && std::any_of(said.begin(), said.end(), named)) continue;   // of any style, or none
-          const PairCoefficient *p = last(types[a], types[a]), *q = last(types[b], types[b]);
-          if (!p || !q) continue;
-          PairCoefficient m = *q;
-          m.first = {types[a], types[a]}, m.second = {types[b], types[b]};
-          m.text = "mixed of types " + std::to_string(types[a]) + " and " + std::to_string(types[b]);
-          const auto mean = [&](double x, double y) { return style.mix == PairStyle::Mix::geometric ? std::sqrt(x * y) : (x + y) / 2; };
-          if (law == Law::hertz) {
-            if (p->effective_modulus && q->effective_modulus)
-              m.effective_modulus = std::sqrt(*p->effective_modulus * *q->effective_modulus);
-            else if (!p->effective_modulus && !q->effective_modulus && (p->youngs_modulus == 0 || q->youngs_modulus == 0))
-              m.youngs_modulus = 0;
-            else if (!p->effective_modulus && !q->effective_modulus) {
-              const auto soft = [](const PairCoefficient& c) { return (1 - c.poissons_ratio * c.poissons_ratio) / c.youngs_modulus; };
-              m.effective_modulus = 1 / (soft(*p) + soft(*q));
-            } else continue;
-            m.damping.clear();
-          } else if (law == Law::lj) {
-            if (style.mix == PairStyle::Mix::sixthpower) {
-              const double s = std::pow(p->sigma, 6) + std::pow(q->sigma, 6);
-              m.epsilon = s > 0 ? 2 * std::sqrt(p->epsilon * q->epsilon) * std::pow(p->sigma * q->sigma, 3) / s : 0;
-              m.sigma = std::pow(s / 2, 1.0 / 6), m.cutoff = std::pow((std::pow(p->cutoff, 6) + std::pow(q->cutoff, 6)) / 2, 1.0 / 6);
-              m.inner_cutoff = std::pow((std::pow(p->inner_cutoff, 6) + std::pow(q->inner_cutoff, 6)) / 2, 1.0 / 6);
-            } else {
-              m.epsilon = std::sqrt(p->epsilon * q->epsilon), m.sigma = mean(p->sigma, q->sigma), m.cutoff = mean(p->cutoff, q->cutoff);
-              m.inner_cutoff = mean(p->inner_cutoff, q->inner_cutoff);
-            }
-          } else m.k_n = std::sqrt(p->k_n * q->k_n), m.k_na = std::sqrt(p->k_na * q->k_na);
-          all.push_back(std::move(m));
-        }
-    }
-    return all;
-  }
-
   // What comes and goes --------------------------------------------------------------------------------------------------------
 
   void presence() {
@@ -589,19 +377,17 @@ class Translation {
     }
     for (const auto& [k, members] : born) {
       presence_text_ += fmt::format("\n[[group]]                       # made before the {} run\nname = \"{}\"\n{}from_stage = \"{}\"\n",
-                                    ordinal(k + 1), unique("from_" + stage(k)), selection(members, k), stage(k));
+                                    ordinal(k + 1), groups_.unique("from_" + stage(k)), groups_.selection(members, k), stage(k));
     }
     for (const auto& [k, members] : gone)
       presence_text_ += fmt::format("\n[[remove]]                      # deleted before the {} run\ngroup = \"{}\"\nfrom_stage = \"{}\"\n",
-                                    ordinal(k + 1), group_of(members, "gone", k - 1), stage(k));
+                                    ordinal(k + 1), groups_.of(members, "gone", k - 1), stage(k));
     for (const Removal& r : world_.removals)
       if (r.run < runs())
         presence_text_ += fmt::format("\n[[remove]]                      # {} {}\ngroup = \"{}\"\nfrom_stage = \"{}\"\nwhat = \"{}\"\n",
-                                      reading_.short_place(r.where), r.text, group_of(r.members, r.group, r.run), stage(r.run),
+                                      reading_.short_place(r.where), r.text, groups_.of(r.members, r.group, r.run), stage(r.run),
                                       r.angles ? "angles" : "bonds");
   }
-
-  static std::string ordinal(int k) { return std::to_string(k) + (k == 1 ? "st" : k == 2 ? "nd" : k == 3 ? "rd" : "th"); }
 
   // Sheets of LAMMPSStructures ---------------------------------------------------------------------------------------------------
 
@@ -637,55 +423,13 @@ class Translation {
     }
   }
 
-  // A plane --------------------------------------------------------------------------------------------------------------------
-
-  /// The coordinate that nothing moves out of its plane, or −1.
-  int flat() const {
-    if (particles_.bodies() > 0 || particles_.particles() == 0) return -1;
-    for (int c = 0; c < 3; ++c) {
-      const double at = atom(particles_.atoms().front()).start[c];
-      const auto keeps = [&](const Run::Active& a) {
-        const Fix& f = a.fix;
-        if (f.kind == Fix::Kind::gravity || f.kind == Fix::Kind::force || f.kind == Fix::Kind::move)
-          return f.vector[c] == 0 && f.end[c] == 0 &&
-                 std::all_of(a.own.begin(), a.own.end(), [&](const auto& own) { return own[0][c] == 0 && own[1][c] == 0; });
-        return f.kind != Fix::Kind::wall ||
-               std::all_of(f.walls.begin(), f.walls.end(), [&](const Fix::Wall& w) { return symmetric(w, c, at); });
-      };
-      bool flat = std::all_of(particles_.atoms().begin(), particles_.atoms().end(),
-                              [&](int i) { return atom(i).start[c] == at && atom(i).v[c] == 0; });
-      for (const Run& run : world_.runs)
-        flat = flat && std::all_of(run.fixes.begin(), run.fixes.end(), [&](const Run::Active& a) { return keeps(a); });
-      if (flat) return c;
-    }
-    return -1;
-  }
-
-  /// Whether a wall pushes nothing out of the plane x_c = at.
-  bool symmetric(const Fix::Wall& w, int c, double at) const {
-    if (w.moved[0][c] != 0 || w.moved[1][c] != 0) return false;
-    const Region& r = w.region;
-    double most = 0;
-    for (const int i : particles_.atoms()) most = std::max(most, atom(i).diameter / 2);
-    const auto faces = [&](double lo, double hi) { return hi - at == at - lo || (at - lo >= most && hi - at >= most); };
-    switch (r.shape) {
-      case Shape::plane: return r.normal[c] == 0 || (at - r.center[c]) * r.normal[c] >= most;
-      case Shape::block: return w.inside && !r.any_open() && faces(r.lo[c], r.hi[c]);
-      case Shape::sphere: return r.center[c] == at;
-      case Shape::cylinder:
-      case Shape::cone:
-        return r.axis == c ? w.inside && !r.any_open() && r.shape == Shape::cylinder && faces(r.axial_lo, r.axial_hi) : r.center[c] == at;
-    }
-    return false;
-  }
-
   // The file -------------------------------------------------------------------------------------------------------------------
 
   std::string text() {
     std::string t = fmt::format("# Written by elamin import from {}", script_name());
     for (const auto& [name, value] : pass_.loops) t += fmt::format(", {} = {}", name, value);
     t += fmt::format(". Units: {}.\ntitle = \"{}\"\n", world_.units, title());
-    int plane = flat();
+    int plane = flat(world_, particles_);
     for (const Run& run : world_.runs)
       for (const Run::Active& a : run.fixes)
         if (a.fix.kind == Fix::Kind::plane) plane = 2;
@@ -697,7 +441,7 @@ class Translation {
     t += "\n[lammps]\n";
     if (particles_.particles() > 0) t += fmt::format("data = \"{}\"\n", data_name_);
     if (!world_.body_file.empty()) t += fmt::format("bodies = \"{}\"\n", escaped(std::filesystem::absolute(world_.body_file).string()));
-    t += group_text_ + presence_text_;
+    t += groups_.tables() + presence_text_;
     for (const char* kind : {"support", "load", "gravity", "contact", "wall", "viscosity"}) {
       int number = 0;
       for (Table& table : tables_) {
@@ -707,15 +451,6 @@ class Translation {
       }
     }
     return t + study();
-  }
-
-  static std::string escaped(const std::string& s) {
-    std::string r;
-    for (const char c : s) {
-      if (c == '"' || c == '\\') r += '\\';
-      r += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-    return r;
   }
 
   std::string script_name() const {
@@ -798,12 +533,10 @@ class Translation {
   TranslationOptions options_;
   std::string data_name_;
   Particles particles_;
+  GroupNames groups_;
   Translated result_;
   std::vector<Table> tables_;
-  std::map<Members, std::string> groups_;
-  std::map<std::vector<int>, std::string> type_groups_;
-  std::set<std::string> names_;
-  std::string group_text_, presence_text_;
+  std::string presence_text_;
   std::vector<bool> driven_;                    // of each run
   double unit_time_ = 0, at_ = 0;               // of load factor 1; the load factor behind the last driven run
   std::vector<std::array<double, 2>> along_;    // the load factor as each run begins and ends

@@ -1,0 +1,179 @@
+// Particles and what glues them from data files.
+#include "lammps/script/building.hpp"
+
+#include "core/suggest.hpp"
+#include "core/text.hpp"
+#include "lammps/data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace elamin::script {
+namespace command {
+namespace {
+
+/// What the header of a data file says and LammpsData does not keep.
+struct Header {
+  Vec3 lo = Vec3::Constant(-0.5), hi = Vec3::Constant(0.5);
+  int atom_types = 0, bond_types = 0, angle_types = 0;
+};
+
+Header header_of(const std::string& file) {
+  Header h;
+  const std::string text = elamin::read_data(file, "LAMMPS data file");
+  int lines = 0;
+  for (std::size_t begin = 0; begin < text.size() && lines < 100; ++lines) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::vector<Word> words;
+    try {
+      words = split(without_comment(std::string_view(text).substr(begin, end - begin)));
+    } catch (const Wrong&) {                      // a title with a quote
+    }
+    begin = end + 1;
+    const auto number = [&](std::size_t i) { return std::strtod(words[i].text.c_str(), nullptr); };
+    for (int c = 0; c < 3; ++c)
+      if (words.size() == 4 && words[2].text == std::string(1, static_cast<char>('x' + c)) + "lo") h.lo[c] = number(0), h.hi[c] = number(1);
+    if (words.size() != 3 || words[2].text != "types") continue;
+    const int n = static_cast<int>(std::clamp(number(0), 0.0, 1e6));
+    if (words[1].text == "atom") h.atom_types = n;
+    if (words[1].text == "bond") h.bond_types = n;
+    if (words[1].text == "angle") h.angle_types = n;
+  }
+  return h;
+}
+
+bool six_digits(double v) { return std::strtod(fmt::format("{:.6g}", v).c_str(), nullptr) == v; }
+
+}  // namespace
+
+void read_data(Interpreter& in) {
+  in.wants(2, "read_data FILE …");
+  World& w = in.world;
+  const std::string file = in.path_of(in.word(1), 1);
+  LammpsReading how{w.atom_style, {}, {}, {}};
+  how.angle_style = w.angle_style, how.coefficients_may_lack = true;
+  bool add = false;
+  std::optional<int> id_offset;                  // else behind those that are there
+  int molecule_offset = 0;
+  int group_bit = -1;
+  Vec3 shift = Vec3::Zero();
+  std::array<int, 3> offset{}, extra{};
+  std::string group_name;
+  for (std::size_t i = 2; i < in.size();) {
+    const std::string& k = in.word(i);
+    if (i + 1 >= in.size() && k != "nocoeff") throw Wrong(i, in_quotes(k) + " is followed by nothing");
+    if (k == "add") {
+      add = true, ++i;
+      const auto count = [&] { return static_cast<int>(in.integer(i, 0, most_atoms)); };
+      if (in.word(i) == "merge") id_offset = 0;
+      else if (in.word(i) != "append") {
+        id_offset = count();
+        if (i + 1 < in.size() && std::isdigit(static_cast<unsigned char>(in.word(i + 1)[0]))) ++i, molecule_offset = count();
+      }
+      ++i;
+    } else if (k == "offset" && i + 5 < in.size()) {
+      for (std::size_t c = 0; c < 3; ++c) offset[c] = static_cast<int>(in.integer(i + 1 + c, 0, most_atoms));
+      i += 6;
+    } else if (k == "shift" && i + 3 < in.size()) shift = Vec3(in.number(i + 1), in.number(i + 2), in.number(i + 3)), i += 4;
+    else if (k == "group") group_name = in.word(i + 1), i += 2;
+    else if (k == "nocoeff") how.ignore = {"Bond Coeffs", "Angle Coeffs"}, ++i;
+    else if (k.starts_with("extra/")) {
+      const int n = static_cast<int>(in.integer(i + 1, 0, 1000000));
+      if (k == "extra/atom/types") extra[0] = n;
+      if (k == "extra/bond/types") extra[1] = n;
+      if (k == "extra/angle/types") extra[2] = n;
+      i += 2;
+    } else
+      throw Wrong(i, in_quotes(k) + " is no keyword of read_data that is taken; add append, offset, shift, group, nocoeff and extra/… are",
+                  true);
+  }
+  if (w.has_box && !add) throw Wrong(0, "there is a box already; `add append` adds to it");
+  const LammpsData data = read_lammps_data(file, how);
+  const Header header = header_of(file);
+  in.reading.data_files.push_back(file);
+  w.lo = w.has_box ? w.lo.cwiseMin(header.lo + shift).eval() : header.lo + shift;
+  w.hi = w.has_box ? w.hi.cwiseMax(header.hi + shift).eval() : header.hi + shift;
+  w.has_box = true;
+  int largest = 0;
+  for (const int t : data.type) largest = std::max(largest, t);
+  for (const Body& b : data.bodies) largest = std::max(largest, b.type);
+  const auto grow = [](int& now, int by, int extra_types) { now = std::max(now, by) + extra_types; };
+  grow(w.atom_types, std::max(largest, header.atom_types) + offset[0], extra[0]);
+  grow(w.bond_types, std::max(static_cast<int>(data.bond_types.size()), header.bond_types) + offset[1], extra[1]);
+  grow(w.angle_types, std::max(static_cast<int>(data.angle_types.size()), header.angle_types) + offset[2], extra[2]);
+  w.mass.resize(static_cast<std::size_t>(w.atom_types));
+  w.bond_coefficients.resize(static_cast<std::size_t>(w.bond_types)), w.angle_coefficients.resize(static_cast<std::size_t>(w.angle_types));
+  bool short_numbers = !data.bond_types.empty() || !data.angle_types.empty();
+  for (std::size_t t = 0; t < data.bond_types.size(); ++t) {
+    w.bond_coefficients[t + static_cast<std::size_t>(offset[1])] = {data.bond_types[t].stiffness, data.bond_types[t].rest_length, true};
+    short_numbers = short_numbers && six_digits(data.bond_types[t].stiffness) && six_digits(data.bond_types[t].rest_length);
+  }
+  for (std::size_t t = 0; t < data.angle_types.size(); ++t) {
+    w.angle_coefficients[t + static_cast<std::size_t>(offset[2])] = {data.angle_types[t].stiffness, data.angle_types[t].rest, true};
+    short_numbers = short_numbers && six_digits(data.angle_types[t].stiffness);
+  }
+  if (short_numbers)
+    in.note(
+        "the coefficients in this data file have six digits, as write_data writes them: loads at which things buckle may be off by 0.3 %; "
+        "bond_coeff and angle_coeff behind read_data give all digits");
+  if (!group_name.empty()) {
+    const auto found = w.find_group(group_name);
+    group_bit = found ? *found : static_cast<int>(w.groups.size());
+    if (group_bit >= 32) throw Wrong(0, "makes the 33rd group; LAMMPS has 32 at most");
+    if (!found) w.groups.push_back(group_name);
+  }
+  if (add && !id_offset) {                       // append
+    id_offset = 0;
+    for (const Atom& a : w.atoms)
+      if (World::there(a)) id_offset = std::max(*id_offset, a.id), molecule_offset = std::max(molecule_offset, a.molecule);
+  }
+  const auto put = [&](int id, int type, const Vec3& x) -> Atom& {
+    Atom a;
+    if (id + static_cast<long long>(id_offset.value_or(0)) > static_cast<long long>(most_atoms)) throw Wrong(1, fmt::format("an id is above {}", most_atoms));
+    a.id = id + id_offset.value_or(0), a.type = type + offset[0], a.x = a.start = x + shift, a.born = w.run_number();
+    if (group_bit >= 0) a.groups |= 1u << group_bit;
+    if (a.id >= static_cast<int>(w.of_id.size())) w.of_id.resize(static_cast<std::size_t>(a.id) + 1, -1);
+    if (w.of_id[static_cast<std::size_t>(a.id)] >= 0) throw Wrong(1, fmt::format("holds an atom {}, which is there already", a.id));
+    w.of_id[static_cast<std::size_t>(a.id)] = static_cast<int>(w.atoms.size());
+    return w.atoms.emplace_back(a);
+  };
+  const auto base = static_cast<int>(w.atoms.size());
+  for (std::size_t k = 0; k < data.id.size(); ++k) {
+    Atom& a = put(data.id[k], data.type[k], data.position.col(static_cast<Eigen::Index>(k)));
+    a.molecule = data.molecule[k] + molecule_offset, a.diameter = data.diameter[k], a.density = data.density[k];
+    if (data.velocity.cols() > 0) a.v = data.velocity.col(static_cast<Eigen::Index>(k));
+    if (!w.sphere && data.mass.size() > k) w.mass[static_cast<std::size_t>(a.type - 1)] = data.mass[k];
+  }
+  for (const Bond& b : data.bonds)
+    w.bonds.push_back({b.type + 1 + offset[1], {b.particles[0] + base, b.particles[1] + base}, w.run_number()});
+  for (const Angle& a : data.angles)
+    w.angles.push_back({a.type + 1 + offset[2], {a.particles[0] + base, a.particles[1] + base, a.particles[2] + base}, w.run_number()});
+  if (data.bodies.empty()) return;
+  if (!w.body_file.empty()) throw Wrong(1, "bodies come from one data file", true);
+  w.body_file = file, w.bodies = true;
+  for (std::size_t b = 0; b < data.bodies.size(); ++b)
+    put(data.bodies[b].id, data.bodies[b].type, data.body_position.col(static_cast<Eigen::Index>(b))).is_body = true;
+}
+
+}  // namespace command
+
+void take_positions(Interpreter& in, const std::string& file) {
+  const LammpsData data = read_lammps_data(file, "");
+  World& w = in.world;
+  std::vector<bool> found(w.atoms.size());
+  for (std::size_t k = 0; k < data.id.size(); ++k) {
+    const int id = data.id[k];
+    const int i = id < static_cast<int>(w.of_id.size()) ? w.of_id[static_cast<std::size_t>(id)] : -1;
+    if (i < 0) throw Wrong(0, fmt::format("{} holds an atom {} that is not there behind this run", in_quotes(file), id));
+    w.atoms[static_cast<std::size_t>(i)].x = data.position.col(static_cast<Eigen::Index>(k));
+    found[static_cast<std::size_t>(i)] = true;
+  }
+  for (std::size_t i = 0; i < w.atoms.size(); ++i)
+    if (World::there(w.atoms[i]) && !found[i] && !w.atoms[i].is_body)
+      throw Wrong(0, fmt::format("{} does not hold the atom {}, which is there behind this run", in_quotes(file), w.atoms[i].id));
+}
+
+}  // namespace elamin::script
