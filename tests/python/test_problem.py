@@ -209,3 +209,31 @@ def test_every_table_has_a_method():
             continue
         assert callable(getattr(elamin.Problem, table)), table
         assert getattr(elamin.Problem, table).__doc__
+
+
+def test_bonds_and_angles_join_structures_too():
+    def beams(first):
+        p = elamin.Problem()
+        if first:
+            p.particles([[0, 0, 5], [1, 0, 5]], 1.0)
+        for k in range(2):
+            p.beam(name=f"b{k}", section="square", particles=4, center=[0, 3.0 * k, 0], axis=[1, 0, 0], diameter=1.0, youngs_modulus=1.0)
+        p.study(type="energy")
+        return p
+
+    for first in (False, True):
+        p = beams(first)
+        n = 2 if first else 0
+        before = p.terms()
+        p.bonds([[n, n + 4], [n + 1, n + 5]], [2.0, 3.0], [1.0, 2.0]).bonds([[n + 2, n + 6]], 7.0)      # as built
+        p.angles([[n, n + 4, n + 5]], 3.0, 180.0)
+        after = p.terms()
+        assert p.n == 8 + n
+        assert after["bond"] - before["bond"] == pytest.approx(2 * 2.0**2 + 3 * 1.0, rel=1e-12)
+        assert after["angle"] - before["angle"] == pytest.approx(3.0, rel=1e-12)      # B (1 + cos θ) of a right angle
+        if first:                                         # one of each, and among the first ones
+            p.bonds([[0, 1], [1, 2]], 1.0, [0.5, 4.0])
+            r = np.linalg.norm(p.x0[2] - p.x0[1])
+            assert p.terms()["bond"] - after["bond"] == pytest.approx(0.25 + (r - 4) ** 2, rel=1e-12)
+        with pytest.raises(elamin.InputError, match="no id of a particle"):
+            beams(first).bonds([[0, 8 + n]], 1.0, 1.0).n

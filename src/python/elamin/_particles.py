@@ -1,7 +1,7 @@
 """Particles, bonds and angles from arrays: they go into the problem as a LAMMPS data file."""
 from __future__ import annotations
 
-from typing import List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -90,6 +90,28 @@ class Arrays:
         same = (s[:, 1:] == s[:, :-1]).any(axis=1)
         if same.any():
             raise InputError(f"{name}: {tuple(rows[same][0])} has one particle twice")
+
+    def split(self) -> Tuple["Arrays", List[Dict[str, Any]], List[Dict[str, Any]]]:
+        """These without the bonds and angles that particles of structures have, and such as tables [[bonds]] and [[angles]], one a kind."""
+        n = len(self.x)
+        inner = self.copy()
+        inner.bonds, inner.angles = [], []
+        bonds: List[Dict[str, Any]] = []
+        angles: List[Dict[str, Any]] = []
+        for pairs, K, r0 in self.bonds:
+            own = (pairs < n).all(axis=1)
+            inner.bonds.append((pairs[own], K[own], None if r0 is None else r0[own]))
+            kinds, kind = self._kinds([np.column_stack([K, np.zeros(len(K)) if r0 is None else r0])[~own]])
+            for k, (stiffness, length) in enumerate(kinds):
+                bonds.append({"pairs": (pairs[~own][kind == k] + 1).tolist(), "bond_stiffness": stiffness,
+                              "rest_length": None if r0 is None else length})
+        for triples, B, rest in self.angles:
+            own = (triples < n).all(axis=1)
+            inner.angles.append((triples[own], B[own], rest[own]))
+            kinds, kind = self._kinds([np.column_stack([B, rest])[~own]])
+            for k, (stiffness, degrees) in enumerate(kinds):
+                angles.append({"triples": (triples[~own][kind == k] + 1).tolist(), "angle_stiffness": stiffness, "rest": degrees})
+        return inner, bonds, angles
 
     def text(self) -> str:
         """The LAMMPS data file (atom style hybrid sphere angle); ids are the numbers from 0, and one."""

@@ -216,7 +216,8 @@ class Problem(Tables):
         """Adds bonds, U = K (r − r₀)².
 
         Args:
-            pairs: numbers of particles that `particles` has given (m, 2).
+            pairs: numbers of particles (m, 2), from 0: first those that `particles` has given, then those of beams, loops, sheets and
+                grains, as in `x`.
             stiffness: K, of all or of each [energy/length²].
             rest_length: r₀, of all or of each [length]; by default their distance as built.
         """
@@ -228,7 +229,7 @@ class Problem(Tables):
         """Adds angles, U = B (1 − cos(θ − θ₀)).
 
         Args:
-            triples: numbers of particles that `particles` has given (m, 3), the middle one second.
+            triples: numbers of particles (m, 3), the middle one second, as of `bonds`.
             stiffness: B, of all or of each [energy].
             rest: θ₀, of all or of each [degrees]; 180 is straight.
         """
@@ -292,11 +293,18 @@ class Problem(Tables):
             return self._document
         if self._document.has("lammps"):
             raise InputError("particles: do not go with a [lammps] data file; take one of them")
-        file = os.path.join(folder, "particles.data")
-        text = self._arrays.text()
-        pathlib.Path(file).write_text(text, encoding="utf-8")
         document = self._document.copy()
-        document.update("lammps", {"data": os.path.abspath(file)})
+        arrays = self._arrays
+        if any(document.has(structure) for structure in ("beam", "loop", "sheet", "grains")):
+            arrays, bonds, angles = arrays.split()
+            for table in bonds:
+                document.append("bonds", table)
+            for table in angles:
+                document.append("angles", table)
+        if len(arrays.x) or arrays is self._arrays:
+            file = os.path.join(folder, "particles.data")
+            pathlib.Path(file).write_text(arrays.text(), encoding="utf-8")
+            document.update("lammps", {"data": os.path.abspath(file)})
         return document
 
     def _system(self) -> System:
