@@ -55,12 +55,15 @@ void take_lammps_input(Document& document) {
   Node* const only = find(lammps, "particles_only");
   const bool tables = !only || !std::holds_alternative<bool>(only->value) || !std::get<bool>(only->value);
   for (const char* key : {"data", "bodies"})
-    if (find(lammps, key) && (tables || key[0] == 'd')) wrong(fmt::format("and {} are both given; the script says where its particles are from", in_quotes(key)));
+    if (find(lammps, key) && (tables || key[0] == 'd'))
+      wrong(fmt::format("and {} are both given; the script says where its particles are from", in_quotes(key)));
   const script::Reading reading = script::read_script((fs::path(document.file).parent_path() / name).string(), {});
   if (reading.passes.size() != 1)
-    wrong(reading.passes.empty() ? "makes no particle that is there at its end" : fmt::format("begins anew and gives {} problems; `elamin import` writes them all", reading.passes.size()));
+    wrong(reading.passes.empty() ? "makes no particle that is there at its end"
+                                 : fmt::format("begins anew and gives {} problems; `elamin import` writes them all", reading.passes.size()));
   if (reading.passes[0].stopped)
-    wrong(fmt::format("needs positions behind a run at {}; `elamin import` writes what comes before, and with --after what follows", reading.place(*reading.passes[0].stopped)));
+    wrong(fmt::format("needs positions behind a run at {}; `elamin import` writes what comes before, and with --after what follows",
+                      reading.place(*reading.passes[0].stopped)));
   script::Translated made = script::translated(reading, reading.passes[0], {}, "");
   document.script = {std::move(made.data), {}, script::notes_of(reading, made.notes)};
   for (const auto& files : {reading.files, reading.data_files})

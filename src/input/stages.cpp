@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace elamin {
@@ -23,29 +24,18 @@ std::vector<Condition> tables_of(const Problem& problem) {
 }
 
 /// Calls with every table, in the same order.
-template <class Call> void for_tables(Problem& p, const Call& call) {
+template <class P, class Call> void for_tables(P& p, const Call& call) {
   const auto all = [&](auto& tables) {
     for (auto& t : tables) call(t.place, t.from_stage);
   };
   all(p.supports), all(p.loads), all(p.gravity), all(p.pressures), all(p.changes), all(p.walls);
   for (const bool rounded : {false, true})
-    for (ContactTable& c : p.contacts)
+    for (auto& c : p.contacts)
       if ((c.law == "rounded") == rounded) call(c.place, c.from_stage);
-}
-
-std::vector<std::string> from_stages(const Problem& problem) {
-  Problem copy = problem;
-  std::vector<std::string> names;
-  for_tables(copy, [&](const TablePlace&, const std::string& from) { names.push_back(from); });
-  return names;
 }
 
 bool named(const Condition& table, const std::vector<std::string>& words) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return table.answers_to(word); });
-}
-
-bool in_force(const Problem& problem, const Condition& table, const std::string& from_stage, int stage) {
-  return stage >= stage_number(problem, from_stage) && !named(table, problem.stages[stage].off);
 }
 
 }  // namespace
@@ -66,7 +56,7 @@ std::vector<std::string> varied(const Problem& problem, const Stage& stage) {
 }
 
 Stages::Stages(const Problem& problem)
-    : problem_(problem), tables_(tables_of(problem)), conditions_(conditions_of(problem).size()), from_stage_(from_stages(problem)),
+    : problem_(problem), tables_(tables_of(problem)), conditions_(conditions_of(problem).size()), in_force_(in_force_by_stage(problem)),
       offset_(conditions_), was_in_force_(tables_.size(), true), varied_(conditions_) {
   for (std::size_t i = 0; i < conditions_; ++i)
     amount_.push_back(scaling_of(problem, tables_[i]).rate == 0 ? 1 : 0);
@@ -81,18 +71,18 @@ bool Stages::resume(const StoredStage& stored) {
     next_ = k, resumed_ = stored;
     for (std::size_t i = 0; i < tables_.size(); ++i)
       for (int before = 0; before < k; ++before)
-        was_in_force_[i] = was_in_force_[i] && in_force(problem_, tables_[i], from_stage_[i], before);
+        was_in_force_[i] = was_in_force_[i] && in_force_[static_cast<std::size_t>(before)][i];
     return true;
   }
   return false;
 }
 
 Stage Stages::enter(std::string& unclear) {
-  const bool first = next_ == 0, staged = !problem_.stages.empty();
-  const StageTable* t = staged ? &problem_.stages[next_] : nullptr;
+  const bool first = next_ == 0;
+  const StageTable* t = !problem_.stages.empty() ? &problem_.stages[next_] : nullptr;
   Stage stage{t ? t->name : "", next_, problem_.path, {}, {}, {}};
   for (std::size_t i = 0; i < tables_.size(); ++i) {
-    stage.in_force.push_back(!staged || in_force(problem_, tables_[i], from_stage_[i], next_));
+    stage.in_force.push_back(in_force_[static_cast<std::size_t>(next_)][i]);
     stage.entering.push_back(!first && stage.in_force[i] && !was_in_force_[i]);
   }
   was_in_force_ = stage.in_force;
@@ -179,18 +169,18 @@ Model model_in(const Problem& problem, const Stage& stage, Model& all, const Sta
   return model;
 }
 
-bool ever_together(const Problem& problem, const Condition& a, const Condition& b) {
-  if (problem.stages.empty()) return true;
+std::vector<std::vector<bool>> in_force_by_stage(const Problem& problem) {
   const std::vector<Condition> tables = tables_of(problem);
-  const std::vector<std::string> from = from_stages(problem);
-  const auto holds = [&](const Condition& c, int stage) {
-    for (std::size_t i = 0; i < tables.size(); ++i)
-      if (tables[i].kind == c.kind && tables[i].number == c.number) return in_force(problem, tables[i], from[i], stage);
-    return false;
-  };
-  for (int k = 0; k < static_cast<int>(problem.stages.size()); ++k)
-    if (holds(a, k) && holds(b, k)) return true;
-  return false;
+  std::vector<std::size_t> from;
+  for_tables(problem, [&](const TablePlace&, const std::string& stage) { from.push_back(static_cast<std::size_t>(stage_number(problem, stage))); });
+  std::vector<std::array<std::string, 2>> called;
+  for (const Condition& c : tables) called.push_back({c.label(), c.kind + "." + std::to_string(c.number)});
+  std::vector<std::vector<bool>> all(std::max<std::size_t>(1, problem.stages.size()), std::vector<bool>(tables.size(), true));
+  for (std::size_t k = 0; k < problem.stages.size(); ++k) {
+    const std::set<std::string> off(problem.stages[k].off.begin(), problem.stages[k].off.end());
+    for (std::size_t i = 0; i < tables.size(); ++i) all[k][i] = k >= from[i] && !off.count(called[i][0]) && !off.count(called[i][1]);
+  }
+  return all;
 }
 
 void check_stages(Problem& problem, Mistakes& mistakes) {

@@ -41,7 +41,7 @@ class Stages {
   const Problem& problem_;
   std::vector<Condition> tables_;       // conditions, then contacts
   std::size_t conditions_;
-  std::vector<std::string> from_stage_; // of the tables
+  std::vector<std::vector<bool>> in_force_;   // tables by stage
   std::vector<double> amount_;          // of a condition that acts now …
   std::vector<double> offset_;          // … = offset + λ while it is varied
   std::vector<bool> was_in_force_;
@@ -65,7 +65,7 @@ bool moves(const Problem& problem, const Condition& condition);
 /// Names, references and load factors of stages.
 void check_stages(Problem& problem, Mistakes& mistakes);
 
-/// Whether two tables (as in Stage::in_force) are in force together in some stage.
-bool ever_together(const Problem& problem, const Condition& a, const Condition& b);
+/// Of each stage which tables are in force in it, as in Stage::in_force; without stages one in which all are.
+std::vector<std::vector<bool>> in_force_by_stage(const Problem& problem);
 
 }  // namespace elamin

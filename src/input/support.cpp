@@ -61,6 +61,7 @@ class Holders {
       : problem_(problem),
         model_(model),
         mistakes_(mistakes),
+        in_force_(in_force_by_stage(problem)),
         holder_(3 * (static_cast<std::size_t>(model.particles()) + 2 * model.bodies.size()), -1) {}
 
   void hold(int table, const Support& s) {
@@ -86,8 +87,7 @@ class Holders {
 
  private:
   bool together(int table, int earlier) const {
-    return ever_together(problem_, condition_of("support", problem_.supports, table),
-                         condition_of("support", problem_.supports, earlier));
+    return std::any_of(in_force_.begin(), in_force_.end(), [&](const auto& stage) { return stage[table] && stage[earlier]; });
   }
   void compare_turns(int table, int earlier, const std::string& name) {
     const SupportTable &a = problem_.supports[table], &b = problem_.supports[earlier];
@@ -122,6 +122,7 @@ class Holders {
   const Problem& problem_;
   const Model& model_;
   Mistakes& mistakes_;
+  std::vector<std::vector<bool>> in_force_;     // of each stage; supports come first
   std::vector<int> holder_;
   std::set<std::pair<int, int>> told_;
 };

@@ -169,7 +169,8 @@ void write_particles(const std::string& file, const Model& model, const State& s
   const InUse bonds = in_use(model.bonds, model.bond_types.size()), angles = in_use(model.angles, model.angle_types.size());
   const bool counted_anew = bonds.left_out() + angles.left_out() > 0;
   Text put;
-  put("{}{}{}\n\n", one_line(title), some_density ? "" : style == Written::full ? "; a mass that is not known is written as 1" : "; a density that is not given is written as 1",
+  put("{}{}{}\n\n", one_line(title),
+      some_density ? "" : style == Written::full ? "; a mass that is not known is written as 1" : "; a density that is not given is written as 1",
       counted_anew ? "; types that no bond or angle has are left out" : "");
   put("{} atoms\n{} bonds\n{} angles\n", n, model.bonds.size(), model.angles.size());
   put("{} atom types\n{} bond types\n{} angle types\n\n", largest(model.type), bonds.types.size(), angles.types.size());

@@ -85,10 +85,11 @@ struct ScriptAttempts {
 using Words = std::vector<std::string>;
 using Lines = std::vector<Words>;
 
-const Words odd_words{"",     "0",      "-1",    "1e999", "nan",   "99999999999999999999", "*",    "2*",    "*0",      "all",  "$x",     "${d}", "$(1/0)", "v_x",
-                      "\"",   "'",      "\"\"\"", "&\n",   "#",     "\n",                   "NULL", "INF",   "EDGE",    "SELF", "delete", "\t",   "\xff",   "1e-320",
-                      "loop", "region", "label", "run 5", "units", "1e20",                 "clear", "group all id 1", "fix 1 all nve", "$(xcm(all,x))",
-                      "$(x[1])", "$(v_n)", "${n}", "1000000", "2147483647", "-2147483648", "../a", "/etc/passwd", "strip.data", "in.lmp", "add", "append", "none"};
+const Words odd_words{
+    "", "0", "-1", "1e999", "nan", "99999999999999999999", "*", "2*", "*0", "all", "$x", "${d}", "$(1/0)", "v_x", "\"", "'", "\"\"\"",
+    "&\n", "#", "\n", "NULL", "INF", "EDGE", "SELF", "delete", "\t", "\xff", "1e-320", "loop", "region", "label", "run 5", "units",
+    "1e20", "clear", "group all id 1", "fix 1 all nve", "$(xcm(all,x))", "$(x[1])", "$(v_n)", "${n}", "1000000", "2147483647",
+    "-2147483648", "../a", "/etc/passwd", "strip.data", "in.lmp", "add", "append", "none"};
 
 Lines lines_of_text(const std::string& text) {
   Lines lines;
@@ -171,7 +172,8 @@ class Damage {
         const auto begin = at();
         const std::size_t from = static_cast<std::size_t>(begin - lines.begin()), to = from + pick(lines.size() - from) + 1;
         lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(to), {{"next", "again"}, {"jump", "SELF", "again"}});
-        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(from), {{"variable", "again", "loop", std::to_string(1 + pick(30))}, {"label", "again"}});
+        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(from),
+                     {{"variable", "again", "loop", std::to_string(1 + pick(30))}, {"label", "again"}});
         break;
       }
       default: {                                  // another script behind
@@ -229,5 +231,6 @@ TEST_CASE("damaged scripts, as many as asked for", "[.]") {
   attempt.models = true;
   Damage damage(setting("ELAMIN_SEED", 1));
   for (unsigned k = 0; k < setting("ELAMIN_FUZZ", 1000); ++k) attempt(damage.next());
-  WARN(attempt.read << " read, " << attempt.refused << " refused, " << attempt.refused_problems << " refused as problems, the slowest in " << attempt.slowest << " s");
+  WARN(attempt.read << " read, " << attempt.refused << " refused, "
+                    << attempt.refused_problems << " refused as problems, the slowest in " << attempt.slowest << " s");
 }

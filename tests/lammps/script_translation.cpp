@@ -19,7 +19,8 @@ namespace {
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const std::string three_in_a_row = small_script_head +
-    "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.1 0 0\ncreate_atoms 2 single 0.2 0 0\nset group all diameter 0.05\nset group all density 2\n"
+    "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.1 0 0\ncreate_atoms 2 single 0.2 0 0\nset group all diameter 0.05\n"
+    "set group all density 2\n"
     "create_bonds single/bond 1 1 2\ncreate_bonds single/bond 3 2 3\ncreate_bonds single/angle 2 1 2 3\ntimestep 0.5\n";
 
 double last(const std::string& directory, const std::string& column) {
@@ -33,7 +34,8 @@ double last(const std::string& directory, const std::string& column) {
 
 TEST_CASE("what is in force at a run becomes tables", "[script]") {
   const ImportedProblem p = imported(three_in_a_row +
-      "group one id 1\ngroup three id 3\nfix 1 all nve\nfix m one move linear 0.01 NULL -0.02\nfix h three setforce NULL 0 0\nfix g all gravity 2 vector 0 0 -3\n"
+      "group one id 1\ngroup three id 3\nfix 1 all nve\nfix m one move linear 0.01 NULL -0.02\nfix h three setforce NULL 0 0\n"
+      "fix g all gravity 2 vector 0 0 -3\n"
       "fix f three addforce 1 2 3\nfix v all viscous 0.1\nregion tube cylinder x 0 0 1.5 INF 4 side in open 2\n"
       "fix w one wall/gran/region granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 region tube\nrun 20\n");
   INFO(p.files.toml);
@@ -72,7 +74,8 @@ TEST_CASE("particles that nothing integrates stay, and later fixes hold over ear
 }
 
 TEST_CASE("pair coefficients act in LAMMPS's order", "[script]") {
-  const std::string three = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 0.6 0 0\nset group all diameter 0.1\n";
+  const std::string three = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 0.6 0 0\n"
+                                                "set group all diameter 0.1\n";
   // Of E for the pairs 11 12 13 22 23 33, the later line holds; 2* 1*2 means 22 alone.
   const auto moduli = [&](const std::string& lines) {
     const ImportedProblem p = imported(three + lines + "fix 1 all nve\nrun 1\n");
@@ -100,20 +103,24 @@ TEST_CASE("traps are told", "[script]") {
     return script::report(r, script::translated(r, r.passes.at(0), {}, "p.data").notes);
   };
   const std::string all = notes(three_in_a_row +
-      "pair_style hybrid/overlay granular lj/cut 1\npair_coeff * * granular hertz/material 1e3 0 0.3 tangential mindlin NULL 1 0.5\npair_coeff 1 2 lj/cut 1 0.1\n"
+      "pair_style hybrid/overlay granular lj/cut 1\npair_coeff * * granular hertz/material 1e3 0 0.3 tangential mindlin NULL 1 0.5\n"
+      "pair_coeff 1 2 lj/cut 1 0.1\n"
       "special_bonds lj 0 1 1 coul 0 0.5 1\nfix 1 all nve\ngroup two id 1 2\nfix s two setforce 0 0 0\n"
       "fix w all wall/gran granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 zplane -0.5 0.5\nrun 10\n");
   for (const char* part : {"E/(2(1 - nu))", "do not know special_bonds", "the energy of this cohesion jumps", "friction that remembers", "a clamp. It sits in the middle"}) CHECK(holds(all, part));
-  CHECK(holds(notes(three_in_a_row + "special_bonds lj/coul 0 0.5 1\nfix 1 all nve\nrun 10\n"), "weights of special_bonds between 0 and 1 are ignored by granular"));
+  CHECK(holds(notes(three_in_a_row + "special_bonds lj/coul 0 0.5 1\nfix 1 all nve\n"
+                                     "run 10\n"), "weights of special_bonds between 0 and 1 are ignored by granular"));
   CHECK(holds(notes(three_in_a_row + "create_atoms 1 single 5 0 0\nfix 1 all nve\nrun 10\n"), "lies outside of the box"));
-  CHECK(holds(notes(three_in_a_row + "region b block 0.05 1 -1 1 -1 1\nfix 1 all nve\nfix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 10\n"),
+  CHECK(holds(notes(three_in_a_row + "region b block 0.05 1 -1 1 -1 1\nfix 1 all nve\n"
+                                     "fix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 10\n"),
               "1 of 3 particles are on the other side of this wall"));
 }
 
 TEST_CASE("sheets of LAMMPSStructures are kept or mended", "[script]") {
   const ScratchDirectory scratch;
   scratch.file("sheet_1.txt", "create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.1 0 0\ncreate_atoms 1 single 0.2 0 0\n");
-  const Reading r = script::read_script(scratch.file("in.lmp", small_script_head + "include sheet_1.txt\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\n"
+  const Reading r = script::read_script(scratch.file("in.lmp", small_script_head + "include sheet_1.txt\ncreate_bonds single/bond 1 1 2\n"
+      "create_bonds single/bond 1 2 3\n"
                                                      "create_bonds single/angle 1 1 2 3\nset type 1 diameter 0.1\nfix 1 all nve\nrun 1\n"), {});
   CHECK(imported(r).model.angle_types.at(0).stiffness == 0.25);
   const auto told = [](const script::Translated& t, const std::string& part) {
@@ -149,14 +156,17 @@ TEST_CASE("formulas that are linear in a run's steps become loads and walls with
   scratch.file("own.txt", "# forces\n\n2\n3 0.5\n1 -2e-1 # the first\n");
   const std::string own = three_in_a_row + "group ends id 1 3\nfix 1 ends nve\nvariable own atomfile own.txt\nvariable f atom v_own*ramp(1,2)\n";
   const ImportedProblem each =
-      imported(script::read_script(scratch.file("own.lmp", own + "variable third equal v_own[3]\nfix all all addforce v_f 0 ${third}\nrun 10\n"), {}));
+      imported(script::read_script(scratch.file("own.lmp", own + "variable third equal v_own[3]\nfix all all addforce v_f 0 ${third}\n"
+          "run 10\n"), {}));
   INFO(each.files.toml);
   for (const double lambda : {0.0, 0.5, 1.0})
     for (const auto& [particle, x] : {std::pair(0, -0.2), {1, 0.0}, {2, 0.5}})
       CHECK((force(each.model, particle, lambda) - Vec3(x * (1 + lambda), 0, 0.5)).norm() < 1e-15);
 
-  p = all_of("variable d equal vdisplace(0,0.01)\nvariable r equal 0.5-elaplong*0.01\nregion tube cylinder x 0 0 v_r INF INF side in move NULL v_d NULL\n"
-             "fix w all wall/gran/region granular hertz/material 100 0 0 tangential linear_nohistory 0 0 region tube\nrun 20\nrun 10 start 0 stop 40\n");
+  p = all_of("variable d equal vdisplace(0,0.01)\nvariable r equal 0.5-elaplong*0.01\n"
+             "region tube cylinder x 0 0 v_r INF INF side in move NULL v_d NULL\n"
+             "fix w all wall/gran/region granular hertz/material 100 0 0 tangential linear_nohistory 0 0 region tube\nrun 20\n"
+             "run 10 start 0 stop 40\n");
   INFO(p.files.toml);
   REQUIRE(p.problem.stages.size() == 2);
   for (const Wall& w : p.model.walls) {                         // both stages: on one line, as the load factor counts time
@@ -173,7 +183,8 @@ TEST_CASE("formulas that are linear in a run's steps become loads and walls with
            {"variable f equal step^2\nfix a all addforce v_f 0 0\nrun 64\n", "is not linear in the step of this run"},
            {"variable f atom x*2\nfix a all addforce v_f 0 0\nrun 64\n", "depends on where particles are"},
            {"variable f equal ramp(0,1)\nfix a all addforce v_f 0 0\nminimize 0 0 9 9\n", "which a minimisation does not have"},
-           {"variable r equal ramp(1,-1)\nregion b sphere 0 0 0 v_r\nfix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 9\n",
+           {"variable r equal ramp(1,-1)\nregion b sphere 0 0 0 v_r\n"
+            "fix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region b\nrun 9\n",
             "it must be above 0"},
            {"variable r equal 1+step\nregion b sphere 0 0 0 v_r\ngroup g region b\nrun 9\n", "moves; where it is is not followed"},
            {"variable r equal step\nregion b sphere v_r 0 0 1\nrun 9\n", "changes in time"},
@@ -187,7 +198,8 @@ TEST_CASE("formulas that are linear in a run's steps become loads and walls with
 }
 
 TEST_CASE("a script that runs no steps is a study of energies, with all that is in force", "[script]") {
-  const std::string fixes = "fix m all move linear 1 0 0\nfix w all wall/gran granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 zplane 0 NULL\n"
+  const std::string fixes = "fix m all move linear 1 0 0\n"
+                            "fix w all wall/gran granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 zplane 0 NULL\n"
                             "fix g all gravity 2 vector 0 0 -3\n";
   const ImportedProblem p = imported(three_in_a_row + fixes + "run 0\nunfix g\n");
   INFO(p.files.toml);
@@ -197,12 +209,14 @@ TEST_CASE("a script that runs no steps is a study of energies, with all that is 
   CHECK(p.model.contacts.size() == 1);
   CHECK(p.model.supports.at(0).displacement.isZero(0));
   // What is built behind it is no part of that run: a run to come makes the study.
-  CHECK(imported(three_in_a_row + fixes + "run 0\ncreate_atoms 1 single 0 0.5 0\nunfix m\nfix 1 all nve\nrun 5\n").problem.study == StudyType::equilibrium);
+  CHECK(imported(three_in_a_row + fixes + "run 0\ncreate_atoms 1 single 0 0.5 0\nunfix m\nfix 1 all nve\n"
+                                          "run 5\n").problem.study == StudyType::equilibrium);
   CHECK(imported(three_in_a_row + fixes + "run 0\ncreate_atoms 1 single 0 0.5 0\n").model.walls.empty());
 }
 
 TEST_CASE("`none` takes back what was said of a pair, and cohesion may be smooth", "[script]") {
-  const std::string three = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 0.6 0 0\nset group all diameter 0.4\n";
+  const std::string three = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 0.6 0 0\n"
+                                                "set group all diameter 0.4\n";
   const std::string granular = "granular hertz/material 90.0 0 0 tangential linear_nohistory 0 0\n";
   const auto touches = [&](const std::string& lines) {
     ImportedProblem p = imported(three + "pair_style hybrid/overlay granular lj/smooth 0.3 0.5\n" + lines + "fix 1 all nve\nrun 1\n");
@@ -220,7 +234,8 @@ TEST_CASE("`none` takes back what was said of a pair, and cohesion may be smooth
   const auto [contact, cohesion] = touches("pair_coeff * * " + granular + "pair_coeff 1 2 lj/smooth 1 0.25\npair_coeff 2 3 none\n");
   CHECK(contact == one);
   CHECK(cohesion < 0);
-  CHECK(holds(script_mistakes(three + "pair_style lj/smooth 0.5 0.3\npair_coeff * * 1 0.1\nfix 1 all nve\nrun 1\n"), "inner cutoff that is not between 0 and the cutoff"));
+  CHECK(holds(script_mistakes(three + "pair_style lj/smooth 0.5 0.3\npair_coeff * * 1 0.1\nfix 1 all nve\n"
+                                      "run 1\n"), "inner cutoff that is not between 0 and the cutoff"));
   CHECK(holds(script_mistakes(three + "pair_style lj/smooth 0.3 0.5\npair_coeff * * 1 0.1 0.2\nfix 1 all nve\nrun 1\n"), "pair_coeff"));
 }
 
@@ -270,7 +285,8 @@ TEST_CASE("a script that begins anew gives a problem for each pass", "[script]")
 TEST_CASE("what needs positions behind a run ends an import, and goes on with them", "[script]") {
   const ScratchDirectory scratch;
   const std::string text = three_in_a_row + "fix 1 all nve\nrun 10\ngroup right id 2 3\nvariable far equal xcm(right,x)*2\n"
-                                            "create_atoms 3 single ${far} 0 0\nset type 3 diameter 0.02\ngroup all2 id 1:4\ncreate_bonds many all2 all2 2 0.2 0.5\nrun 5\n";
+                                            "create_atoms 3 single ${far} 0 0\nset type 3 diameter 0.02\ngroup all2 id 1:4\n"
+                                            "create_bonds many all2 all2 2 0.2 0.5\nrun 5\n";
   const std::string file = scratch.file("in.lmp", text);
   const Reading first = script::read_script(file, {});
   REQUIRE(first.passes.size() == 1);
@@ -279,7 +295,8 @@ TEST_CASE("what needs positions behind a run ends an import, and goes on with th
   CHECK(imported(first).model.particles() == 3);
 
   const ScratchDirectory other;
-  const std::string state = other.file("final.data", "moved\n3 atoms\n2 bonds\n1 angles\n2 atom types\n2 bond types\n1 angle types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n"
+  const std::string state = other.file("final.data", "moved\n3 atoms\n2 bonds\n1 angles\n2 atom types\n2 bond types\n1 angle types\n0 1 xlo xhi\n"
+                                                     "0 1 ylo yhi\n0 1 zlo zhi\n"
       "\nBond Coeffs # harmonic\n\n1 5 0.1\n2 5 0.1\n\nAngle Coeffs # cosine\n\n1 0.25\n\nAtoms # hybrid sphere angle\n\n"
       "1 1 0 0 0 0.05 2 0\n2 2 0.1 0.05 0 0.05 2 0\n3 2 0.3 0.1 0 0.05 2 0\n\nBonds\n\n1 1 1 2\n2 2 2 3\n\nAngles\n\n1 1 1 2 3\n");
   script::ReadingOptions options;
@@ -305,7 +322,8 @@ TEST_CASE("an imported column buckles as its twin in TOML", "[script]") {
   scratch.file("column.data", t.data);
   const std::string file = scratch.file("column.toml", t.toml);
   const std::string twin = scratch.file("twin.toml",
-      "plane = \"xz\"\n[[beam]]\nname = \"b\"\nparticles = 24\ncenter = [0, 0, 0]\naxis = [0, 0, 1]\ndiameter = 1e-3\nyoungs_modulus = 0.96e6\ndensity = 800\n"
+      "plane = \"xz\"\n[[beam]]\nname = \"b\"\nparticles = 24\ncenter = [0, 0, 0]\naxis = [0, 0, 1]\ndiameter = 1e-3\nyoungs_modulus = 0.96e6\n"
+      "density = 800\n"
       "[[group]]\nname = \"low\"\nof = \"b\"\nfirst = 2\n[[group]]\nname = \"high\"\nof = \"b\"\nlast = 2\n"
       "[[support]]\ngroup = \"low\"\ndisplacement = [0, 0, 1e-4]\n[[support]]\ngroup = \"high\"\ndisplacement = [0, 0, -1e-4]\n"
       "[[gravity]]\ngroup = \"b\"\nacceleration = [1e-6, 0, 0]\n[path]\nsteps = 100\nwhen_unstable = \"jump\"\n"
@@ -324,7 +342,8 @@ TEST_CASE("an imported column buckles as its twin in TOML", "[script]") {
 
 TEST_CASE("with --dynamics a script is a motion, run after run", "[script]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("in.lmp", three_in_a_row + "velocity all set 0 0 0.1\nfix 1 all nve\nfix v all viscous 0.1\ngroup one id 1\nfix m one move linear 0.01 0 0\nrun 20\nrun 30\n");
+  const std::string file = scratch.file("in.lmp", three_in_a_row + "velocity all set 0 0 0.1\nfix 1 all nve\nfix v all viscous 0.1\n"
+      "group one id 1\nfix m one move linear 0.01 0 0\nrun 20\nrun 30\n");
   const Reading r = script::read_script(file, {});
   const auto all = script::in_time(r, r.passes.at(0), {true, false, false}, {"a.data", "b.data"}, {"a"});
   REQUIRE(all.size() == 2);
@@ -366,7 +385,8 @@ TEST_CASE("a hundred thousand lines are read in a second or so", "[script]") {
     for (int t = 1; t <= 3; ++t) bonds += "create_bonds single/bond " + std::to_string(t) + " " + std::to_string(k) + " " + std::to_string(k + 1) + "\n";
   for (int k = 1; k < 19999; ++k) bonds += "create_bonds single/angle 1 " + std::to_string(k) + " " + std::to_string(k + 1) + " " + std::to_string(k + 2) + "\n";
   scratch.file("atoms.txt", atoms), scratch.file("bonds.txt", bonds);
-  const std::string file = scratch.file("in.lmp", small_script_head + "include atoms.txt\nset type 1 diameter 0.004\ninclude bonds.txt\nfix 1 all nve\nrun 1\n");
+  const std::string file = scratch.file("in.lmp", small_script_head + "include atoms.txt\nset type 1 diameter 0.004\ninclude bonds.txt\n"
+      "fix 1 all nve\nrun 1\n");
   const auto begin = std::chrono::steady_clock::now();
   const Reading r = script::read_script(file, {});
   const script::Translated t = script::translated(r, r.passes.at(0), {}, "p.data");
@@ -411,9 +431,20 @@ TEST_CASE("a script in a problem file is read in memory, and what is to know of 
   INFO(told);
   CHECK(holds(told, "note: " + (scratch / "three.lmp") + ": thermo ignored: "));
   // Only its particles: the tables are the file's own.
-  const Problem alone = read_problem(scratch.file("q.toml", "[lammps]\ninput = \"three.lmp\"\nparticles_only = true\n[[support]]\ngroup = \"type1\"\n"));
+  const Problem alone = read_problem(scratch.file("q.toml", "[lammps]\ninput = \"three.lmp\"\nparticles_only = true\n[[support]]\n"
+      "group = \"type1\"\n"));
   CHECK(alone.supports.size() == 1);
   CHECK(alone.path.place.key.empty());
   CHECK(build_model(alone).bonds.size() == m.bonds.size());
   CHECK_THROWS_WITH(read_problem(file, {{"lammps.input", "p.toml"}}), Catch::Matchers::Contains("they cannot change the script"));
+}
+
+TEST_CASE("a script of hundreds of runs is read in time", "[script]") {
+  const auto begin = std::chrono::steady_clock::now();
+  const ImportedProblem p = imported(three_in_a_row + "fix 1 all nve\ngroup one id 1\nvariable i loop 300\nlabel again\nfix h one setforce 0 0 0\n"
+                                                      "fix f all addforce 0 0 $i\n"
+                                     "run 10\nunfix f\nnext i\njump SELF again\n");
+  CHECK(p.problem.stages.size() == 300);
+  CHECK(p.problem.loads.size() == 300);
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 5);     // 0.5 s; far more if it grows with the cube
 }

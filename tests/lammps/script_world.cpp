@@ -70,7 +70,8 @@ TEST_CASE("groups are LAMMPS's", "[script]") {
 
 TEST_CASE("atoms are set, deleted and numbered as LAMMPS does", "[script]") {
   const script::World w = reading_of(small_script_head +
-      "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 2 0 0\ncreate_atoms 3 single 1 0 0\ncreate_atoms 3 single 0.6 0 0\n"
+      "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.3 0 0\ncreate_atoms 3 single 2 0 0\ncreate_atoms 3 single 1 0 0\n"
+      "create_atoms 3 single 0.6 0 0\n"
       "set type 1 density 2\nset type 1 diameter 2\nset type 2 diameter 2\nset type 2 density 2\nset group all vx 0.5\n"
       "create_bonds single/bond 1 1 2\ncreate_bonds single/bond 2 2 3\ncreate_bonds single/angle 1 1 2 3\n"
       "group last id 3\ndelete_atoms group last\ncreate_atoms 2 single 0.7 0 0\n").passes.at(0).world;
@@ -160,9 +161,11 @@ TEST_CASE("every mistake of a script is told at its place, all at once", "[scrip
   CHECK(lines("variable i loop 2\nlabel a\njump SELF a\n").find("a loop may have no end") != std::string::npos);
   CHECK(lines("read_restart x\n").find("write_data FILE") != std::string::npos);
   CHECK(lines("include nothing.txt\n").find("there is no such file") != std::string::npos);
-  CHECK(lines("change_box all boundary p f f\ncreate_atoms 1 single 0 0 0\nrun 10\n").find("15:1: run: the box is periodic along x: elamin has no periodic boxes. Write") == 0);
+  CHECK(lines("change_box all boundary p f f\ncreate_atoms 1 single 0 0 0\n"
+              "run 10\n").find("15:1: run: the box is periodic along x: elamin has no periodic boxes. Write") == 0);
   CHECK(lines("create_atoms 1 single 0 0 0\nbond_style fene\nfix 1 all rigid single\nrun 10\n").find("14:12: bond_style: \"fene\" is no style") == 0);
-  CHECK(lines("create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.5 0 0\nspecial_bonds lj 0.5 1 1\npair_style lj/cut 1\npair_coeff * * 1 1\ncreate_bonds single/bond 1 1 2\nfix 1 all nve\nrun 5\n")
+  CHECK(lines("create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.5 0 0\nspecial_bonds lj 0.5 1 1\npair_style lj/cut 1\npair_coeff * * 1 1\n"
+              "create_bonds single/bond 1 1 2\nfix 1 all nve\nrun 5\n")
             .find("20:1: special_bonds: the weights 0.5 1 1 cannot be said") == 0);
   script::ReadingOptions skip;
   skip.skip = true;

@@ -132,7 +132,8 @@ void read_data(Interpreter& in) {
   }
   const auto put = [&](int id, int type, const Vec3& x) -> Atom& {
     Atom a;
-    if (id + static_cast<long long>(id_offset.value_or(0)) > static_cast<long long>(most_atoms)) throw Wrong(1, fmt::format("an id is above {}", most_atoms));
+    if (id + static_cast<long long>(id_offset.value_or(0)) > static_cast<long long>(most_atoms))
+      throw Wrong(1, fmt::format("an id is above {}", most_atoms));
     a.id = id + id_offset.value_or(0), a.type = type + offset[0], a.x = a.start = x + shift, a.born = w.run_number();
     if (group_bit >= 0) a.groups |= 1u << group_bit;
     if (a.id >= static_cast<int>(w.of_id.size())) w.of_id.resize(static_cast<std::size_t>(a.id) + 1, -1);

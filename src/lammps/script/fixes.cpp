@@ -355,7 +355,8 @@ void evaluate_formulas(Interpreter& in, Run::Active& a, const Span& span) {
       for (std::size_t end = 0; end < 2; ++end) {
         if (c < 3) wall.moved[end][static_cast<Eigen::Index>(c)] = values[end][0];
         else wall.grown[end] = values[end][0] - wall.region.radius;
-        if (c == 3 && !(values[end][0] > 0)) throw Wrong(0, fmt::format("{}: the radius of its region is {}; it must be above 0", what, values[end][0]));
+        if (c == 3 && !(values[end][0] > 0))
+          throw Wrong(0, fmt::format("{}: the radius of its region is {}; it must be above 0", what, values[end][0]));
       }
     }
 }

@@ -35,7 +35,8 @@ struct Table {
 class Translation {
  public:
   Translation(const Reading& reading, const Pass& pass, const TranslationOptions& options, const std::string& data_name)
-      : reading_(reading), pass_(pass), world_(pass.world), options_(options), data_name_(data_name), particles_(world_), groups_(world_, particles_) {}
+      : reading_(reading), pass_(pass), world_(pass.world), options_(options), data_name_(data_name), particles_(world_),
+        groups_(world_, particles_) {}
 
   Translated problem() {
     collect();
