@@ -161,7 +161,7 @@ Inertia Factors::inertia() {
   std::optional<Eigen::MatrixXd> soft;
   bool looked = false, positive = false;
   const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * out_of_balance_of(energy_) * Curvature(energy_).largest()); };
-  resolved_ = false, shift_ = 0;
+  resolved_ = false;
   if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
     holder_ = &pivoted();
     const double bound = doubtful();
@@ -171,7 +171,7 @@ Inertia Factors::inertia() {
   if (!looked) {
     indefinite_ = false;
     holder_ = &cholesky();
-    if (try_cholesky(-sigma)) return shift_ = -sigma, Inertia{};
+    if (try_cholesky(-sigma)) return {};
     holder_ = nullptr;
     if ((positive = try_cholesky(sigma))) soft = soft_modes(doubtful(), by_cholesky);
     else if (pivot_near(0, sigma)) soft = soft_modes(doubtful(), by_pivoted);
@@ -223,20 +223,6 @@ std::optional<Vector> Factors::solve_convex(const Vector& b) {
   return y + (near_.x - near_.w) * (t.vectors * along);
 }
 
-// H⁻¹ b by the factor of H + τI: p ← p + (H + τI)⁻¹ (b − Hp), whose corrections shrink by |τ/(μ + τ)|, μ the lowest eigenvalue. Where τ is not small
-// beside that, by a factor of H itself.
-Vector Factors::solve_shifted(const Vector& b) {
-  Vector p = holder_->solve(b), correction = p;
-  for (int k = 0; k < limits::most_refinements; ++k) {
-    const double before = correction.norm();
-    correction = holder_->solve(Vector(shift_ * correction));         // the residual of what is solved with the shift
-    if (!(correction.norm() <= before / 4)) return factorize_holding({}) ? holder_->solve(b) : p;
-    p += correction;
-    if (correction.norm() <= limits::refined * p.norm()) break;
-  }
-  return p;
-}
-
 // H⁻¹ b in the basis (X, X⊥), refined with products formed element by element.
 Vector Factors::solve_resolved(const Vector& b) {
   const Eigen::MatrixXd& x = near_.x;
@@ -253,10 +239,7 @@ Vector Factors::solve_resolved(const Vector& b) {
     p += correction, before = correction;
     if (correction.norm() <= limits::refined * p.norm()) break;
   }
-  // Along X the residual of a sum over sites is rounding, ε ‖H‖ |p|; a form knows it.
-  Vector along = x.transpose() * b;
-  for (Eigen::Index j = 0; j < x.cols(); ++j) along[j] -= energy_.form(x.col(j), p).value;
-  return p + (x - near_.w) * solved(near_.t, along);
+  return p;
 }
 
 }  // namespace elamin
