@@ -3,7 +3,6 @@
 #include "core/interrupt.hpp"
 #include "core/say.hpp"
 #include "core/suggest.hpp"
-#include "core/text_file.hpp"
 #include "figures/figure.hpp"
 #include "input/key_tree.hpp"
 #include "report/report.hpp"

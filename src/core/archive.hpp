@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -26,6 +27,8 @@ class Archive {
 
   bool reads() const { return reads_; }
   const std::string& bytes() const { return bytes_; }
+  /// What has not been read yet.
+  std::string_view rest() const { return std::string_view(bytes_).substr(at_); }
 
   template <class... Parts> void operator()(Parts&... parts) { (part(parts), ...); }
 

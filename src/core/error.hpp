@@ -1,5 +1,5 @@
 #pragma once
-// Wrong input is reported all at once: a list of sentences, each with the place it is about.
+// What ends a run with a sentence. Wrong input is reported all at once: a list of sentences, each with the place it is about.
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,6 +23,12 @@ class InputError : public std::runtime_error {
 
  private:
   std::vector<Mistake> mistakes_;
+};
+
+/// What was computed cannot be kept, as on a disk that is full; what() is `file: cannot be written: the system's reason`.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace elamin

@@ -1,16 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace elamin {
-
-/// What was computed cannot be kept, as on a disk that is full; what() is `file: cannot be written: the system's reason`.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Throws OutputError with the reason that errno has.
 [[noreturn]] void cannot_write(const std::string& file);

@@ -1,7 +1,6 @@
 #include "figures/pdf.hpp"
 
 #include "core/error.hpp"
-#include "core/text_file.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include "python/module.hpp"
 
 #include "core/parallel.hpp"
-#include "core/text_file.hpp"
+#include "core/error.hpp"
 #include "input/key_tree.hpp"
 #include "results/summary.hpp"
 

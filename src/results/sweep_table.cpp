@@ -1,5 +1,7 @@
 #include "results/sweep_table.hpp"
 
+#include "core/error.hpp"
+
 namespace elamin {
 
 SweepTable::~SweepTable() {

@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
+#include "core/error.hpp"
 #include "core/text_file.hpp"
 #include "results/run_directory.hpp"
 #include "study/prepare.hpp"

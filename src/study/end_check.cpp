@@ -40,10 +40,10 @@ class Neighbourhood {
   double second_difference(const Vector& v, double t) const {
     const Energies up = moved(v, t), down = moved(v, -t);
     long double sum = 0;
-    for (Eigen::Index k = middle_.parts.size(); k-- > 0;) sum += (static_cast<long double>(up.parts[k]) - middle_.parts[k]) + (static_cast<long double>(down.parts[k]) - middle_.parts[k]);
-    if (external_) sum += (static_cast<long double>(up.terms.external) - middle_.terms.external) + (static_cast<long double>(down.terms.external) - middle_.terms.external);
-    for (std::size_t k = 0; k < middle_.terms.own.size(); ++k)
-      sum += (static_cast<long double>(up.terms.own[k].second) - middle_.terms.own[k].second) + (static_cast<long double>(down.terms.own[k].second) - middle_.terms.own[k].second);
+    const auto add = [&](long double above, long double below, long double here) { sum += (above - here) + (below - here); };
+    for (Eigen::Index k = middle_.parts.size(); k-- > 0;) add(up.parts[k], down.parts[k], middle_.parts[k]);
+    if (external_) add(up.terms.external, down.terms.external, middle_.terms.external);
+    for (std::size_t k = 0; k < middle_.terms.own.size(); ++k) add(up.terms.own[k].second, down.terms.own[k].second, middle_.terms.own[k].second);
     return static_cast<double>(sum);
   }
 

@@ -55,7 +55,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   if (!problem.path.start.empty()) stored = read_supplement(problem.path.start);
   std::optional<Checkpoint> stopped = options.resumes ? read_checkpoint(options.directory) : std::nullopt;
   if (stopped && stopped->phase == Phase::begun) stopped.reset();
-  Archive archive(stopped ? stopped->state : std::string());
+  Archive archive(stopped ? std::move(stopped->state) : std::string());
   std::string of_results;                                      // their part of the archive, the first
   if (stopped) archive(of_results);
   const auto open = [&]() -> RunDirectory {
@@ -72,13 +72,13 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     results.settle();                                          // told at once: frames that are added now must not be taken for what was left
     Archive now;
     carry_results(now, results);
-    checkpoints.replace(now.bytes() + stopped->state.substr(sizeof(std::uint64_t) + of_results.size()));
+    checkpoints.replace(now.bytes() + std::string(archive.rest()));
   }
   Teller teller(problem, results, options.style);
   teller.log(fmt::format("elamin {}: {}{}", version(), problem.file, stopped ? ", resumed" : ""));
   Energy* energy = nullptr;                                    // of the stage
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
-  double setup = 0, checking = 0, before = 0;                                // seconds; of the sessions before this one
+  double setup = 0, checking = 0, before = 0;                 // seconds; of the sessions before this one
 
   Summary summary;
   StrainWatch strains;

@@ -3,7 +3,6 @@
 #include "core/directory_lock.hpp"
 #include "core/error.hpp"
 #include "core/say.hpp"
-#include "core/text_file.hpp"
 #include "core/timing.hpp"
 #include "results/columns.hpp"
 #include "results/results_directory.hpp"

@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/say.hpp"
-#include "core/text_file.hpp"
 
 #include <fmt/format.h>
 

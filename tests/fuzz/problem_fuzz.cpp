@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
-#include "core/text_file.hpp"
 #include "core/timing.hpp"
 #include "input/grains_file.hpp"
 #include "input/state_supplement.hpp"

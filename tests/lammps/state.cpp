@@ -1,7 +1,6 @@
 #include "lammps/state.hpp"
 
 #include "catch.hpp"
-#include "core/text_file.hpp"
 #include "core/error.hpp"
 #include "laws/section.hpp"
 #include "lammps/data.hpp"

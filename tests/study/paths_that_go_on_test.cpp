@@ -567,6 +567,15 @@ TEST_CASE("loose cubes are pushed together at no force", "[paths][endless_loose_
     }
 }
 
+TEST_CASE("a column that is let go comes back along its branch, whatever the steps", "[paths][column_let_go]") {
+  for (const int n : {5, 8, 12, 17, 30, 50}) {
+    const Run run("column_let_go", {in_steps(n), "path.points=4000"});
+    CHECK_ENDS_AT(run, 0);
+    CHECK(run.events.empty());
+    CHECK(run.path.back()["energy"] == Approx(run.path.front()["energy"]).epsilon(1e-12));
+  }
+}
+
 // Unstable, on the way back, a column meets a stop that is all but rigid: nᵀH⁻¹n < 0 there, the load factor turns where the contact is made, and the contact makes it stable.
 TEST_CASE("the load turns at a stiff contact on the way back, whatever the steps", "[paths][column_back_at_stop]") {
   const Run first("column_back_at_stop", {in_steps(10)});

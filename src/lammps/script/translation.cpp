@@ -307,8 +307,8 @@ class Translation {
       note(c.where,
            "weights of special_bonds between 0 and 1 are ignored by granular contacts: LAMMPS takes them in full, and so does this");
     if (c.law == Law::hertz && bonds > 0)
-      note(run.where, "granular contacts of LAMMPS before 2022 do not know special_bonds: bonded particles that overlap push each other there. "
-                      "Here they are left out, as in later releases; exclude_bonds = 0 in [[contact]] takes them in");
+      note(run.where, "granular contacts of LAMMPS (29 Sep 2021) do not know special_bonds: bonded particles that overlap push each other there. "
+                      "Here they are left out; exclude_bonds = 0 in [[contact]] takes them in");
     return keys + fmt::format("exclude_bonds = {}\n", bonds);
   }
 
