@@ -51,7 +51,7 @@ bool Factors::pivot_beside(Analysed<PivotedFactor>& in, const Eigen::MatrixXd& h
 
 bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
   assert(held.cols() == 0 || held.rows() == energy_.dofs());
-  holder_ = nullptr, resolved_ = false;
+  holder_ = nullptr, resolved_ = false, shift_ = 0;
   if (held.cols() > 0) {
     if (pivot_beside(bordered_, held)) holder_ = &bordered_.factor;
   } else if (!indefinite_ && try_cholesky(0)) {
@@ -65,6 +65,7 @@ bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
 Vector Factors::solve_holding(const Vector& b) {
   assert(b.size() == energy_.dofs());
   if (resolved_) return solve_resolved(b);
+  if (shift_ != 0) return solve_shifted(b);
   return holder_ ? holder_->solve(b) : Vector(Vector::Zero(b.size()));
 }
 

@@ -92,6 +92,7 @@ class Factors {
   [[nodiscard]] std::optional<Eigen::MatrixXd> soft_modes(double bound, const Solve& solve);
   [[nodiscard]] std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
   Vector solve_resolved(const Vector& b);
+  Vector solve_shifted(const Vector& b);
   double smallest();
   Energy& energy_;
   double stiffest_ = 0;                          // bond with a free end [force/length]
@@ -106,6 +107,7 @@ class Factors {
   bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first
   Factorization* holder_ = nullptr;              // the factor of factorize_holding; none: solutions are zero, or …
   bool resolved_ = false;                        // … those of solve_resolved
+  double shift_ = 0;                             // of the holder: of H + τI where that told the inertia
 };
 
 }  // namespace elamin

@@ -161,7 +161,7 @@ Inertia Factors::inertia() {
   std::optional<Eigen::MatrixXd> soft;
   bool looked = false, positive = false;
   const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * out_of_balance_of(energy_) * Curvature(energy_).largest()); };
-  resolved_ = false;
+  resolved_ = false, shift_ = 0;
   if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
     holder_ = &pivoted();
     const double bound = doubtful();
@@ -171,7 +171,7 @@ Inertia Factors::inertia() {
   if (!looked) {
     indefinite_ = false;
     holder_ = &cholesky();
-    if (try_cholesky(-sigma)) return {};
+    if (try_cholesky(-sigma)) return shift_ = -sigma, Inertia{};
     holder_ = nullptr;
     if ((positive = try_cholesky(sigma))) soft = soft_modes(doubtful(), by_cholesky);
     else if (pivot_near(0, sigma)) soft = soft_modes(doubtful(), by_pivoted);
@@ -221,6 +221,14 @@ std::optional<Vector> Factors::solve_convex(const Vector& b) {
   const double hold = limits::hold_zero_modes * zero_level();
   for (Eigen::Index j = 0; j < along.size(); ++j) along[j] /= std::abs(t.values[j]) <= near_.error[j] ? hold : std::abs(t.values[j]);
   return y + (near_.x - near_.w) * (t.vectors * along);
+}
+
+// H⁻¹ b by the factor of H + τI that told the inertia: wrong by τ/(μ + τ) of its part along the mode of the lowest eigenvalue μ, which is what one
+// more solution shows. Where that is much, by a factor of H itself.
+Vector Factors::solve_shifted(const Vector& b) {
+  const Vector p = holder_->solve(b);
+  const double wrong = holder_->solve(Vector(shift_ * p)).norm();
+  return wrong > limits::shifted * p.norm() && factorize_holding({}) ? holder_->solve(b) : p;
 }
 
 // H⁻¹ b in the basis (X, X⊥), refined with products formed element by element.

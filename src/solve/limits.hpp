@@ -29,6 +29,8 @@ constexpr int dense = 160;
 
 /// Of a solution that is refined: predictors need no more.
 constexpr double refined = 1e-8;
+/// The part of a solution that a shifted factor may have wrong: predictors need no more.
+constexpr double shifted = 0.1;
 
 /// A zero mode, whose stiffness is rounding, is held by so many σ while Newton steps are taken: the steps' rounding along it, ‖g‖ε/σ,
 /// stays below theirs elsewhere, and the modes that decide the convergence are stiffer by far.
