@@ -110,6 +110,36 @@ TEST_CASE("solutions with an eigenvalue below the rounding of the assembled Hess
   }
 }
 
+TEST_CASE("solutions are those of the Hessian where the factor that told the inertia is shifted by nearly as much as its lowest eigenvalue", "[solve]") {
+  // One particle that three bonds at rest hold along x, y and z: H = diag(2K).
+  for (const double times : {1.01, 1.1, 1.5, 3.0, 100.0}) {
+    Model model = chain(4, 1, 0, 1);
+    model.start.position << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+    model.angles.clear(), model.bonds.clear();
+    hold(model, 1, 3);
+    for (int axis = 0; axis < 3; ++axis) model.bonds.push_back({axis, {0, axis + 1}});
+    model.bond_types = {{1, 1}, {1, 1}, {0, 1}};
+    double zero_level = 0;
+    {
+      Energy energy(model);
+      Newton newton(energy);
+      energy.evaluate(model.start);
+      zero_level = newton.factors().zero_level();
+    }
+    const double weak = times * zero_level;
+    model.bond_types[2].stiffness = weak / 2;
+    Energy energy(model);
+    Newton newton(energy);
+    energy.evaluate(model.start);
+    const Inertia inertia = newton.factors().inertia();
+    INFO(times << " times the zero level");
+    CHECK(inertia.negative == 0);
+    CHECK(inertia.zero == 0);
+    const Vector b = Vector::Unit(energy.dofs(), 2), p = newton.factors().solve_holding(b);
+    CHECK(p[2] * weak == Approx(1).epsilon(0.1 / (1 - 0.1)));     // what is left of a shift that is at most 0.1 of the solution
+  }
+}
+
 TEST_CASE("what has no stiffness at all is a result with a sentence", "[solve]") {
   Model model = chain(3, 0, 0, 1);
   hold(model, 0, 0);
