@@ -252,8 +252,9 @@ bool ArcSteps::joins(const Arc& arc, const Equilibrium& start, const Equilibrium
     const double load = b.load_factor - a.load_factor;
     return std::sqrt(metric_.dot(x, load, x, load));
   };
-  const double way = apart(start.point.state, end.point.state);
-  return apart(state, end.point.state) <= arc_steps::same_end * std::max(way, arc_steps::same_end * std::abs(arc.position(end.point.state)));
+  const double way = apart(start.point.state, end.point.state), missed = apart(state, end.point.state);
+  return missed <= arc_steps::same_end * std::max(way, arc_steps::same_end * std::abs(arc.position(end.point.state))) ||
+         missed <= left_by_rounding(newton_, state, start.zero_modes) / metric_.length;
 }
 
 // A part of a load step further, or the next stop where that comes before.

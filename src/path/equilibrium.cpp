@@ -310,7 +310,17 @@ bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to) {
   kinematics.prescribe(state, to.point.state.load_factor);
   kinematics.retract(state, from.tangent, change);
   if (!newton.correct(state, from.zero_modes, &from.point.state, equilibrium::most_iterations).converged()) return false;
-  return kinematics.difference(state, to.point.state).norm() <= equilibrium::same_end * kinematics.difference(from.point.state, to.point.state).norm();
+  const double apart = kinematics.difference(state, to.point.state).norm();
+  return apart <= equilibrium::same_end * kinematics.difference(from.point.state, to.point.state).norm() || apart <= left_by_rounding(newton, state, from.zero_modes);
+}
+
+double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held) {
+  Energy& energy = newton.energy();
+  energy.evaluate(state);
+  if (!newton.factors().factorize_holding(held)) return 0;
+  const Vector g = energy.gradient(), once = newton.factors().solve_holding(g), twice = newton.factors().solve_holding(once);
+  const double far = g.norm() * (twice.norm() / once.norm());
+  return std::isfinite(far) ? far : 0;
 }
 
 // How modes change the angles of a model in a plane, angles × modes [1]: unlike displacements the same whatever holds a ring in its plane.

@@ -36,6 +36,10 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.
 [[nodiscard]] bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
 
+/// How far from its place a state may be that Newton's method has come to [length]: ‖g‖/|μ|, with g what is left of the forces, which is rounding, and μ
+/// the eigenvalue that is nearest to zero, but for held directions. 0: it cannot be told.
+[[nodiscard]] double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held);
+
 /// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it. In a plane
 /// they are those of ∇c,  c = Σ_k q_k ω_k,  ω_k the angles' changes and q_k those that the mode makes, which supports do not enter: with
 /// them a symmetric change of shape comes together with a rigid motion, and has a part along the mode. Of rigid motions, and in space, the

@@ -26,6 +26,11 @@ bool contracts(const std::vector<Iteration>& history) {
   return std::min_element(lately, history.end(), by_residual)->residual <= std::min_element(history.begin(), lately, by_residual)->residual / 2;
 }
 
+// Whether contacts bear forces.
+bool touches(const EnergyTerms& terms) { return terms.contact != 0 || terms.wall != 0 || terms.body != 0; }
+
+std::string below(double tolerance) { return fmt::format("the residual is below {:g}", tolerance); }
+
 }  // namespace
 
 Newton::Newton(Energy& energy, NewtonOptions options)
@@ -118,7 +123,7 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
     if (const auto halt = no_factor()) return halt;
   const bool stays = descent.pace == Pace::stationary;
   if (settled && (is_minimum(state, descent) || stays))
-    return stays ? Halt{Status::converged, fmt::format("the residual is below {:g}", options_.tolerance)} : Halt{Status::converged, fmt::format("the residual is below {:g} and the Hessian has no negative eigenvalue", options_.tolerance)};
+    return Halt{Status::converged, below(options_.tolerance) + (stays ? "" : " and the Hessian has no negative eigenvalue")};
   if (const auto halt = must_halt(state, descent.report, descent.most)) return halt;
   if (stays && !contracts(descent.report.history))
     return Halt{Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", descent.report.residual)};
@@ -232,7 +237,12 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const Vector& g = energy_.gradient();
     return guided ? Vector(g - held * (held.transpose() * g)) : g;
   };
+  std::optional<State> settled_at;                              // the best so far …
+  double least = 0;                                             // … and its residual
   const auto end = [&](Status status, std::string why) {
+    if (settled_at && status == Status::not_converged) {
+      state = *settled_at, status = Status::converged, why = below(options_.tolerance);
+    }
     effort.tell(report);
     report = finish(state, report, {status, std::move(why)});
     report.residual = energy_.relative(free_gradient());
@@ -268,8 +278,17 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     }
     if (plane) column = energy_.load_derivative();
     if (settled) {
+      const double before = report.residual;
       if (!guided) polish(state, report, [&](State& next) { see(next), move(next, solve(energy_.gradient()), 1); });
-      return end(Status::converged, fmt::format("the residual is below {:g}", options_.tolerance));
+      // What is left may be more than rounding, and all that tells one branch from another: then on, as long as that halves it. Of contacts, whose
+      // stiffness changes with every step, it is rounding.
+      if (guided || touches(energy_.last_terms()) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
+        if (settled_at && report.residual > least) state = *settled_at;
+        return end(Status::converged, below(options_.tolerance));
+      }
+      settled_at = state, least = report.residual;
+      if (least < before) continue;
+      energy_.evaluate(state, false), see(state);
     }
     const Factors::Bordered step = solve(energy_.gradient());
     sizes.push_back(plane ? std::hypot(step.p.norm() / plane->length, step.delta / plane->load) : step.p.norm());
