@@ -576,6 +576,25 @@ TEST_CASE("a column that is let go comes back along its branch, whatever the ste
   }
 }
 
+TEST_CASE("a slender ring has one branch point of two modes, whatever the steps", "[paths][ring_slender]") {
+  for (const int n : {20, 40, 71}) {
+    const Run run("ring_slender", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1.4082524301844548);
+    REQUIRE(run.events.size() == 1);
+    // Two stiffnesses of a polygon of 170 bonds under pressure, as tests/bench/path_stress.cpp has them (ring_critical).
+    CHECK(run.of("branch").front()["lambda"] == Approx(0.95366368473).epsilon(1e-9));
+    CHECK(run.located_rows.at("branch:1")["multiplicity"] == 2);
+  }
+}
+
+TEST_CASE("a column that is pushed by less than the tolerance of its residual has no branch point, whatever the steps", "[paths][column_pushed_unseen]") {
+  for (const int n : {3, 4, 5, 7, 9, 17}) {
+    const Run run("column_pushed_unseen", {in_steps(n)});
+    CHECK_ENDS_AT(run, 0.67004566489771789);
+    CHECK(run.events.empty());
+  }
+}
+
 // Unstable, on the way back, a column meets a stop that is all but rigid: nᵀH⁻¹n < 0 there, the load factor turns where the contact is made, and the contact makes it stable.
 TEST_CASE("the load turns at a stiff contact on the way back, whatever the steps", "[paths][column_back_at_stop]") {
   const Run first("column_back_at_stop", {in_steps(10)});
