@@ -78,7 +78,9 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   change.at = side(-part);
   change.beyond = side(part);
   const Vector& tangent = change.beyond->tangent;
-  const double small = part * std::max(way.norm() / std::max(tangent.norm(), 1e-300), std::abs(load_change));
+  // Over as long a way; where nothing moves beyond, over as large a change of the load factor.
+  const bool moves = tangent.norm() * std::abs(load_change) > epsilon * way.norm();
+  const double small = part * std::max(moves || load_change == 0 ? way.norm() / std::max(tangent.norm(), 1e-300) : 0.0, std::abs(load_change));
   int ahead = 0, back = 0;
   for (const ContactKey& key : keys) {
     const double r = rate(key, tangent, 1, small) * (change.after.count(key) ? -1 : 1);       // > 0: to the side beyond
@@ -89,8 +91,28 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   if (ahead == 0 || back == 0) change.onward = free ? (load_change < 0 ? -1 : 1) : back == 0 ? 1 : -1;
 }
 
-// Completes the equilibrium at which these contacts change; negative: the Morse index where the way begins.
-void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
+// Of contacts that are made and lost at one place, where a branch meets its mirror image, all may be closed a little further along the load factor, with the
+// Morse index that was before: then the branch goes on there, by that equilibrium. ahead: the change of the load factor on the way to them.
+std::optional<Equilibrium> onward_closed(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& changed, const ContactSet& before, double ahead, int negative) {
+  const auto lost = std::count_if(changed.begin(), changed.end(), [&](const ContactKey& key) { return before.count(key) > 0; });
+  if (lost == 0 || lost == static_cast<std::ptrdiff_t>(changed.size()) || at.slack) return {};
+  for (const double part : {contact_event::onward, contact_event::onward / 100}) {
+    Equilibrium e = continue_to(newton, at, at.point.state.load_factor + part * ahead);
+    if (e.point.report.converged() && e.point.stability.negative == negative &&
+        std::all_of(changed.begin(), changed.end(), [&](const ContactKey& key) { return gap(newton.energy(), key, e.point.state) < 0; })) return e;
+  }
+  return {};
+}
+
+// Completes the equilibrium at which these contacts change; negative: the Morse index where the way begins; from: its load factor.
+void tell(Newton& newton, ContactChange& change, ContactSet now, std::vector<ContactKey> changed, const Vector& way, double load_change, int negative, double from) {
+  const double ahead = change.at.point.state.load_factor - from;
+  if (std::optional<Equilibrium> onward = onward_closed(newton, change.at, changed, now, ahead, negative)) {
+    std::erase_if(changed, [&](const ContactKey& key) { return now.count(key) > 0; });
+    onward->point.state = change.at.point.state, onward->point.energy = change.at.point.energy;
+    change.at.point.stability = onward->point.stability;
+    change.beyond = std::move(onward), change.onward = ahead < 0 ? -1 : 1;
+  }
   Energy& energy = newton.energy();
   std::vector<std::string> sentences;
   std::vector<ContactKey> here;
@@ -105,6 +127,7 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, const std::vect
   change.after = std::move(now);
   // What particles do to each other begins from nothing. Where they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses
   // zero nearer to the event than rounding lets it be seen: it is taken where they are lost, given where they are made.
+  if (change.beyond) return;
   const int at = change.at.point.stability.negative;
   if (at == negative) std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (negative == 0 || !change.after.count(key)); });
   if (here.empty() || change.at.slack) return;
@@ -246,7 +269,7 @@ ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet no
   std::vector<ContactKey> together;
   for (const ContactKey& key : made)
     if (!now.count(key) && gap(newton.energy(), key, change.at.point.state) <= contact_event::together * size_of(newton.energy().model(), key.particle)) together.push_back(key);
-  tell(newton, change, std::move(now), together, Vector::Zero(a.tangent.size()), 0, a.point.stability.negative);
+  tell(newton, change, std::move(now), together, Vector::Zero(a.tangent.size()), 0, a.point.stability.negative, from);
   return change;
 }
 
@@ -343,7 +366,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
   const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
   tell(newton, change, std::move(now), changed, chord, b.point.state.load_factor - a.point.state.load_factor,
-       a.point.stability.negative);
+       a.point.stability.negative, a.point.state.load_factor);
   return change;
 }
 
@@ -395,7 +418,7 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
       changed.push_back(key);
     }
   }
-  tell(newton, change, before, changed, way, load_change, a.point.stability.negative);
+  tell(newton, change, before, changed, way, load_change, a.point.stability.negative, from.load_factor);
   return change;
 }
 

@@ -171,7 +171,9 @@ std::optional<Resume> Continuation::resume_here(const Waypoint& waypoint) const 
 bool Continuation::goes_on_behind(Event& event) {
   const std::string at = fmt::format("{}, load factor {:.10g}", event.at.point.label.empty() ? "the loss of stability" : event.at.point.label,
                                      event.at.point.state.load_factor);
-  const bool loses = event.before == 0 && event.after > 0, ends = event.kind == EventKind::limit && !arcs();
+  // Where the load factor turns at a contact the branch may be stable on both sides, but goes back: a path of stable states cannot take it.
+  const bool stable_only = options_.when_unstable == WhenUnstable::jump && event.before == 0;
+  const bool loses = event.before == 0 && event.after > 0, ends = event.kind == EventKind::limit && (!arcs() || stable_only);
   if (!loses && !ends) return true;
   switch (options_.when_unstable) {
     case WhenUnstable::jump: jump(event); return false;
