@@ -576,6 +576,29 @@ TEST_CASE("a column that is let go comes back along its branch, whatever the ste
   }
 }
 
+TEST_CASE("a heap that meets its mirror image goes on with both contacts closed", "[paths][heap_mirrored]") {
+  const Run first("heap_mirrored", {in_steps(8), by_arcs});
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {5, 17, 50}) {
+      const Run run("heap_mirrored", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      CHECK(run.of("contact").size() == 3);
+      same_events(first, run);
+    }
+}
+
+TEST_CASE("where a heap lets its lid go the load factor turns, and it snaps", "[paths][heap_lets_go]") {
+  const Run first("heap_lets_go", {in_steps(8), by_load_steps});
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {5, 17, 50}) {
+      const Run run("heap_lets_go", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      CHECK(run.of("limit").size() == 1);
+      falls_are_right(run);
+      same_events(first, run);
+    }
+}
+
 TEST_CASE("a slender ring has one branch point of two modes, whatever the steps", "[paths][ring_slender]") {
   for (const int n : {20, 40, 71}) {
     const Run run("ring_slender", {in_steps(n)});
