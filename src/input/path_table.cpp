@@ -50,7 +50,7 @@ void describe(Keys& keys, PathTable& t) {
   keys.may("stops", t.stops, "load factors that are met besides");
   keys.may("lowest", t.lowest, "load factor below which a branch in arc length ends");
   keys.may("highest", t.highest, "load factor above which it ends");
-  keys.may("points", t.points, "most points of such a branch; by default 20 · steps", Range{1, 20.0 * most_steps});
+  keys.may("points", t.points, "most points of such a branch; by default 20 · steps, of a stage its own", Range{1, 20.0 * most_steps});
   keys.may("deflate", t.deflate, "further equilibria to look for …", Range{0, most_branches});
   keys.may("deflate_at", t.deflate_at, "… at these load factors; by default at `to`");
   keys.may("frames", t.frames, "states that are kept, evenly along the path, beside those that have a label", Range{2, most_steps});

@@ -28,7 +28,8 @@ void complete(Problem& p) {
     if (!o.place.written("reduce")) o.reduce = default_reduce(o.quantity);
   const bool arc_length = p.path.method == PathMethod::arc_length;
   if (!p.path.when_unstable) p.path.when_unstable = arc_length ? WhenUnstable::follow : WhenUnstable::jump;
-  if ((arc_length || p.path.branches > 0) && !p.path.points) p.path.points = 20 * p.path.steps;
+  // A stage may have steps of its own, and with them its own default.
+  if ((arc_length || p.path.branches > 0) && !p.path.points && p.stages.empty()) p.path.points = 20 * p.path.steps;
   for (BeamTable& b : p.beams) {
     if (!b.thickness) b.thickness = b.diameter;
     if (b.center && !b.spacing) b.spacing = b.diameter;

@@ -576,6 +576,11 @@ TEST_CASE("a column that is let go comes back along its branch, whatever the ste
   }
 }
 
+TEST_CASE("a stage with steps of its own has as many points as they need", "[paths][column_back_in_more_steps]") {
+  const Run run("column_back_in_more_steps", {"path.steps=4"});
+  CHECK_ENDS_AT(run, 0);
+}
+
 TEST_CASE("a heap that meets its mirror image goes on with both contacts closed", "[paths][heap_mirrored]") {
   const Run first("heap_mirrored", {in_steps(8), by_arcs});
   for (const std::string& method : {by_arcs, by_load_steps})
