@@ -104,30 +104,11 @@ std::optional<Equilibrium> onward_closed(Newton& newton, const Equilibrium& at, 
   return {};
 }
 
-// Completes the equilibrium at which these contacts change; negative: the Morse index where the way begins; from: its load factor.
-void tell(Newton& newton, ContactChange& change, ContactSet now, std::vector<ContactKey> changed, const Vector& way, double load_change, int negative, double from) {
-  const double ahead = change.at.point.state.load_factor - from;
-  if (std::optional<Equilibrium> onward = onward_closed(newton, change.at, changed, now, ahead, negative)) {
-    std::erase_if(changed, [&](const ContactKey& key) { return now.count(key) > 0; });
-    onward->point.state = change.at.point.state, onward->point.energy = change.at.point.energy;
-    change.at.point.stability = onward->point.stability;
-    change.beyond = std::move(onward), change.onward = ahead < 0 ? -1 : 1;
-  }
-  Energy& energy = newton.energy();
-  std::vector<std::string> sentences;
-  std::vector<ContactKey> here;
-  for (const ContactKey& key : changed) {
-    toggle(now, key);
-    here.push_back(key);
-    const std::string sentence = told(energy.model(), key, now.count(key) > 0);
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
-  }
-  for (std::size_t k = 0; k < std::min(contact_event::most_told, sentences.size()); ++k) change.what += (k ? ", " : "") + sentences[k];
-  if (sentences.size() > contact_event::most_told) change.what += fmt::format(" and {} more", sentences.size() - contact_event::most_told);
-  change.after = std::move(now);
-  // What particles do to each other begins from nothing. Where they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses
-  // zero nearer to the event than rounding lets it be seen: it is taken where they are lost, given where they are made.
-  if (change.beyond) return;
+// How the branch goes on behind these contacts; negative: the Morse index where the way begins. What particles do to each other begins from nothing. Where
+// they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses zero nearer to the event than rounding lets it be seen: it is
+// taken where they are lost, given where they are made.
+void find_beyond(Newton& newton, ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
+  std::vector<ContactKey> here = changed;
   const int at = change.at.point.stability.negative;
   if (at == negative) std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (negative == 0 || !change.after.count(key)); });
   if (here.empty() || change.at.slack) return;
@@ -135,6 +116,30 @@ void tell(Newton& newton, ContactChange& change, ContactSet now, std::vector<Con
   look_both_ways(newton, change, here, way, load_change);
   const bool bodies = std::any_of(here.begin(), here.end(), [](const ContactKey& key) { return key.feature >= 0; });
   if (change.beyond && !bodies && at == negative && change.beyond->point.stability.negative == at) change.at = open, change.beyond.reset(), change.onward = 0;
+}
+
+// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins.
+void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::vector<ContactKey> changed, const Vector& way, double load_change, double from, int negative) {
+  const auto apply = [&] {
+    change.after = before;
+    for (const ContactKey& key : changed) toggle(change.after, key);
+  };
+  apply();
+  find_beyond(newton, change, changed, way, load_change, negative);
+  if (const double ahead = change.at.point.state.load_factor - from; change.beyond && change.onward * ahead < 0 && change.at.point.stability.negative == negative)
+    if (std::optional<Equilibrium> onward = onward_closed(newton, change.at, changed, before, ahead, negative)) {
+      std::erase_if(changed, [&](const ContactKey& key) { return before.count(key) > 0; });
+      apply();
+      onward->point.state = change.at.point.state, onward->point.energy = change.at.point.energy;
+      change.beyond = std::move(onward), change.onward = -change.onward;
+    }
+  std::vector<std::string> sentences;
+  for (const ContactKey& key : changed) {
+    const std::string sentence = told(newton.energy().model(), key, change.after.count(key) > 0);
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
+  }
+  for (std::size_t k = 0; k < std::min(contact_event::most_told, sentences.size()); ++k) change.what += (k ? ", " : "") + sentences[k];
+  if (sentences.size() > contact_event::most_told) change.what += fmt::format(" and {} more", sentences.size() - contact_event::most_told);
 }
 
 // The direction in which a gap grows: of a contact of bodies with its point, of particles at their centres.
@@ -269,7 +274,7 @@ ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet no
   std::vector<ContactKey> together;
   for (const ContactKey& key : made)
     if (!now.count(key) && gap(newton.energy(), key, change.at.point.state) <= contact_event::together * size_of(newton.energy().model(), key.particle)) together.push_back(key);
-  tell(newton, change, std::move(now), together, Vector::Zero(a.tangent.size()), 0, a.point.stability.negative, from);
+  tell(newton, change, now, together, Vector::Zero(a.tangent.size()), 0, from, a.point.stability.negative);
   return change;
 }
 
@@ -365,8 +370,8 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   change.at = at ? std::move(*at) : assess(newton, found, report);
   std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
   const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
-  tell(newton, change, std::move(now), changed, chord, b.point.state.load_factor - a.point.state.load_factor,
-       a.point.stability.negative, a.point.state.load_factor);
+  tell(newton, change, now, changed, chord, b.point.state.load_factor - a.point.state.load_factor,
+       a.point.state.load_factor, a.point.stability.negative);
   return change;
 }
 
@@ -418,7 +423,7 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
       changed.push_back(key);
     }
   }
-  tell(newton, change, before, changed, way, load_change, a.point.stability.negative, from.load_factor);
+  tell(newton, change, before, changed, way, load_change, from.load_factor, a.point.stability.negative);
   return change;
 }
 
