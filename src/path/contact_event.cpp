@@ -93,7 +93,8 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
 
 // Of contacts that are made and lost at one place, where a branch meets its mirror image, all may be closed a little further along the load factor, with the
 // Morse index that was before: then the branch goes on there, by that equilibrium. ahead: the change of the load factor on the way to them.
-std::optional<Equilibrium> onward_closed(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& changed, const ContactSet& before, double ahead, int negative) {
+std::optional<Equilibrium> onward_closed(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& changed, const ContactSet& before,
+                                         double ahead, int negative) {
   const auto lost = std::count_if(changed.begin(), changed.end(), [&](const ContactKey& key) { return before.count(key) > 0; });
   if (lost == 0 || lost == static_cast<std::ptrdiff_t>(changed.size()) || at.slack) return {};
   for (const double part : {contact_event::onward, contact_event::onward / 100}) {
@@ -119,14 +120,16 @@ void find_beyond(Newton& newton, ContactChange& change, const std::vector<Contac
 }
 
 // Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins.
-void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::vector<ContactKey> changed, const Vector& way, double load_change, double from, int negative) {
+void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::vector<ContactKey> changed, const Vector& way, double load_change,
+          double from, int negative) {
   const auto apply = [&] {
     change.after = before;
     for (const ContactKey& key : changed) toggle(change.after, key);
   };
   apply();
   find_beyond(newton, change, changed, way, load_change, negative);
-  if (const double ahead = change.at.point.state.load_factor - from; change.beyond && change.onward * ahead < 0 && change.at.point.stability.negative == negative)
+  const double ahead = change.at.point.state.load_factor - from;
+  if (change.beyond && change.onward * ahead < 0 && change.at.point.stability.negative == negative)
     if (std::optional<Equilibrium> onward = onward_closed(newton, change.at, changed, before, ahead, negative)) {
       std::erase_if(changed, [&](const ContactKey& key) { return before.count(key) > 0; });
       apply();
