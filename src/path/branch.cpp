@@ -14,13 +14,14 @@ using namespace limits;
 
 Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEvent> user_events)
     : newton_(newton), current_(std::move(from.at)), negative_(from.negative), singular_(from.singular || from.negative < 0),
-      at_contact_(from.at_contact), closed_(std::move(from.closed)), contacts_(contacts), user_events_(std::move(user_events)), side_(std::move(from.sides)) {
+      at_contact_(from.at_contact), closed_(std::move(from.closed)), changed_(std::move(from.changed)), contacts_(contacts),
+      user_events_(std::move(user_events)), side_(std::move(from.sides)) {
   for (std::size_t k = side_.size(); k < user_events_.size(); ++k) side_.push_back(user_events_[k].side(current_.point.state));
   newton_.factors().expect(negative_ > 0);
 }
 
 void Branch::carry(Archive& archive) {
-  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, side_, status_, why_);
+  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, status_, why_);
 }
 
 const Event* Branch::deciding(const Candidate& c) {
@@ -75,6 +76,17 @@ Branch::Candidate Branch::with_contact(Candidate c, ContactChange change) const 
   return c;
 }
 
+// Whether contacts that have changed here change back at this very place: by rounding, which leads nowhere.
+bool Branch::undoes(const ContactChange& change) const {
+  std::vector<ContactKey> keys;
+  std::set_symmetric_difference(change.after.begin(), change.after.end(), closed_.begin(), closed_.end(), std::back_inserter(keys));
+  if (keys.empty() || !std::all_of(keys.begin(), keys.end(), [&](const ContactKey& key) { return changed_.count(key) > 0; })) return false;
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const State &from = current_.point.state, &to = change.at.point.state;
+  const double moved = kinematics.difference(from, to).lpNorm<Eigen::Infinity>(), load = std::max(std::abs(from.load_factor), std::abs(to.load_factor));
+  return moved <= contact_event::together * kinematics.smallest_size() && std::abs(to.load_factor - from.load_factor) <= contact_event::same_load * load;
+}
+
 bool Branch::find_contact(const Segment& segment, Candidate& c, std::string& why) {
   // Not looked for unless asked, or where something floats and may be caught, or where one may explain why the Morse index changes.
   const bool tells = current_.slack || (c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()));
@@ -83,6 +95,7 @@ bool Branch::find_contact(const Segment& segment, Candidate& c, std::string& why
   if (!change) return true;
   if (!change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
+  if (undoes(*change)) return why = "a contact that has just changed changes back where it is", false;
   const double way = c.e.point.state.load_factor - current_.point.state.load_factor;
   c = with_contact(std::move(c), std::move(*change));
   if (current_.slack) look_behind(c.events.front(), way);
@@ -107,6 +120,8 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
   const bool turns = !c.natural && rises(c.e) != sign_;
   if (after == negative_ && !turns) {
+    if (negative_ == 0 && lower_already(newton_.energy(), current_, c.e))
+      return why = "what lies beyond has a lower energy where the step begins: it is on another branch", false;
     if (c.events.empty()) return true;
     Event& contact = c.events.front();
     contact.after = contact.beyond ? contact.beyond->point.stability.negative : after;
@@ -162,6 +177,8 @@ void Branch::take(const Candidate& c) {
   negative_ = event ? event->after : c.e.point.stability.negative;
   const bool told = event && (event->beyond || event->kind == EventKind::contact);
   ContactSet closed = told ? event->closed : closed_contacts(newton_.energy(), c.e);
+  changed_.clear();
+  if (at_contact_) std::set_symmetric_difference(closed.begin(), closed.end(), closed_.begin(), closed_.end(), std::inserter(changed_, changed_.end()));
   if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
   closed_ = std::move(closed);
   pass_user_events(user_events_, c.events, c.e.point.state, side_);

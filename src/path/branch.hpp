@@ -24,6 +24,7 @@ struct Departure {
   bool singular = false;                    // it is a limit point or branch point …
   bool at_contact = false;                  // … or a place where a contact is made or lost
   std::vector<double> sides = {};           // of every user event: observable − value from here on, 0: not known; none: as the state tells
+  ContactSet changed = {};                  // contacts that have been made or lost here
 };
 
 /// The steps of a branch are a strategy's (load_steps.hpp, arc_steps.hpp); what happens on a step is found here, the same for all:
@@ -72,6 +73,7 @@ class Branch {
   Segment beside(Segment segment, const Candidate& c) const;
   Candidate with_contact(Candidate c, ContactChange change) const;
   void look_behind(Event& contact, double way);
+  bool undoes(const ContactChange& change) const;
   [[nodiscard]] bool find_contact(const Segment& segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;
@@ -85,7 +87,7 @@ class Branch {
   int negative_, sign_ = 1;            // Morse index, and of dλ, from here on; the strategy tells the sign
   Eigen::MatrixXd neutral_;            // zero modes of it that are no motions of rigid parts (dofs × count)
   bool singular_, at_contact_;
-  ContactSet closed_;
+  ContactSet closed_, changed_;
   bool contacts_;
   std::vector<UserEvent> user_events_;
   std::vector<double> side_;

@@ -91,16 +91,27 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   if (ahead == 0 || back == 0) change.onward = free ? (load_change < 0 ? -1 : 1) : back == 0 ? 1 : -1;
 }
 
-// Of contacts that are made and lost at one place, where a branch meets its mirror image, all may be closed a little further along the load factor, with the
-// Morse index that was before: then the branch goes on there, by that equilibrium. ahead: the change of the load factor on the way to them.
-std::optional<Equilibrium> onward_closed(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& changed, const ContactSet& before,
-                                         double ahead, int negative) {
-  const auto lost = std::count_if(changed.begin(), changed.end(), [&](const ContactKey& key) { return before.count(key) > 0; });
-  if (lost == 0 || lost == static_cast<std::ptrdiff_t>(changed.size()) || at.slack) return {};
+// Where several contacts are made, are lost or bear nothing at one place only an equilibrium beyond tells which of them are closed there, others than before:
+// it is sought a little further along the load factor, with the Morse index that was before, and no farther away than tangents reach. What begins from nothing
+// yields without end, so these are the tangents there and with contacts as if they were stiff. ahead: the change of the load factor on the way to them.
+std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& here, const ContactSet& before, double ahead,
+                                       int negative) {
+  if (at.slack) return {};
+  Energy& energy = newton.energy();
+  const Kinematics& kinematics = energy.kinematics();
+  const std::optional<Rates> rates = along_contacts(newton, at, here, ahead);
+  const Vector tangent = rates ? Vector(rates->x / rates->load) : at.tangent;
   for (const double part : {contact_event::onward, contact_event::onward / 100}) {
-    Equilibrium e = continue_to(newton, at, at.point.state.load_factor + part * ahead);
-    if (e.point.report.converged() && e.point.stability.negative == negative &&
-        std::all_of(changed.begin(), changed.end(), [&](const ContactKey& key) { return gap(newton.energy(), key, e.point.state) < 0; })) return e;
+    const double change = part * ahead;
+    State state = moved_by(kinematics, at.point.state, change * tangent, change, 1);
+    const Report report = newton.correct(state, at.zero_modes);
+    if (!report.converged() || energy.collision_free_step(at.point.state, state) < 1) continue;
+    Equilibrium e = assess(newton, state, report);
+    const double reach = std::max({tangent.norm(), at.tangent.norm(), e.tangent.norm()}) * std::abs(change);
+    if (e.point.stability.negative != negative || kinematics.difference(at.point.state, state).norm() > 2 * reach) continue;
+    const auto closed = [&](const ContactKey& key) { return gap(energy, key, state) < 0; };
+    const auto changed = [&](const ContactKey& key) { return closed(key) != (before.count(key) > 0); };
+    if (std::any_of(here.begin(), here.end(), closed) && std::any_of(here.begin(), here.end(), changed)) return e;
   }
   return {};
 }
@@ -119,9 +130,10 @@ void find_beyond(Newton& newton, ContactChange& change, const std::vector<Contac
   if (change.beyond && !bodies && at == negative && change.beyond->point.stability.negative == at) change.at = open, change.beyond.reset(), change.onward = 0;
 }
 
-// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins.
+// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins; unloaded: what is
+// closed before and bears nothing there.
 void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::vector<ContactKey> changed, const Vector& way, double load_change,
-          double from, int negative) {
+          double from, int negative, const std::vector<ContactKey>& unloaded = {}) {
   const auto apply = [&] {
     change.after = before;
     for (const ContactKey& key : changed) toggle(change.after, key);
@@ -129,13 +141,20 @@ void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::
   apply();
   find_beyond(newton, change, changed, way, load_change, negative);
   const double ahead = change.at.point.state.load_factor - from;
-  if (change.beyond && change.onward * ahead < 0 && change.at.point.stability.negative == negative)
-    if (std::optional<Equilibrium> onward = onward_closed(newton, change.at, changed, before, ahead, negative)) {
-      std::erase_if(changed, [&](const ContactKey& key) { return before.count(key) > 0; });
+  const auto lost = std::count_if(changed.begin(), changed.end(), [&](const ContactKey& key) { return before.count(key) > 0; });
+  const bool mixed = lost > 0 && lost < static_cast<std::ptrdiff_t>(changed.size());
+  const bool returns = mixed && change.beyond && change.onward * ahead < 0;      // as where a branch meets its mirror image
+  if ((returns || (!change.beyond && (mixed || !unloaded.empty()))) && change.at.point.stability.negative == negative) {
+    std::vector<ContactKey> here = changed;
+    here.insert(here.end(), unloaded.begin(), unloaded.end());
+    if (std::optional<Equilibrium> onward = onward_from(newton, change.at, here, before, ahead, negative)) {
+      std::erase_if(here, [&](const ContactKey& key) { return (gap(newton.energy(), key, onward->point.state) < 0) == (before.count(key) > 0); });
+      changed = std::move(here);
       apply();
       onward->point.state = change.at.point.state, onward->point.energy = change.at.point.energy;
-      change.beyond = std::move(onward), change.onward = -change.onward;
+      change.beyond = std::move(onward), change.onward = ahead < 0 ? -1 : 1;
     }
+  }
   std::vector<std::string> sentences;
   for (const ContactKey& key : changed) {
     const std::string sentence = told(newton.energy().model(), key, change.after.count(key) > 0);
@@ -213,15 +232,25 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   state = moved_by(energy.kinematics(), state, way, load_change, -off / rate);
   const State guess = state;
   const double size = size_of(energy.model(), key.particle);
+  const double exact = key.wall < 0 || key.feature >= 0 ? contact_event::exact_rounding * size : 4 * epsilon * guess.at(key.particle).hi.norm();
   // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
   for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
     aim = beside * size, plane.close = close * size;
+    // What is closed with less of an overlap than that has not lost it there.
+    if (key.feature < 0) plane.close = std::min(plane.close, std::max(exact, contact_event::faded * std::abs(gap(energy, key, from.point.state))));
     state = aim > 0 ? moved_by(energy.kinematics(), guess, way, load_change, 2 * aim / rate) : guess;
     report = newton.correct(state, from.zero_modes, nullptr, contact_event::most_closing, &plane);
     if (report.converged() || report.status == Status::interrupted) break;
   }
   if (!defined) report.status = Status::not_converged;
   return report;
+}
+
+// Whether a gap vanishes at a state, to rounding; of a contact that was closed before, whose overlap may be next to nothing everywhere, little is left.
+bool vanishes(const Energy& energy, const ContactKey& key, double before, const State& there) {
+  const double size = size_of(energy.model(), key.particle), none = contact_event::together * size;
+  const double left = std::max(contact_event::faded * std::abs(before), contact_event::exact_rounding * size);
+  return std::abs(gap(energy, key, there)) <= (before < 0 && key.feature < 0 ? std::min(none, left) : none);
 }
 
 // Where on the way from one equilibrium towards another its tangent closes a gap; nothing if it does not.
@@ -323,8 +352,8 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   State found = b.point.state;
   Report report;
   const auto near = [&](const ContactKey& key, const State& state) {
-    const double moved = std::abs(gap(key, b.point.state) - gap(key, a.point.state));
-    return std::abs(gap(key, state)) <= std::max(contact_event::together * size_of(energy.model(), key.particle), contact_event::together_in_step * moved);
+    const double ga = gap(key, a.point.state);
+    return vanishes(energy, key, ga, state) || std::abs(gap(key, state)) <= contact_event::together_in_step * std::abs(gap(key, b.point.state) - ga);
   };
   for (std::size_t round = 0; round <= changed.size(); ++round) {
     // The one that changes first, as far as straight lines tell, of those that change before.
@@ -371,10 +400,13 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     }
   }
   change.at = at ? std::move(*at) : assess(newton, found, report);
-  std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
   const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
-  tell(newton, change, now, changed, chord, b.point.state.load_factor - a.point.state.load_factor,
-       a.point.state.load_factor, a.point.stability.negative);
+  const double load_change = b.point.state.load_factor - a.point.state.load_factor;
+  std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
+  std::vector<ContactKey> unloaded;
+  for (const ContactKey& key : just_touching(energy, found, now))
+    if (key.feature < 0 && std::find(changed.begin(), changed.end(), key) == changed.end() && near(key, found)) unloaded.push_back(key);
+  tell(newton, change, now, changed, chord, load_change, a.point.state.load_factor, a.point.stability.negative, unloaded);
   return change;
 }
 
@@ -420,7 +452,7 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
     const double here = gap(energy, key, state);
     const bool closed = before.count(key) > 0;
     if (key == first || !std::isfinite(here)) continue;
-    if (std::abs(here) > contact_event::together * size_of(model, key.particle)) {
+    if (!vanishes(energy, key, closed ? gap(energy, key, from) : 0.0, state)) {
       if ((here < 0) != closed) return {};
     } else if ((gap(energy, key, ahead) < 0) != closed) {
       changed.push_back(key);

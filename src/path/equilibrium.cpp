@@ -250,6 +250,15 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 
+bool lower_already(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
+  const auto pushed = [](const Equilibrium& e) { return e.slack || e.pushed; };
+  if (pushed(a) || pushed(b)) return false;
+  State back = b.point.state;
+  energy.kinematics().prescribe(back, a.point.state.load_factor);
+  const EnergyTerms here = energy.terms(a.point.state), there = energy.terms(back);
+  return there.total() < here.total() - equilibrium::energy_rounding * std::max(here.size(), there.size());
+}
+
 bool may_touch(const Model& model) { return !model.contacts.empty() || !model.walls.empty() || !model.rounded.empty(); }
 
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor, const Corrector& correct) {

@@ -36,6 +36,11 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// Whether the branch through one equilibrium, as its tangent and Newton's method follow it with its zero modes held, leads to another one.
 [[nodiscard]] bool leads_to(Newton& newton, const Equilibrium& from, const Equilibrium& to);
 
+/// Whether no stable branch leads from one minimum to another: Π(x_b, λ_a) < Π(x_a, λ_a), by more than rounding. Along a stable branch under loads that grow
+/// as the load factor does  d/dλ Π(x(λ), λ_a) = (λ − λ_a) x'ᵀ H x' ≥ 0,  with H x' = −∂g/∂λ; of what is driven so over steps that are short. False of what is
+/// slack or pushed, whose energy is rounding.
+[[nodiscard]] bool lower_already(Energy& energy, const Equilibrium& a, const Equilibrium& b);
+
 /// How far from its place a state may be that Newton's method has come to [length]: ‖g‖/|μ|, with g what is left of the forces, which is rounding, and μ
 /// the eigenvalue that is nearest to zero, but for held directions. 0: it cannot be told.
 [[nodiscard]] double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held);

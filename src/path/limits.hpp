@@ -19,6 +19,7 @@ constexpr double just_touching = 1e-9;  // of the smallest size
 /// Of the way between two equilibria, what their tangents do not tell of it; a parabola from its vertex has 0.5. And the cosine between the tangents.
 constexpr double largest_part = 0.45, least_cosine = 0.5;
 constexpr double same_end = 1e-3;  // of the way: a step and its parts meet
+constexpr double energy_rounding = 1e-13;  // of the sum of its terms' sizes
 constexpr double rigid = 1e-6;  // of what a mode moves: by how much it may change angles
 constexpr int most_shifts = 6;  // along a neutral mode, until its phase is kept
 constexpr double drifted = 1e-13;  // of the phase: rounding [rad]
@@ -108,7 +109,9 @@ namespace contact_event {
 constexpr double together = 1e-10;  // of the size: gaps that vanish at one load factor
 constexpr double rounding = 1e-13;  // of the size: of a gap …
 constexpr double exact_rounding = 1e-18;  // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
+constexpr double same_load = 1e-12;  // of the load factor: where a contact that has just changed cannot change back
 constexpr double just_open = 2e-13;  // of the size: a gap that is as good as none, and bears no force
+constexpr double faded = 1e-3;  // of the overlap at the beginning of a step: what is left of it where a contact is lost
 constexpr double together_in_step = 1e-9;  // … or of its change over the step; and of the step, by how much rounding sets an event behind its beginning
 constexpr double beside = 1e-9;  // of the size: where one side of a kink is looked at, …
 constexpr double most_beside = 0.05;  // … but no farther than this part of the step …

@@ -133,7 +133,7 @@ void LoadSteps::set_out_on_detour() {
   std::sort(a.stops.begin(), a.stops.end());
   const Metric metric = metric_for(newton_.energy(), current_, way);
   const Direction towards{Vector::Zero(current_.tangent.size()), sign_ * metric.load};
-  const Departure from{current_, negative_, closed_, singular_, at_contact_, side_};
+  const Departure from{current_, negative_, closed_, singular_, at_contact_, side_, changed_};
   detour_.emplace(newton_, from, direction_of(current_, metric, towards), metric, std::move(a));
 }
 
