@@ -253,6 +253,13 @@ bool vanishes(const Energy& energy, const ContactKey& key, double before, const 
   return std::abs(gap(energy, key, there)) <= (before < 0 && key.feature < 0 ? std::min(none, left) : none);
 }
 
+// Whether a contact is closed at an equilibrium by no more of a force than is left there.
+bool rounding_bears(Newton& newton, const ContactKey& key, const State& state) {
+  for (const Touch& t : newton.energy().touches(state))
+    if (t.key() == touch_key(key)) return t.gap < 0 && t.force.norm() <= newton.tolerance() * newton.energy().force_scale();
+  return false;
+}
+
 // Where on the way from one equilibrium towards another its tangent closes a gap; nothing if it does not.
 std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey& key, const Equilibrium& from, const Equilibrium& towards) {
   const double load_change = towards.point.state.load_factor - from.point.state.load_factor;
@@ -373,10 +380,11 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       if (!report.converged()) return false;
       t = segment.parameter(state);
       const double part = (t - segment.a) / (change.at_parameter - segment.a);
-      // From `a` the branch goes where its tangent points: what lies behind is where a stiff contact was made, not where it is lost.
-      if (!(part > -contact_event::together_in_step && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
+      // From `a` the branch goes where its tangent points: what lies behind is where a stiff contact was made, not where it is lost, unless it bears rounding.
+      const double behind = rounding_bears(newton, *first, a.point.state) ? contact_event::along_chord : contact_event::together_in_step;
+      if (!(part > -behind && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
             energy.collision_free_step(a.point.state, state) == 1)) return false;
-      found = std::move(state);
+      found = std::move(state), t = segment.b > segment.a ? std::max(t, segment.a) : std::min(t, segment.a);
       return true;
     };
     // From the side where the contact is open its tangent tells the place, however stiff it is; else the chord.

@@ -649,3 +649,44 @@ TEST_CASE("a stiff contact is made once and lost once, whatever the steps", "[pa
     CHECK(other.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-12));
   }
 }
+
+// Two grains of one size stand on the floor: the lid presses on one until it has come down to the other, where nothing presses on the first either.
+TEST_CASE("a lid meets two grains at one load factor, which is told once, whatever the steps", "[paths][heap_meets_lid]") {
+  const Run first("heap_meets_lid", {in_steps(8), by_load_steps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.events.size() == 3);
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {5, 17, 50, 155}) {
+      INFO(method << ", " << n << " steps");
+      const Run run("heap_meets_lid", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      same_events(first, run);
+    }
+}
+
+// Overlaps of 1e-11 of the size and less: what is left of each tells whether it is lost, not the size.
+TEST_CASE("stiff contacts are lost one after the other, whatever the steps", "[paths][two_beams_part]") {
+  const Run first("two_beams_part", {in_steps(10), by_load_steps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 4);
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {40, 81, 134}) {
+      INFO(method << ", " << n << " steps");
+      const Run run("two_beams_part", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      same_events(first, run);
+    }
+}
+
+// A step from just before a limit point to where the other branch has its minimum.
+TEST_CASE("no step goes over a limit point to another branch", "[paths][truss_there_and_back]") {
+  for (const int n : {3, 4, 5, 6, 17}) {
+    INFO(n << " steps");
+    const Run run("truss_there_and_back", {in_steps(n)});
+    const auto limits = run.of("limit");
+    REQUIRE(limits.size() == 2);
+    CHECK(limits[0]["lambda"] == Approx(1).epsilon(1e-9));
+    CHECK(limits[1]["lambda"] == Approx(-1).epsilon(1e-9));
+    falls_are_right(run);
+  }
+}
