@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -36,6 +37,12 @@ void may_write(const std::string& file, bool force) {
   std::getline(in, line);
   if (!line.starts_with(mark) && line.find("by elamin import") == std::string::npos)
     throw InputError(file + ": is there already and was not written by elamin import; choose another name with -o, or --force");
+}
+
+/// Nor, whatever was asked, what the script is made of.
+void must_not_be_read(const std::string& file, const std::vector<std::string>& read) {
+  const bool there = fs::exists(file) && std::any_of(read.begin(), read.end(), [&](const std::string& r) { return fs::exists(r) && fs::equivalent(file, r); });
+  if (there) throw InputError(file + ": is read by the script, and would be written over; choose another name with -o");
 }
 
 }  // namespace
@@ -73,6 +80,8 @@ void import_command(const ImportOptions& o) {
       for (std::size_t k = 0; k < all.size(); ++k) keep(all[k], stems[k]);
     } else keep(script::translated(reading, pass, how, data.front()), stem);
   }
+  for (const auto* read : {&reading.files, &reading.data_files, &o.after})
+    for (const File& f : files) must_not_be_read(f.name, *read);
   for (const File& f : files) may_write(f.name, o.force);
   for (const File& f : files) write_text(f.name, f.text);
   if (o.quiet) return;

@@ -3,6 +3,7 @@
 #include "energy/energy.hpp"
 #include "input/stages.hpp"
 #include "lammps/script_reading.hpp"
+#include "lammps/small_data_file.hpp"
 #include "results/run_directory.hpp"
 #include "study/check_command.hpp"
 #include "study/program.hpp"
@@ -375,6 +376,21 @@ TEST_CASE("elamin import writes files, and no other's", "[script]") {
   CHECK(holds(wrong.text, "bad.lmp:2:1: foo: "));
   CHECK(holds(wrong.text, "bad.lmp:3:1: bar: "));
   CHECK_FALSE(std::filesystem::exists(scratch / "q.toml"));
+}
+
+TEST_CASE("elamin import never writes over what the script reads", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string data = scratch.file("p.data", small_data_file), out = scratch / "p.toml";
+  const std::string file = scratch.file("in.lmp", "units si\nboundary f f f\natom_style hybrid sphere angle\nbond_style harmonic\nangle_style cosine\n"
+      "read_data '" + data + "'\nfix 1 all nve\nrun 10\n");
+  for (const std::string how : {"", "--force "}) {
+    const Answer a = elamin_says("import " + how + "'" + file + "' -o '" + out + "'");
+    CHECK(a.status == 1);
+    CHECK(holds(a.text, "p.data: is read by the script, and would be written over"));
+    CHECK(text_of(data) == small_data_file);
+    CHECK_FALSE(std::filesystem::exists(out));
+  }
+  CHECK(elamin_says("import --quiet '" + file + "' -o '" + (scratch / "q.toml") + "'").status == 0);
 }
 
 TEST_CASE("a hundred thousand lines are read in a second or so", "[script]") {
