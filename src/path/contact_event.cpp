@@ -374,27 +374,30 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     if (!first) break;
     const Vector way = kinematics.difference(a.point.state, found);
     const double load_change = found.load_factor - a.point.state.load_factor;
+    // From `a` the branch goes where its tangent points: what lies behind is where a stiff contact was made, not where it is lost, unless it bears rounding.
+    const double ga = gap(*first, a.point.state);
+    const bool just_made = ga < 0 && first->feature < 0 && -ga <= contact_event::exact_rounding * size_of(energy.model(), first->particle);
+    const double after = !just_made && rounding_bears(newton, *first, a.point.state) ? -contact_event::along_chord
+                       : (just_made ? 1 : -1) * contact_event::together_in_step;
     double t = segment.a;
     const auto closed_from = [&](State state) {
       report = close_gap(newton, *first, a, way, load_change, state);
       if (!report.converged()) return false;
       t = segment.parameter(state);
       const double part = (t - segment.a) / (change.at_parameter - segment.a);
-      // From `a` the branch goes where its tangent points: what lies behind is where a stiff contact was made, not where it is lost, unless it bears rounding.
-      const double behind = rounding_bears(newton, *first, a.point.state) ? contact_event::along_chord : contact_event::together_in_step;
-      if (!(part > -behind && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
+      if (!(part > after && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
             energy.collision_free_step(a.point.state, state) == 1)) return false;
       found = std::move(state), t = segment.b > segment.a ? std::max(t, segment.a) : std::min(t, segment.a);
       return true;
     };
     // From the side where the contact is open its tangent tells the place, however stiff it is; else the chord.
-    const bool makes = gap(*first, a.point.state) > 0;
+    const bool makes = ga > 0;
     const std::optional<State> ahead = where_tangent_closes(energy, *first, makes ? a : b, makes ? b : a);
     if ((ahead && closed_from(*ahead)) || closed_from(moved_by(kinematics, a.point.state, way, load_change, least))) {
       change.at_parameter = t, at.reset();
     } else {                                                    // slowly, along the branch
       if (!at) at = segment.at(change.at_parameter, a);
-      if (!at->point.report.converged()) return ContactChange{};
+      if (just_made || !at->point.report.converged()) return ContactChange{};        // its gap vanishes at `a`, too: a shorter step
       const auto sample = [&](double u, const Equilibrium& e) { return Sample{u, gap(*first, e.point.state), e}; };
       const auto zero = find_zero(sample(segment.a, a), sample(change.at_parameter, *at), 1e-13 * std::abs(segment.b - segment.a),
                                   [&](double u, const Sample& from) -> std::optional<Sample> {
