@@ -59,12 +59,12 @@ double among_particles(const Model& model, const ContactRules& rules, const Stat
 // Distance of the particle's centre to the wall's surface; infinity where the wall does not see it.
 double distance(const Wall& wall, double load_factor, const ExactVector& x, double r) {
   constexpr double aside = 1e-9;                                 // in radii: on an axis or at a centre a curved wall has no direction
-  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  constexpr double far = std::numeric_limits<double>::infinity();
   const WallContact now = wall_at(wall, load_factor);
   const auto nearest = [&](const ExactVector& at) {
     std::array<WallTouch, WallContact::most_faces> faces;
-    const int n = now.touches(at, r, anywhere, faces);
-    double least = anywhere;
+    const int n = now.touches(at, r, far, faces);
+    double least = far;
     for (int k = 0; k < n; ++k) least = std::min(least, faces[k].gap + r);
     return least;
   };
@@ -75,7 +75,7 @@ double distance(const Wall& wall, double load_factor, const ExactVector& x, doub
 
 // The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches.
 double at_wall(const Model& model, const Wall& wall, int p, const State& from, double load_change, const Vec3& u, double speed, double most) {
-  constexpr int most_pieces_of_way = 200;
+  constexpr int most_parts = 200;
   constexpr double on_surface = 1e-9, off_surface = 1e-6;        // in radii
   const double r = model.diameter[p] / 2;
   const auto at = [&](double s) {
@@ -92,7 +92,7 @@ double at_wall(const Model& model, const Wall& wall, int p, const State& from, d
     if (!(here > first) || !std::isfinite(here)) return 0;
   }
   const double floor = particles_keep * std::min(here, r);
-  for (int k = 0; k < most_pieces_of_way && s < most; ++k) {
+  for (int k = 0; k < most_parts && s < most; ++k) {
     const double room = here - floor;
     if (room <= 1e-3 * floor && k > 0) break;
     s += room / speed;

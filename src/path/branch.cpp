@@ -78,8 +78,7 @@ Branch::Candidate Branch::with_contact(Candidate c, ContactChange change) const 
 
 // Whether contacts that have changed here change back at this very place: by rounding, which leads nowhere.
 bool Branch::undoes(const ContactChange& change) const {
-  std::vector<ContactKey> keys;
-  std::set_symmetric_difference(change.after.begin(), change.after.end(), closed_.begin(), closed_.end(), std::back_inserter(keys));
+  const ContactSet keys = difference(change.after, closed_);
   if (keys.empty() || !std::all_of(keys.begin(), keys.end(), [&](const ContactKey& key) { return changed_.count(key) > 0; })) return false;
   const Kinematics& kinematics = newton_.energy().kinematics();
   const State &from = current_.point.state, &to = change.at.point.state;
@@ -177,8 +176,7 @@ void Branch::take(const Candidate& c) {
   negative_ = event ? event->after : c.e.point.stability.negative;
   const bool told = event && (event->beyond || event->kind == EventKind::contact);
   ContactSet closed = told ? event->closed : closed_contacts(newton_.energy(), c.e);
-  changed_.clear();
-  if (at_contact_) std::set_symmetric_difference(closed.begin(), closed.end(), closed_.begin(), closed_.end(), std::inserter(changed_, changed_.end()));
+  changed_ = at_contact_ ? difference(closed, closed_) : ContactSet{};
   if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
   closed_ = std::move(closed);
   pass_user_events(user_events_, c.events, c.e.point.state, side_);

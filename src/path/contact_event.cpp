@@ -22,12 +22,6 @@ using namespace limits;
 
 namespace {
 
-std::vector<ContactKey> difference(const ContactSet& a, const ContactSet& b) {
-  std::vector<ContactKey> keys;
-  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(keys));
-  return keys;
-}
-
 void toggle(ContactSet& set, const ContactKey& key) {
   if (!set.erase(key)) set.insert(key);
 }
@@ -232,12 +226,13 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   state = moved_by(energy.kinematics(), state, way, load_change, -off / rate);
   const State guess = state;
   const double size = size_of(energy.model(), key.particle);
+  const double left = contact_event::faded * std::abs(gap(energy, key, from.point.state));
   const double exact = key.wall < 0 || key.feature >= 0 ? contact_event::exact_rounding * size : 4 * epsilon * guess.at(key.particle).hi.norm();
   // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
   for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
     aim = beside * size, plane.close = close * size;
     // What is closed with less of an overlap than that has not lost it there.
-    if (key.feature < 0) plane.close = std::min(plane.close, std::max(exact, contact_event::faded * std::abs(gap(energy, key, from.point.state))));
+    if (key.feature < 0) plane.close = std::min(plane.close, std::max(exact, left));
     state = aim > 0 ? moved_by(energy.kinematics(), guess, way, load_change, 2 * aim / rate) : guess;
     report = newton.correct(state, from.zero_modes, nullptr, contact_event::most_closing, &plane);
     if (report.converged() || report.status == Status::interrupted) break;
@@ -318,6 +313,12 @@ ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet no
 }
 
 }  // namespace
+
+ContactSet difference(const ContactSet& a, const ContactSet& b) {
+  ContactSet keys;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::inserter(keys, keys.end()));
+  return keys;
+}
 
 ContactSet closed_contacts(Energy& energy, const Equilibrium& e) {
   return closed_contacts(energy, e.point.state, e.slack ? contact_event::together * energy.kinematics().smallest_size() : 0.0);

@@ -17,6 +17,9 @@ struct ContactKey {
 };
 using ContactSet = std::set<ContactKey>;
 
+/// Contacts that are in one of two sets, but not in both.
+ContactSet difference(const ContactSet& a, const ContactSet& b);
+
 /// The contacts whose surfaces overlap at the state, or are nearer than `within` [length], and which bodies are within the cutoff of an attraction.
 ContactSet closed_contacts(Energy& energy, const State& state, double within = 0);
 /// The same of an equilibrium; of a slack one those that just touch as well.

@@ -255,7 +255,7 @@ bool lower_already(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   if (pushed(a) || pushed(b)) return false;
   State back = b.point.state;
   energy.kinematics().prescribe(back, a.point.state.load_factor);
-  const EnergyTerms here = energy.terms(a.point.state), there = energy.terms(back);
+  const EnergyTerms &here = a.point.energy, there = energy.terms(back);
   return there.total() < here.total() - equilibrium::energy_rounding * std::max(here.size(), there.size());
 }
 
