@@ -690,3 +690,16 @@ TEST_CASE("no step goes over a limit point to another branch", "[paths][truss_th
     falls_are_right(run);
   }
 }
+
+// Where a contact has just been made its gap vanishes, too: that is not where it is lost.
+TEST_CASE("a contact is not lost where it was made", "[paths][two_beams_stiff]") {
+  const Run first("two_beams_stiff", {in_steps(40), by_load_steps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 3);
+  for (const int n : {3, 4, 17}) {
+    INFO(n << " steps");
+    const Run run("two_beams_stiff", {in_steps(n), by_load_steps});
+    CHECK_ENDS_AT(run, 1);
+    same_events(first, run);
+  }
+}
