@@ -3,13 +3,18 @@
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "solve/blas.hpp"
+#include "solve/multifrontal.hpp"
+#include "solve/ordering.hpp"
 
 #include <cholmod.h>
 #include <omp.h>
 
 #include <cassert>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace elamin {
 
@@ -23,6 +28,16 @@ cholmod_sparse view(const SparseMatrix& m) {
   a.x = const_cast<double*>(m.valuePtr());
   a.stype = -1, a.itype = CHOLMOD_INT, a.xtype = CHOLMOD_REAL, a.dtype = CHOLMOD_DOUBLE, a.sorted = 1, a.packed = 1;
   return a;
+}
+
+// Unknowns from which on the graph of particles is ordered, which takes half the time of the graph of unknowns; below, milliseconds.
+constexpr Eigen::Index by_particles = 10'000;
+
+std::span<const int> ints(const void* first, std::size_t count) { return {static_cast<const int*>(first), count}; }
+
+// The pattern of a supernodal factor; a view, no copy.
+Supernodes supernodes(const cholmod_factor& l) {
+  return {ints(l.super, l.nsuper + 1), ints(l.pi, l.nsuper + 1), ints(l.px, l.nsuper + 1), ints(l.s, l.ssize), ints(l.Perm, l.n)};
 }
 
 [[noreturn]] void cholmod_failed(const std::string& what, int status) {
@@ -42,6 +57,7 @@ struct OneThread {
 struct Cholesky::Cholmod {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
+  std::optional<Multifrontal> fronts;                          // of a supernodal factor, whose numbers they make
   cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;      // kept between solves: no allocation in the loop
 
   Cholmod() {
@@ -57,9 +73,24 @@ struct Cholesky::Cholmod {
     cholmod_finish(&common);
   }
   void release() {
+    fronts.reset();
     if (factor) cholmod_free_factor(&factor, &common);
     for (cholmod_dense** d : {&x, &y, &e})
       if (*d) cholmod_free_dense(d, &common);
+  }
+
+  bool by_columns(const SparseMatrix& hessian, double shift) {
+    const OneThread one;
+    cholmod_sparse a = view(hessian);
+    double beta[2] = {shift, 0};
+    const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, factor, &common);
+    if (!ok && common.status < 0) cholmod_failed("factorisation", common.status);
+    return common.status == CHOLMOD_OK && factor->minor == factor->n;
+  }
+  bool by_fronts(const SparseMatrix& hessian, double shift) {
+    if (factor->xtype == CHOLMOD_PATTERN && !cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common))
+      cholmod_failed("factorisation", common.status);
+    return fronts->factorize(hessian, shift, static_cast<double*>(factor->x));
   }
 };
 
@@ -74,8 +105,12 @@ void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders
   if (pattern.cols() == 0) return;
   const Doing doing("ordering the unknowns");
   cholmod_sparse a = view(pattern);
-  cholmod_->factor = cholmod_analyze(&a, &cholmod_->common);
+  cholmod_common& common = cholmod_->common;
+  std::vector<int> order = pattern.cols() >= by_particles ? fill_reducing_order(pattern) : std::vector<int>();
+  common.nmethods = order.empty() ? 0 : 1, common.method[0].ordering = CHOLMOD_GIVEN;      // 0: its own choice
+  cholmod_->factor = cholmod_analyze_p(&a, order.empty() ? nullptr : order.data(), nullptr, 0, &common);
   if (!cholmod_->factor) cholmod_failed("analysis", cholmod_->common.status);
+  if (cholmod_->factor->is_super) cholmod_->fronts.emplace(pattern, supernodes(*cholmod_->factor));
 }
 
 bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unused]] const Eigen::MatrixXd& borders) {
@@ -83,13 +118,8 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unus
   if (hessian.cols() == 0) return true;
   assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   const Timed timed(seconds_);
-  const OneThread one;
   const Doing doing("factorising");
-  cholmod_sparse a = view(hessian);
-  double beta[2] = {shift, 0};
-  const int ok = cholmod_factorize_p(&a, beta, nullptr, 0, cholmod_->factor, &cholmod_->common);
-  if (!ok && cholmod_->common.status < 0) cholmod_failed("factorisation", cholmod_->common.status);
-  return cholmod_->common.status == CHOLMOD_OK && cholmod_->factor->minor == cholmod_->factor->n;
+  return cholmod_->fronts ? cholmod_->by_fronts(hessian, shift) : cholmod_->by_columns(hessian, shift);
 }
 
 // One of CHOLMOD's systems with the factor: A x = b, or a part of it.

@@ -5,8 +5,8 @@
 
 namespace elamin {
 
-/// LLᵀ by CHOLMOD (supernodal where that pays), without borders. There is a factor if and only if the matrix is positive
-/// definite to rounding; of an indefinite one it knows no more.
+/// LLᵀ by CHOLMOD, without borders; where supernodes pay their numbers come from `multifrontal`, on all cores. There is a factor if
+/// and only if the matrix is positive definite to rounding; of an indefinite one it knows no more.
 class Cholesky final : public Factorization {
  public:
   Cholesky();
