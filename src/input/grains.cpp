@@ -16,6 +16,7 @@ void describe(Keys& keys, GrainsTable& t) {
   keys.may_file("file", t.file, "a table of commas: x,y,z, and a diameter if there is a fourth column");
   keys.may("diameter", t.diameter, "of all of them [length]; needed unless the file has it", range::positive);
   keys.may("density", t.density, "[mass/length³]; gravity and dynamics need it", range::positive);
+  describe_own_values(keys, t.values, false);
   keys.at_most_one({"positions", "file"});
   keys.one_at_least({"positions", "file"}, "give positions = [[x, y, z], …] or file = \"grains.csv\"");
 }

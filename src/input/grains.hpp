@@ -8,7 +8,7 @@ namespace elamin {
 
 struct GrainsTable {
   TablePlace place;
-  std::string name, from_stage;
+  std::string name, from_stage, values;
   std::optional<std::vector<Vec3>> positions;   // either these …
   std::string file;                             // … or this
   std::optional<double> diameter, density;

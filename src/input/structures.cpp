@@ -107,7 +107,7 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
       for (const Structure& s : model.structures)
         if (!table.values.empty() && s.kind == kind && s.name == table.name) add_own_values(table.place, table.values, s, model, mistakes);
   };
-  own("beam", problem.beams), own("loop", problem.loops), own("sheet", problem.sheets);
+  own("beam", problem.beams), own("loop", problem.loops), own("sheet", problem.sheets), own("grains", problem.grains);
   return true;
 }
 

@@ -48,6 +48,9 @@ TEST_CASE("Shapes of all kinds become what they say") {
   CHECK(bond_of(index(20), index(1))->rest_length == 0.5);
   const int cloud = structure(m, "cloud").first;
   CHECK(bond_of(cloud, cloud + 1)->stiffness == Approx(3 / (2 * 0.5)));
+  CHECK(m.diameter[cloud] == 0.1);
+  CHECK(m.diameter[cloud + 2] == 0.125);
+  CHECK(m.density[cloud + 2] == 5);
   CHECK(bond_of(index(29), index(30))->stiffness == 3);
   CHECK(bond_of(index(30), index(31))->stiffness == 2.5);
   CHECK(bond_of(cloud, cloud + 2) == nullptr);                                   // comes with the second stage
@@ -99,6 +102,8 @@ TEST_CASE("Tables of commas that are wrong are told with their lines") {
 
   const std::string cloud = grains("g", "[[0, 0, 0], [2, 0, 0], [4, 0, 0]]"), bonds = cloud + "[[bonds]]\nfile = \"t.csv\"\n";
   CHECK(said("1,2\n", bonds + "bond_stiffness = 1\n") == "");
+  CHECK(said("diameter,density\n1,2\n,\n0.5,\n", cloud + "values = \"t.csv\"\n") == "");
+  CHECK(said("diameter\n1\n", cloud + "values = \"t.csv\"\n").find("grains.g.values: has 1 rows, and \"g\" has 3 particles") != std::string::npos);
   CHECK(said("1,2\n1.5,3\n", bonds) ==
         "1:1: its stiffness is missing or not positive; give bond_stiffness, here or in the table\n2:1: 1.5 is no id of a particle; there are 1 to 3");
   CHECK(said("i,j,rest_length\n1,2,-1\n", bonds + "bond_stiffness = 1\n") == "2:1: rest_length must be a positive number, is -1");
