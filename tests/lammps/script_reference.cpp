@@ -3,8 +3,12 @@
 #include "dynamics/body_case.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/energy.hpp"
+#include "lammps/data.hpp"
 #include "lammps/script_reading.hpp"
+#include "study/run.hpp"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <map>
 
@@ -17,6 +21,28 @@ std::map<int, Vec3> lammps_forces(const std::string& name) {
   std::ifstream in(lammps_scripts + name + ".forces");
   for (int id; in >> id;) in >> forces[id][0] >> forces[id][1] >> forces[id][2];
   return forces;
+}
+
+/// The largest difference of the forces in a model's first state from those, over the largest of them. LAMMPS's force is zero where a fix
+/// holds an atom: these are counted.
+struct Comparison {
+  double off = 0;
+  std::size_t held = 0;
+};
+
+Comparison compared(const Model& model, const std::map<int, Vec3>& expected) {
+  REQUIRE(model.id.size() == expected.size());
+  Energy energy(model);
+  const Field f = energy.forces(model.start);
+  Comparison c;
+  double largest = 0;
+  for (int i = 0; i < model.particles(); ++i) {
+    const Vec3& e = expected.at(model.id[i]);
+    if (e.isZero(0)) ++c.held;
+    else largest = std::max(largest, e.norm()), c.off = std::max(c.off, (f.col(i) - e).norm());
+  }
+  c.off /= largest;
+  return c;
 }
 
 }  // namespace
@@ -37,20 +63,12 @@ TEST_CASE("forces and energies of the first state of a script are LAMMPS's", "[s
     INFO(c.name);
     const script::Reading reading = script::read_script(lammps_scripts + c.name + ".lmp", {});
     ImportedProblem p = imported(reading);
-    Energy energy(p.model);
-    const Field f = energy.forces(p.model.start);
     const auto expected = lammps_forces(c.name);
     REQUIRE(expected.size() == c.atoms);
-    REQUIRE(p.model.id.size() == c.atoms);
-    double largest = 0, off = 0;
-    std::size_t held = 0;
-    for (int i = 0; i < p.model.particles(); ++i) {
-      const Vec3& e = expected.at(p.model.id[i]);
-      if (e.isZero(0)) ++held;
-      else largest = std::max(largest, e.norm()), off = std::max(off, (f.col(i) - e).norm());
-    }
-    CHECK(held == c.held);
-    CHECK(off < 1e-12 * largest);
+    const Comparison comparison = compared(p.model, expected);
+    CHECK(comparison.held == c.held);
+    CHECK(comparison.off < 1e-12);
+    Energy energy(p.model);
     const EnergyTerms terms = energy.terms(p.model.start);
     for (const auto& [found, wanted] : {std::pair(terms.bond, c.bond), std::pair(terms.angle, c.angle), std::pair(terms.cohesion, c.cohesion)})
       if (wanted != unknown) CHECK(std::abs(found - wanted) <= 1e-12 * std::abs(wanted));
@@ -71,5 +89,40 @@ TEST_CASE("scripts of rounded polyhedra give LAMMPS's forces and torques", "[scr
     w.energy = found.energy;
     for (std::size_t k = 0; k < found.on.size(); ++k) w.forces[k] = found.on[k].force, w.torques[k] = found.on[k].torque;
     CHECK(w.off(c.expected["lammps"]) <= 1e-12);
+  }
+}
+
+TEST_CASE("bonded particles that overlap are left out of granular contacts, as is told, or taken in as by LAMMPS", "[script]") {
+  const script::Reading reading = script::read_script(lammps_scripts + "bonded.lmp", {});
+  const ImportedProblem p = imported(reading);
+  CHECK(compared(p.model, lammps_forces("bonded_apart")).off < 1e-12);
+  CHECK(script::report(reading, p.files.notes).find("Here they are left out; exclude_bonds = 0 in [[contact]] takes them in") != std::string::npos);
+  const std::string left_out = "exclude_bonds = 1\n";
+  std::string text = p.files.toml;
+  int contacts = 0;
+  for (std::size_t at; (at = text.find(left_out)) != std::string::npos; ++contacts) text[at + left_out.size() - 2] = '0';
+  CHECK(contacts == 2);
+  const ScratchDirectory scratch;
+  scratch.file("p.data", p.files.data);
+  CHECK(compared(build_model(read_problem(scratch.file("p.toml", text))), lammps_forces("bonded")).off < 1e-12);
+}
+
+TEST_CASE("minimize ends where LAMMPS's ends, one after the other", "[script]") {
+  const ScratchDirectory scratch;
+  const script::Reading reading = script::read_script(lammps_scripts + "minimize.lmp", {});
+  const script::Translated t = script::translated(reading, reading.passes.at(0), {}, "p.data");
+  scratch.file("p.data", t.data);
+  RunOptions options;
+  options.file = scratch.file("p.toml", t.toml), options.directory = scratch / "out", options.quiet = true, options.threads = 1;
+  REQUIRE(run(options).exit_status == 0);
+  std::ifstream in(lammps_scripts + "minimize.positions");
+  const std::array states{"run1", "final"};
+  for (int number, id; in >> number >> id;) {
+    Vec3 expected;
+    in >> expected[0] >> expected[1] >> expected[2];
+    const LammpsData state = read_lammps_data(options.directory + "/states/" + states[static_cast<std::size_t>(number - 1)] + ".data");
+    const auto at = std::find(state.id.begin(), state.id.end(), id) - state.id.begin();
+    INFO(number << ", " << id);
+    CHECK((state.position.col(at) - expected).norm() < 1e-11);
   }
 }

@@ -269,6 +269,28 @@ TEST_CASE("runs become stages, with what comes and goes between them", "[script]
   }
 }
 
+TEST_CASE("what lies in a plane stays there as long as nothing pushes it out, as in LAMMPS", "[script]") {
+  const std::string grains = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.1 0 0\ncreate_atoms 1 single 0 0.1 0\nset type 1 diameter 0.2\nset type 1 density 2\n"
+                                                 "fix 1 all nve\n";
+  const auto wall = [](const std::string& name, double lo, double hi) {
+    return "region " + name + " block -1 1 -1 1 " + std::to_string(lo) + " " + std::to_string(hi) + "\nfix " + name +
+           " all wall/gran/region granular hertz/material 30 0 0.25 tangential linear_nohistory 0 0 region " + name + "\n";
+  };
+  const std::string plane = "plane = \"xy\"";
+  CHECK(holds(imported(grains + wall("a", -0.15, 0.9) + "run 10\n").files.toml, plane));
+  CHECK_FALSE(holds(imported(grains + wall("a", -0.05, 0.9) + "run 10\n").files.toml, plane));
+  CHECK(holds(imported(grains + wall("a", -0.05, 0.9) + wall("b", -0.9, 0.05) + "run 10\n").files.toml, plane));   // what pushes up pushes down as much
+  CHECK_FALSE(holds(imported(grains + wall("a", -0.05, 0.9) + wall("b", -0.9, 0.04) + "run 10\n").files.toml, plane));
+  CHECK(holds(imported(grains + wall("a", 0.05, 0.9) + "run 10\n").files.toml, plane));                            // they are on its other side
+  const ImportedProblem p = imported(grains + wall("a", -0.05, 0.9) + wall("b", -0.9, 0.05) + "run 10\nunfix a\ncreate_atoms 2 single 0 0.5 0.03\n"
+                                              "set type 2 diameter 0.1\nset type 2 density 2\nrun 10\n");
+  CHECK_FALSE(holds(p.files.toml, plane));
+  REQUIRE(p.problem.supports.size() == 1);
+  CHECK(holds(p.files.toml, "name = \"plane\"\ngroup = \"in_plane\"\ndirections = \"z\"\n"));
+  REQUIRE(p.problem.stages.size() == 2);
+  CHECK(p.problem.stages[1].off == std::vector<std::string>{"support.plane", "wall.a"});
+}
+
 TEST_CASE("a script that begins anew gives a problem for each pass", "[script]") {
   std::string text = small_script_head + "group g empty\nvariable j loop 3\nlabel again\nvariable n equal 2+$j\nvariable i loop $n\nlabel row\n"
                      "create_atoms 1 single $(0.1*v_i) 0 0\nnext i\njump SELF row\nset type 1 diameter 0.1\ngroup g type 1\nfix 1 g nve\nrun 10\n"

@@ -420,20 +420,22 @@ void record(Interpreter& in, const Span& span) {
     w.still = std::move(r);
     return;
   }
-  std::vector<char> moving(w.atoms.size(), r.minimize), driven(w.atoms.size());    // integrated; fix move gives all coordinates
+  // Integrated; all coordinates given by fix move, by a hold.
+  std::vector<char> moving(w.atoms.size(), r.minimize), driven(w.atoms.size()), held(w.atoms.size());
   std::vector<Vec3> velocity(w.atoms.size(), Vec3::Zero());
   for (const Run::Active& a : r.fixes)
     for (const int k : a.members) {
       const auto i = static_cast<std::size_t>(k);
       if (a.fix.kind == Fix::Kind::integrate || a.fix.kind == Fix::Kind::move) moving[i] = 1;
       if (a.fix.kind == Fix::Kind::move && a.fix.directions == std::array{true, true, true}) driven[i] = 1, velocity[i] = a.fix.vector;
+      if (a.fix.kind == Fix::Kind::hold && a.fix.directions == std::array{true, true, true}) held[i] = 1;
     }
   for (const int k : r.atoms) {
     const auto i = static_cast<std::size_t>(k);
     Atom& a = w.atoms[i];
     if (a.born == w.run_number()) a.start = a.x;
     if (driven[i] && !r.minimize) a.x += velocity[i] * r.time();
-    else if (moving[i]) a.moved = true;
+    else if (moving[i] && !(held[i] && r.minimize)) a.moved = true;      // in a run what is held goes on at the velocity that it had
   }
   w.last_run = in.where;
   w.step += r.steps, w.time += r.minimize ? 0 : r.time();

@@ -36,7 +36,7 @@ class Translation {
  public:
   Translation(const Reading& reading, const Pass& pass, const TranslationOptions& options, const std::string& data_name)
       : reading_(reading), pass_(pass), world_(pass.world), options_(options), data_name_(data_name), particles_(world_),
-        groups_(world_, particles_) {}
+        groups_(world_, particles_), flat_(flat(world_, particles_)) {}
 
   Translated problem() {
     collect();
@@ -91,6 +91,7 @@ class Translation {
                   false});
       }
       contacts(k, run);
+      if (k < flat_.runs && !flat_.always && !options_.dynamics) in_plane(k, run);
     }
     for (Table& t : tables_) t.name = t.kind == "contact" || t.kind == "viscosity" ? "" : groups_.unique(t.name);
     presence();
@@ -136,6 +137,20 @@ class Translation {
       }
     }
     clamps(run, by);
+  }
+
+  /// What lies in a plane at first, with nothing that pushes it out, stays there until the run in which something does.
+  void in_plane(int k, const Run& run) {
+    const auto c = static_cast<std::size_t>(flat_.direction);
+    std::vector<bool> held(world_.atoms.size());
+    for (const auto& [h, members] : held_in(world_, run))
+      for (const int i : members) held[static_cast<std::size_t>(i)] = held[static_cast<std::size_t>(i)] || h.directions[c];
+    Members free;
+    for (const int i : run.atoms)
+      if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
+    if (free.empty()) return;
+    put(k, {"support", "plane", fmt::format("group = \"{}\"\ndirections = \"{}\"\n", groups_.of(free, "in_plane", k), "xyz"[c]), run.where,
+            "these lie in a plane, and nothing pushes them out", 0, {}});
   }
 
   /// A note on the length of what is clamped by two particles or more.
@@ -430,7 +445,7 @@ class Translation {
     std::string t = fmt::format("# Written by elamin import from {}", script_name());
     for (const auto& [name, value] : pass_.loops) t += fmt::format(", {} = {}", name, value);
     t += fmt::format(". Units: {}.\ntitle = \"{}\"\n", world_.units, title());
-    int plane = flat(world_, particles_);
+    int plane = flat_.always ? flat_.direction : -1;
     for (const Run& run : world_.runs)
       for (const Run::Active& a : run.fixes)
         if (a.fix.kind == Fix::Kind::plane) plane = 2;
@@ -482,6 +497,8 @@ class Translation {
   }
 
   std::string study() {
+    constexpr auto jumping = "when_unstable = \"jump\"\n"
+                             "locate = [\"limit\", \"branch\"]         # \"contact\": where each contact is made and lost, too, which takes longer\n";
     std::string t;
     if (world_.runs.empty()) return "\n[study]                          # the script runs nothing\ntype = \"energy\"\n";
     if (world_.runs.front().still())
@@ -501,12 +518,12 @@ class Translation {
       t += fmt::format("\n# {} {}\n", reading_.short_place(run.where), run.text);
       if (driven_.front())
         t += fmt::format(
-            "[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\nwhen_unstable = \"jump\"\n",
-            run.time());
+            "[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\n{}",
+            run.time(), jumping);
       else t += "[study]\ntype = \"equilibrium\"\n";
       return t + observations();
     }
-    t += "\n[path]\nsteps = 100\nwhen_unstable = \"jump\"\n";
+    t += fmt::format("\n[path]\nsteps = 100\n{}", jumping);
     for (int k = 0; k < runs(); ++k) {
       const Run& run = world_.runs[static_cast<std::size_t>(k)];
       t += fmt::format("\n# {} {}\n[[stage]]\nname = \"{}\"\n", reading_.short_place(run.where), run.text, stage(k));
@@ -535,6 +552,7 @@ class Translation {
   std::string data_name_;
   Particles particles_;
   GroupNames groups_;
+  Flat flat_;
   Translated result_;
   std::vector<Table> tables_;
   std::string presence_text_;
