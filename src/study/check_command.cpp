@@ -57,8 +57,7 @@ std::string describe(const Problem& problem, const Model& model) {
   const bool built = problem.study == StudyType::equilibrium && !model.restart;
   const State start = built ? model.start : starting_state(problem, energy);
   text += describe_contacts(model, energy, start);
-  for (const std::string& warning : doubts(problem, model)) text += "warning: " + warning + "\n";
-  for (const std::string& warning : deep_overlaps(model, energy, start)) text += "warning: " + warning + "\n";
+  for (const std::string& warning : warnings(problem, model, energy, start)) text += "warning: " + warning + "\n";
   for (const Group& g : model.groups)
     text += fmt::format("group '{}': {} particles{}\n", g.name, g.particles.size(), g.bodies.empty() ? "" : fmt::format(", {} bodies", g.bodies.size()));
   text += describe_motions(model);

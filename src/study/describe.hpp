@@ -26,9 +26,17 @@ std::vector<std::string> deep_overlaps(const Model& model, Energy& energy, const
 /// Warnings of friction, damping and drag in a study that has no motion.
 std::vector<std::string> idle_at_rest(const Problem& problem);
 
-/// Warnings of what a model is silent about: rest angles that are not straight where no plane gives them a sign, bonds without
-/// stiffness, and what acts in dynamics only in a study of equilibria.
+/// Warnings of what a model is silent about: units that look mixed, stiffnesses that reach beyond the digits of a force, rest angles that are
+/// not straight where no plane gives them a sign, bonds without stiffness, expectations that nothing at all would meet too, and what acts in
+/// dynamics only in a study of equilibria.
 std::vector<std::string> doubts(const Problem& problem, const Model& model);
+
+/// Warnings of particles that supports hold in all directions and drive into each other by more than a quarter of a diameter, between the
+/// first and the last load factor of a problem without stages (looked at every quarter of a diameter, at most 200 times).
+std::vector<std::string> driven_together(const Problem& problem, const Model& model);
+
+/// All warnings of a problem, before anything is solved: doubts, deep overlaps at the state, what supports drive into each other.
+std::vector<std::string> warnings(const Problem& problem, const Model& model, Energy& energy, const State& state);
 
 /// One or two lines for each contact law and each wall: its numbers, and who overlaps or is on the wrong side at `state`.
 std::string describe_contacts(const Model& model, Energy& energy, const State& state);

@@ -1,8 +1,6 @@
 #include "study/describe.hpp"
 
-#include "input/build_lammps.hpp"
 #include "laws/section.hpp"
-#include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "model/sheet.hpp"
 
@@ -221,36 +219,6 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     for (const Group& g : model.groups)
       if (g.name == t.group) text += fmt::format("glue: '{}' carries {} particles of '{}'\n", t.body, g.particles.size(), t.group);
   return text;
-}
-
-std::vector<std::string> doubts(const Problem& problem, const Model& model) {
-  std::vector<std::string> lines = idle_at_rest(problem);
-  for (const std::string& warning : lammps_remarks(problem).warnings) lines.push_back(warning);
-  for (const ExpectTable& e : problem.expect)
-    if (e.value != 0 && e.rtol * std::abs(e.value) + e.atol >= std::abs(e.value))
-      lines.push_back(Mistake{problem.file, e.place.line, e.place.column, e.place.key, fmt::format("the tolerance on {} is as large as the value: nothing at all would meet it, too", e.observable)}.sentence());
-  const auto remedy = [&](const Structure& s) {
-    const auto x = model.start.position.middleCols(s.first, s.count);
-    const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
-    for (const int c : {1, 2, 0})
-      if (sides[c] == 0) return fmt::format("; if it stays in its plane, write plane = \"{}\", which gives angles a sign", std::array{"yz", "xz", "xy"}[c]);
-    return std::string();
-  };
-  for (const Structure& s : model.structures) {
-    const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
-    const auto bent = [&](const Angle& a) {
-      return own(a.particles[1]) && model.angle_types[a.type].rest != pi && model.angle_types[a.type].stiffness != 0;
-    };
-    const auto slack = [&](const Bond& b) { return own(b.particles[0]) && model.bond_types[b.type].stiffness == 0; };
-    if (!model.plane_normal && std::any_of(model.angles.begin(), model.angles.end(), bent))
-      lines.push_back(fmt::format("{} '{}' has rest angles that are not straight; in space an angle has no sign and is at rest on either "
-                                  "side: a path may end where the structure becomes flat{}", s.kind, s.name, remedy(s)));
-    if (const auto first = std::find_if(model.bonds.begin(), model.bonds.end(), slack); first != model.bonds.end())
-      lines.push_back(fmt::format("{} of the bonds of {} '{}' have stiffness 0 and hold nothing; the first joins {} and {}",
-                                  std::count_if(model.bonds.begin(), model.bonds.end(), slack), s.kind, s.name,
-                                  called(model, first->particles[0]), called(model, first->particles[1])));
-  }
-  return lines;
 }
 
 std::string describe_motions(const Model& model) {

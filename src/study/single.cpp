@@ -141,8 +141,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
                                energy->model().angles.size(), energy->dofs(), energy->hessian().nonZeros()));
         if (setup > 0) return;
         for (const std::string& note : problem.notes) teller.log("note: " + note);
-        for (const std::string& warning : doubts(problem, model)) teller.warn(warning);
-        for (const std::string& warning : deep_overlaps(model, *energy, model.restart.value_or(model.start))) teller.warn(warning);
+        for (const std::string& warning : warnings(problem, model, *energy, model.restart.value_or(model.start))) teller.warn(warning);
         setup = total.seconds();
       },
       .point = [&](const PathPoint& point, bool last) {

@@ -68,3 +68,36 @@ TEST_CASE("an expectation that nothing at all would meet too is named with its p
   CHECK_THAT(expecting("rtol = 1e-3\n"), !Contains("as large as"));
   CHECK_THAT(expecting("atol = 0.4\n"), !Contains("as large as"));
 }
+
+TEST_CASE("units that look mixed and stiffnesses beyond the digits of a force are named", "[study][nonsense]") {
+  const ScratchDirectory scratch;
+  const auto checked = [&](const std::string& modulus, const std::string& thickness, const std::string& more) {
+    return elamin_says("check " + scratch.file("b.toml", "plane = \"xz\"\n[[beam]]\nname = \"b\"\nparticles = 12\nfrom = [0, 0, 0]\nto = [110, 0, 0]\ndiameter = " + thickness +
+                                                         "\ndensity = 1\nyoungs_modulus = " + modulus + "\n[[support]]\ngroup = \"b\"\n" + more)).text;
+  };
+  const std::string units = "as pascals and millimetres these do not go together", gravity = "with lengths in mm that is 9810";
+  CHECK_THAT(checked("1e6", "10", ""), Contains(units));
+  CHECK_THAT(checked("2e11", "0.4", ""), !Contains(units));                     // a steel beam in metres
+  CHECK_THAT(checked("1e6", "1e-3", ""), !Contains(units));
+  CHECK_THAT(checked("1", "10", "[[gravity]]\nacceleration = [0, 0, -9.81]\n"), Contains(gravity));
+  CHECK_THAT(checked("1", "10", "[[gravity]]\nacceleration = [0, 0, -9810]\n"), !Contains(gravity));
+  const std::string stiff = "[[bonds]]\npairs = [[3, 9]]\nbond_stiffness = ";
+  CHECK_THAT(checked("1", "10", stiff + "1e14\n"), Contains("times as stiff as the softest"));
+  CHECK_THAT(checked("1", "10", stiff + "1e9\n"), !Contains("times as stiff as the softest"));
+}
+
+TEST_CASE("supports that drive particles into each other are named, and ones that contradict each other refused", "[study][nonsense]") {
+  const ScratchDirectory scratch;
+  const auto checked = [&](const std::string& to, const std::string& more) {
+    return elamin_says("check " + scratch.file("pair.toml",
+        "[[grains]]\nname = \"g\"\npositions = [[0, 0, 3], [0, 0, -3]]\ndiameter = 2\n[[group]]\nname = \"one\"\nids = [1]\n[[group]]\nname = \"two\"\nids = [2]\n"
+        "[[contact]]\nbetween = [\"g\", \"g\"]\nyoungs_modulus = 1e5\npoissons_ratio = 0.3\n[[support]]\ngroup = \"one\"\ndisplacement = [0, 0, " + to + "]\n"
+        "[[support]]\ngroup = \"two\"\n" + more)).text;
+  };
+  const std::string sentence = "supports drive g 1 and g 2 into each other: at load factor";
+  CHECK_THAT(checked("-12", ""), Contains(sentence));                           // right through
+  CHECK_THAT(checked("-4.6", ""), Contains(sentence));
+  CHECK_THAT(checked("-4.1", ""), !Contains(sentence));
+  CHECK_THAT(checked("6", ""), !Contains(sentence));
+  CHECK_THAT(checked("-4", "[[support]]\ngroup = \"one\"\ndisplacement = [0, 0, 4]\n"), Contains("one coordinate has one displacement"));
+}
