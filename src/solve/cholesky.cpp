@@ -7,9 +7,12 @@
 #include "solve/ordering.hpp"
 
 #include <cholmod.h>
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <cassert>
+#include <fstream>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -33,6 +36,8 @@ cholmod_sparse view(const SparseMatrix& m) {
 // Unknowns from which on the graph of particles is ordered, which takes half the time of the graph of unknowns; below, milliseconds.
 constexpr Eigen::Index by_particles = 10'000;
 
+constexpr double checked_from = 1e9;             // bytes that are looked for before they are asked for
+
 std::span<const int> ints(const void* first, std::size_t count) { return {static_cast<const int*>(first), count}; }
 
 // The pattern of a supernodal factor; a view, no copy.
@@ -43,6 +48,19 @@ Supernodes supernodes(const cholmod_factor& l) {
 [[noreturn]] void cholmod_failed(const std::string& what, int status) {
   if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw OutOfMemory("there is not enough memory for a factor of the Hessian (CHOLMOD, " + what + ")");
   throw std::runtime_error("CHOLMOD: the " + what + " failed, status " + std::to_string(status));
+}
+
+// What programs can have without taking it from others [bytes]; infinity where the system does not tell.
+double free_memory() {
+  std::ifstream file("/proc/meminfo");
+  double free = 0, number = 0;
+  std::string word;
+  bool known = false;
+  while (file >> word) {
+    if (word != "MemAvailable:" && word != "SwapFree:") continue;
+    if (file >> number) free += 1024 * number, known = true;
+  }
+  return known ? free : std::numeric_limits<double>::infinity();
 }
 
 // CHOLMOD opens teams of four threads for loops of a few hundred numbers, whatever it is told: none while this lives.
@@ -87,9 +105,15 @@ struct Cholesky::Cholmod {
     if (!ok && common.status < 0) cholmod_failed("factorisation", common.status);
     return common.status == CHOLMOD_OK && factor->minor == factor->n;
   }
+  // For the numbers of the factor. A system that grants more memory than there is would end the program when they are written.
+  void make_room() {
+    const double room = 8.0 * static_cast<double>(factor->xsize);
+    if (const double free = room >= checked_from ? free_memory() : room; room > free)
+      throw OutOfMemory(fmt::format("there is not enough memory: a factor of the Hessian takes {:.1f} GB, {:.1f} GB are free", room / 1e9, free / 1e9));
+    if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common)) cholmod_failed("factorisation", common.status);
+  }
   bool by_fronts(const SparseMatrix& hessian, double shift) {
-    if (factor->xtype == CHOLMOD_PATTERN && !cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common))
-      cholmod_failed("factorisation", common.status);
+    if (factor->xtype == CHOLMOD_PATTERN) make_room();
     return fronts->factorize(hessian, shift, static_cast<double*>(factor->x));
   }
 };

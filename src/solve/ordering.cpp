@@ -54,10 +54,11 @@ std::vector<int> coupled_alike(const SparseMatrix& pattern) {
   return first;
 }
 
-std::vector<int> fill_reducing_order(const SparseMatrix& pattern) {
-  const std::vector<int> first = coupled_alike(pattern);
+namespace {
+
+// Of the sets of a pattern, the first of each and n in `first`.
+Order order_of_sets(const SparseMatrix& pattern, const std::vector<int>& first) {
   const int sets = static_cast<int>(first.size()) - 1, n = static_cast<int>(pattern.cols());
-  if (2 * sets > n) return {};
   std::vector<int> set(n);
   for (int s = 0; s < sets; ++s) std::fill(set.begin() + first[s], set.begin() + first[s + 1], s);
   std::vector<int> start{0}, row;                               // of the graph: the first column of each set tells
@@ -77,11 +78,29 @@ std::vector<int> fill_reducing_order(const SparseMatrix& pattern) {
     Order other = order_by(CHOLMOD_METIS, graph);
     if (!other.permutation.empty() && (best.permutation.empty() || other.entries < best.entries)) best = std::move(other);
   }
+  return best;
+}
+
+}  // namespace
+
+std::vector<int> fill_reducing_order(const SparseMatrix& pattern) {
+  const std::vector<int> first = coupled_alike(pattern);
+  const Eigen::Index sets = static_cast<Eigen::Index>(first.size()) - 1;
   std::vector<int> order;
-  order.reserve(n);
-  for (const int s : best.permutation)
+  if (2 * sets > pattern.cols()) return order;
+  order.reserve(pattern.cols());
+  for (const int s : order_of_sets(pattern, first).permutation)
     for (int i = first[s]; i < first[s + 1]; ++i) order.push_back(i);
   return order;
+}
+
+FactorSize factor_size(const SparseMatrix& pattern) {
+  const std::vector<int> first = coupled_alike(pattern);
+  const double sets = static_cast<double>(first.size()) - 1, m = sets > 0 ? pattern.cols() / sets : 0;
+  const Order order = sets > 0 ? order_of_sets(pattern, first) : Order{};
+  // A set with k in its column is m columns of m k, m k − 1, … m k − m + 1 entries.
+  return {m * m * order.entries - m * (m - 1) / 2 * sets,
+          m * m * m * order.operations - m * m * (m - 1) * order.entries + m * (m - 1) * (2 * m - 1) / 6 * sets};
 }
 
 }  // namespace elamin

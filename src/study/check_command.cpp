@@ -2,6 +2,7 @@
 
 #include "core/say.hpp"
 #include "input/build_lammps.hpp"
+#include "solve/ordering.hpp"
 #include "study/prepare.hpp"
 #include "study/describe.hpp"
 #include "study/trace.hpp"
@@ -34,6 +35,8 @@ std::string describe_stages(const Problem& problem) {
   return text;
 }
 
+constexpr int told_from = 100'000;               // free dofs from which on memory may matter
+
 }  // namespace
 
 std::string describe(const Problem& problem, const Model& model) {
@@ -41,6 +44,10 @@ std::string describe(const Problem& problem, const Model& model) {
   std::string text = fmt::format("{} particles, {}{} bonds, {} angles, {} free dofs{}\n", model.particles(),
                                  model.bodies.empty() ? "" : fmt::format("{} bodies, ", model.bodies.size()), model.bonds.size(),
                                  model.angles.size(), energy.dofs(), problem.plane.empty() ? "" : ", plane " + problem.plane);
+  if (energy.dofs() >= told_from) {
+    const FactorSize factor = factor_size(energy.hessian());
+    text += fmt::format("a factor of the Hessian takes about {:.2g} GB and {:.2g} operations\n", factor.bytes() / 1e9, factor.operations);
+  }
   if (problem.constants) {
     std::vector<std::string> numbers;
     for (const auto& [name, value] : problem.constants->numbers) numbers.push_back(fmt::format("{} = {:.10g}", name, value));

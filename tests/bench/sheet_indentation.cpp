@@ -7,9 +7,9 @@
 // solves in them; then the time of one assembly on one and on two threads, the heap allocations in it, and whether the
 // bits agree between one and two threads and between two runs. Fails if something does not converge, if on one thread,
 // where assembly takes longest, the share is below SHARE per cent, if an assembly allocates, or if bits differ.
+#include "clamped_sheet.hpp"
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
-#include "model/sheet.hpp"
 #include "solve/newton.hpp"
 
 #include <algorithm>
@@ -47,26 +47,15 @@ using namespace elamin;
 
 namespace {
 
-// Spacing, thickness and modulus 1; the sphere, of radius 10, touches the middle at load factor 0 and sinks by `depth`.
+// The sphere, of radius 10, touches the middle at load factor 0 and sinks by `depth`.
 Model indented_sheet(int rows, double depth) {
-  Model model;
-  Sheet sheet;
-  sheet.name = "sheet";
-  sheet.size = {rows - 1.0, (rows - 1) * std::sqrt(3) / 2};
-  sheet.spacing = sheet.diameter = 1;
-  sheet.bond_stiffness = std::sqrt(3) / 4, sheet.angle_stiffness = 1 / (8 * std::sqrt(3));
-  add_sheets(model, {sheet});
+  Model model = clamped_sheet(rows - 1.0, (rows - 1) * std::sqrt(3) / 2);
   Wall sphere;
   sphere.name = "sphere", sphere.inside = false, sphere.effective_modulus = 1;
   sphere.region.shape = Shape::sphere, sphere.region.radius = 10, sphere.region.center = Vec3(0, 0, 10.5);
   sphere.displacement = Vec3(0, 0, -depth);
-  Support edge;
-  for (int p = 0; p < model.particles(); ++p) {
-    sphere.particles.push_back(p);
-    const Vec3 x = model.start.position.col(p).cwiseAbs();
-    if (x[0] > sheet.size[0] / 2 - 0.9 || x[1] > sheet.size[1] / 2 - 0.9) edge.particles.push_back(p);
-  }
-  model.walls = {sphere}, model.supports = {edge};
+  for (int p = 0; p < model.particles(); ++p) sphere.particles.push_back(p);
+  model.walls = {sphere};
   return model;
 }
 

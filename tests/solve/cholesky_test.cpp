@@ -135,3 +135,18 @@ TEST_CASE("unknowns that are coupled alike are found, and an order of them is a 
   pairs.makeCompressed();
   CHECK(coupled_alike(pairs) == std::vector<int>{0, 2, 4});
 }
+
+TEST_CASE("what a factor takes is told beforehand", "[solve][cholesky]") {
+  const int n = 30;
+  SparseMatrix full(n, n), chain(n, n);
+  for (int j = 0; j < n; ++j) {
+    for (int i = j; i < n; ++i) full.insert(i, j) = 1;
+    for (int i = j; i < std::min(n, j + 2); ++i) chain.insert(i, j) = 1;
+  }
+  full.makeCompressed(), chain.makeCompressed();
+  CHECK(factor_size(full).entries == n * (n + 1) / 2);
+  CHECK(factor_size(full).operations == n * (n + 1) * (2 * n + 1) / 6);
+  CHECK(factor_size(chain).entries == 2 * n - 1);                              // a chain from its ends
+  CHECK(factor_size(chain).operations == 4 * (n - 1) + 1);
+  CHECK(factor_size(SparseMatrix(0, 0)).entries == 0);
+}
