@@ -65,20 +65,48 @@ Report Arc::correct(State& state, double s, const Equilibrium& nearest) const {
 
 Report Arc::settle(State& state, const Eigen::MatrixXd& held) const { return on_plane(state, held, nullptr); }
 
-// Where a wall presses so stiffly that forces change by more than they may within the spacing of the load factors that there are, no pair (x, λ)
-// fulfils both conditions: then the equilibrium at the load factor that has been reached is as near to the plane as rounding lets it be.
+namespace {
+
+// Whether forces change by less than a residual may be within the spacing of the load factors there; not where a wall that is moved
+// presses too stiffly.
+bool resolves_load(Newton& newton, const State& state) {
+  Energy& energy = newton.energy();
+  if (energy.model().walls.empty()) return true;
+  State next = state;
+  energy.kinematics().prescribe(next, state.load_factor * (1 + 4 * epsilon));
+  energy.evaluate(next, false);
+  const Vector there = energy.gradient();
+  energy.evaluate(state, false);
+  return energy.relative(there - energy.gradient()) <= newton.tolerance();
+}
+
+}  // namespace
+
+Report correct_across(Newton& newton, State& state, const Eigen::MatrixXd& held, const State* from, int most, Plane& across,
+                      const std::function<bool(const State&)>& lies_on) {
+  const bool resolved = resolves_load(newton, state);
+  Report report;
+  for (int k = 0; k < (resolved ? 1 : arc::most_rounds); ++k, from = nullptr) {
+    report = newton.correct(state, held, from, resolved ? most : arc::few_iterations, &across);
+    if (report.status != Status::not_converged) return report;
+    State fixed = state;
+    if (!lies_on(fixed)) continue;
+    const Report at_load = newton.correct(fixed, held, nullptr, most);
+    if (!at_load.converged() || !lies_on(fixed)) continue;
+    state = std::move(fixed);
+    return at_load;
+  }
+  return report;
+}
+
+// Steps that rounding turns are none.
 Report Arc::on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const {
   Plane across = plane();
-  const double wanted = position(state);
-  Report report = newton_.correct(state, held, from, arc::most_iterations, &across);
-  if (report.status != Status::not_converged || !(std::abs(position(state) - wanted) <= arc::off_plane * std::abs(wanted))) return report;
-  const double here = from_.point.state.load_factor, change = state.load_factor - here;
-  if (!(std::abs(change) > arc::resolved * epsilon * std::max(std::abs(here), std::abs(state.load_factor)))) return report;
-  State fixed = state;
-  const Report at_load = newton_.correct(fixed, held, nullptr, arc::most_iterations);
-  if (!at_load.converged() || !(std::abs(position(fixed) - wanted) <= arc::off_plane * std::abs(wanted))) return report;
-  state = std::move(fixed);
-  return at_load;
+  const double wanted = position(state), here = from_.point.state.load_factor;
+  return correct_across(newton_, state, held, from, arc::most_iterations, across, [&](const State& at) {
+    return std::abs(position(at) - wanted) <= arc::off_plane * std::abs(wanted) &&
+           std::abs(at.load_factor - here) > arc::resolved * epsilon * std::max(std::abs(here), std::abs(at.load_factor));
+  });
 }
 
 double Arc::load_rate(const Equilibrium& e) const {

@@ -27,6 +27,13 @@ double span(const Model& model);
 Direction direction_of(const Equilibrium& e, const Metric& metric, const Direction& along);
 double cosine(const Direction& a, const Direction& b, const Metric& metric);
 
+/// Newton's corrector on a surface across a branch. Where a wall that is moved presses so stiffly that forces change by more than they may
+/// within the spacing of the load factors, no pair (x, λ) fulfils both conditions: there a few iterations lead to the surface, and the
+/// equilibrium at the load factor that has been reached is as near to it as rounding lets it be, if it still `lies_on` it. Not converged:
+/// as Newton::correct.
+[[nodiscard]] Report correct_across(Newton& newton, State& state, const Eigen::MatrixXd& held, const State* from, int most, Plane& across,
+                                    const std::function<bool(const State&)>& lies_on);
+
 /// Equilibria on hyperplanes across a branch (Keller 1977):
 ///   g(x, λ) = 0,   t_x·(x − x₀)/L² + t_λ (λ − λ₀)/Λ² = s.
 class Arc {

@@ -339,6 +339,8 @@ void ArcSteps::rotate(const Candidate& c) {
   const bool kink = event && event->beyond, arrival = event && event->arrival, limit = is_critical(event) && event->kind == EventKind::limit;
   Direction next = direction_of(kink ? *event->beyond : c.e, metric_, direction_);
   if (kink && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
+  const bool contact = event && !kink && event->kind == EventKind::contact && event->before == event->after;
+  if (contact && sign_of(next.load) != sign_) next.x = -next.x, next.load = -next.load;        // the determinant keeps its sign
   if (arrival) next = passing(*event, metric_);                 // on along the side branch, to its other half
   if (arrival != limit) sign_ = -sign_;
   if (arrival || limit) next.load = std::copysign(next.load, sign_);      // else rounding's

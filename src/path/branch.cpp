@@ -117,7 +117,8 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
   const int after = c.e.point.stability.negative;
   const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
-  const bool turns = !c.natural && rises(c.e) != sign_;
+  const bool stays_stable = !c.events.empty() && negative_ == 0 && after == 0;      // up to a contact, behind which the tangent may be any other one
+  const bool turns = !c.natural && !stays_stable && rises(c.e) != sign_;
   if (after == negative_ && !turns) {
     if (negative_ == 0 && lower_already(newton_.energy(), current_, c.e))
       return why = "what lies beyond has a lower energy where the step begins: it is on another branch", false;

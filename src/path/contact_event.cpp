@@ -3,6 +3,7 @@
 #include "energy/body_touches.hpp"
 #include "energy/wall_group.hpp"
 #include "model/entities.hpp"
+#include "path/arc.hpp"
 #include "path/limits.hpp"
 #include "path/push.hpp"
 #include "path/root.hpp"
@@ -199,10 +200,14 @@ bool slope(const Energy& energy, const ContactKey& key, const State& state, doub
   if (key.other >= 0) add(key.other, -1);
   by_load = 0;
   for (int s = 0; s < kinematics.sites(); ++s) by_load += g.col(s).dot(kinematics.drive(s));
-  if (key.wall >= 0 && load_change != 0) {                      // a gap is linear in how far a wall has moved
-    State moved = state;
-    moved.load_factor += load_change;
-    by_load += (gap(energy, key, moved) - gap(energy, key, state)) / load_change;
+  if (key.wall >= 0 && load_change != 0) {                      // a gap is linear in how far a wall has moved, and none beyond a centre
+    const auto rate = [&](double change) {
+      State moved = state;
+      moved.load_factor += change;
+      return (gap(energy, key, moved) - gap(energy, key, state)) / change;
+    };
+    const double onward = rate(load_change);
+    by_load += std::isfinite(onward) ? onward : rate(-load_change);
   }
   row = kinematics.restrict(g);
   return row.allFinite() && std::isfinite(by_load);
@@ -234,7 +239,8 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
     // What is closed with less of an overlap than that has not lost it there.
     if (key.feature < 0) plane.close = std::min(plane.close, std::max(exact, left));
     state = aim > 0 ? moved_by(energy.kinematics(), guess, way, load_change, 2 * aim / rate) : guess;
-    report = newton.correct(state, from.zero_modes, nullptr, contact_event::most_closing, &plane);
+    report = correct_across(newton, state, from.zero_modes, nullptr, contact_event::most_closing, plane,
+                            [&](const State& at) { return std::abs(gap(energy, key, at) - aim) <= plane.close; });
     if (report.converged() || report.status == Status::interrupted) break;
   }
   if (!defined) report.status = Status::not_converged;
@@ -264,6 +270,14 @@ std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey
   const double part = -here / rate;
   if (!(part > 0 && part <= 1)) return {};
   return at(part);
+}
+
+// Whether a contact that is made at one equilibrium overlaps on the way towards another one, as its tangent tells: where it is open it has
+// been lost between.
+bool closes_further(const Energy& energy, const ContactKey& key, const Equilibrium& from, const Equilibrium& towards) {
+  const double load_change = towards.point.state.load_factor - from.point.state.load_factor;
+  const State ahead = moved_by(energy.kinematics(), from.point.state, load_change * from.tangent, load_change, contact_event::little);
+  return gap(energy, key, ahead) < -contact_event::rounding * size_of(energy.model(), key.particle);
 }
 
 // Where what floats is pushed until a gap is next to nothing, by the secant from the side where it is open: beyond, the gap stays none, and no Newton's
@@ -350,6 +364,8 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   for (const ContactKey& key : difference(ContactSet(now), closed_contacts(energy, b))) {
     if (a.slack && b.slack && now.count(key)) continue;
     const double ga = gap(key, a.point.state), gb = gap(key, b.point.state);
+    const bool made_and_lost = !a.slack && key.feature < 0 && now.count(key) && ga >= 0 && gb > 0 && closes_further(energy, key, a, b);
+    if (made_and_lost) return ContactChange{};                   // a shorter step
     if (other_side(ga, gb) && std::isfinite(ga) && std::isfinite(gb)) changed.push_back(key);
     else toggle(now, key);                    // it changes at `a`, which is an event already, or fades out at the end of an edge
   }
@@ -441,7 +457,9 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
       candidates.insert(key);
       const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
       const bool closed = before.count(key) > 0;
-      const bool at = std::abs(here) <= contact_event::together * size_of(model, key.particle);
+      // What is closed may overlap by no more than that everywhere: it changes here if it bears nothing.
+      const bool bears = closed && here < 0 && key.feature < 0 && !rounding_bears(newton, key, from);
+      const bool at = !bears && std::abs(here) <= contact_event::together * size_of(model, key.particle);
       const bool stays = (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle);
       if (at ? stays : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);

@@ -34,7 +34,8 @@ constexpr double widest = 0.5;  // of the chord, to the side and beyond its ends
 
 /// Correctors across a branch.
 namespace arc {
-constexpr int most_iterations = 16;  // of a corrector
+constexpr int most_iterations = 16;  // of a corrector; …
+constexpr int few_iterations = 4, most_rounds = 4;  // … where load factors do not resolve forces, and how often
 constexpr double off_plane = 1e-9;  // of the step: rounding
 constexpr double resolved = 1e6;  // spacings of the load factors: a step that rounding does not turn
 constexpr double least_cosine = 0.1;  // between the directions at two samples of a segment
@@ -98,6 +99,8 @@ constexpr int most_iterations = 16;  // of a corrector between two equilibria
 constexpr double vanished = 1e-2;  // of the eigenvalues at both ends: where rounding hides which is zero
 constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
 constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
+constexpr double work_rounding = 1e-10;  // of a load: its work along a critical mode as far as that is known; and …
+constexpr double of_limit = 0.1;  // … of the eigenvalue times the way to it: the work of the load at a limit point, a parabola having 0.5
 constexpr int more_modes = 2;  // partners of a multiple one, so that a neighbour knows them
 constexpr int most_multiple = 6;  // eigenvalues that vanish together
 constexpr int most_narrowings = 6;  // of the segment on which a side branch arrives, …

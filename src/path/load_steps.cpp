@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "path/carry.hpp"
 #include "path/limits.hpp"
+#include "path/locate.hpp"
 
 #include <fmt/format.h>
 

@@ -95,14 +95,28 @@ void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, co
   e.tangent = newton.factors().solve_holding(-newton.energy().load_derivative());
 }
 
-// turns: of the load factor on the segment; nothing: it does not tell.
-Event finish(Newton& newton, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known, std::optional<bool> turns) {
+// Whether the branch from an equilibrium, at which the eigenvalue is `value`, comes to a limit point here rather than to a branch point,
+// however little of the load does work w along the critical mode, as where a structure is stiff along the load:  g = w (λ − λ*) + w c a²
+// over the amplitude a has its zeros at  w (λ − λ*) = −μ a/2; at a branch point w = 0.
+bool comes_to_limit(const Kinematics& kinematics, const Equilibrium& from, double value, const Equilibrium& at,
+                    const Eigen::MatrixXd& modes, const Vector& load) {
+  if (modes.cols() != 1) return false;
+  const double w = std::abs(modes.col(0).dot(load)), change = at.point.state.load_factor - from.point.state.load_factor;
+  const double way = kinematics.difference(from.point.state, at.point.state).norm();
+  return w > locate::work_rounding * load.norm() && w * std::abs(change) > locate::of_limit * std::abs(value) * way;
+}
+
+// turns: of the load factor on the segment; nothing: it does not tell. from, value: where the segment begins, and the eigenvalue there.
+Event finish(Newton& newton, const Equilibrium& from, double value, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known,
+             std::optional<bool> turns) {
   Event event;
   event.modes = critical_modes(newton, at, index, scale, known);
   newton.energy().evaluate(at.point.state);
-  const double work = work_along(event.modes, newton.energy().load_derivative());
-  const bool limit = turns.value_or(work > locate::orthogonal);
-  if (!limit && work > locate::orthogonal) event.modes.resize(event.modes.rows(), 0);       // nor a branch point: two branches pass by each other
+  const Vector load = newton.energy().load_derivative();
+  const bool works = work_along(event.modes, load) > locate::orthogonal ||
+                     comes_to_limit(newton.energy().kinematics(), from, value, at, event.modes, load);
+  const bool limit = turns.value_or(works);
+  if (!limit && works) event.modes.resize(event.modes.rows(), 0);       // nor a branch point: two branches pass by each other
   event.kind = limit && event.modes.cols() == 1 ? EventKind::limit : EventKind::branch;
   hold_modes(newton, at, known, event.kind == EventKind::branch ? event.modes : Eigen::MatrixXd());
   at.point.multiplicity = static_cast<int>(event.modes.cols());
@@ -130,7 +144,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   };
   Sample lower{segment.a, eigenvalue(newton, first, index), first};
   if (std::abs(lower.f) <= newton.factors().zero_level() && a.point.stability.critical > 0)       // a is the event itself
-    return done(finish(newton, first, index, newton.factors().zero_level(), known, told), segment.a);
+    return done(finish(newton, first, lower.f, first, index, newton.factors().zero_level(), known, told), segment.a);
   Sample upper{segment.b, eigenvalue(newton, second, index), second};
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
@@ -157,7 +171,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   });
   // Small beside both ends, too: of slender chains all that decides is below the zero level.
   if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale))) return {};
-  Event event = finish(newton, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
+  Event event = finish(newton, first, lower.f, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   return done(std::move(event), zero->t);
 }

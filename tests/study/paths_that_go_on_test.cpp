@@ -703,3 +703,62 @@ TEST_CASE("a contact is not lost where it was made", "[paths][two_beams_stiff]")
     same_events(first, run);
   }
 }
+
+// What moves a wall by the spacing of load factors moves forces by more than a residual may be.
+TEST_CASE("a plate presses a ring however stiff it is and however short the steps", "[paths][ring_pressed_stiffly]") {
+  constexpr double radius = 2.36938e-05, diameter = 3.9714858789078796e-07, plate = 2.6107753294637083e-05, down = 1.2111658574067991e-05;
+  for (const int n : {20, 151, 200}) {
+    const Run run("ring_pressed_stiffly", {in_steps(n), by_arcs, follows});
+    CHECK_ENDS_AT(run, 1);
+    REQUIRE(run.events.size() == 1);
+    CHECK(run.of("contact").front()["lambda"] == Approx((plate - radius - diameter / 2) / down).epsilon(to_events));
+    CHECK(run.path.size() < static_cast<std::size_t>(2 * n));
+  }
+}
+
+TEST_CASE("the place of a contact that hardly anything tells does not depend on the steps", "[paths][ring_meets_plate_twice]") {
+  const Run first("ring_meets_plate_twice", {in_steps(86), by_load_steps, snaps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 2);
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {3, 7, 20}) {
+      const Run run("ring_meets_plate_twice", {in_steps(n), method, snaps});
+      CHECK_ENDS_AT(run, 1);
+      same_events(first, run);
+    }
+}
+
+TEST_CASE("the load turns where a stiff contact is lost that kept a branch stable, whatever the steps", "[paths][two_beams_let_go]") {
+  const Run first("two_beams_let_go", {in_steps(120)});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(!first.of("limit").empty());
+  for (const int n : {17, 40, 71}) {
+    const Run run("two_beams_let_go", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    same_events(first, run);
+  }
+}
+
+TEST_CASE("a contact that is made and lost within a step is told", "[paths][two_beams_meet_briefly]") {
+  const Run first("two_beams_meet_briefly", {in_steps(72), by_load_steps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 4);
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {3, 5}) {
+      const Run run("two_beams_meet_briefly", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      same_events(first, run);
+    }
+}
+
+TEST_CASE("a limit point is none of a branch though the load does hardly any work along its mode, whatever the steps", "[paths][two_beams_hardly_pushed]") {
+  const Run first("two_beams_hardly_pushed", {in_steps(18)});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("limit").size() == 2);
+  CHECK(first.of("branch").empty());
+  for (const int n : {10, 14, 40}) {
+    const Run run("two_beams_hardly_pushed", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    same_events(first, run);
+  }
+}
