@@ -73,6 +73,11 @@ constexpr int most_saddles = 20, most_sharpening = 20;
 constexpr int packing = 20, newton_alone = 50;
 /// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor: overlaps shrink to a fifth.
 constexpr double wanted_overlap = 0.01, stiffer = 10;
+/// The residual that is enough of softened contacts: where their overlaps are off by a thousandth, stiffer ones are found as well.
+constexpr double softened_tolerance = 1e-3;
+/// Steps of a descent within which the energy must fall (Grippo, Lampariello, Lucidi 1986, SIAM J. Numer. Anal. 23): an overlap shrinks by two
+/// decades in as many.
+constexpr std::size_t falls_within = 6;
 /// The longest step, of the smallest diameter: less than takes a grain past another one.
 constexpr double settling_step = 0.3;
 /// The least shift that is tried, of the one that keeps a step within bounds where nothing else resists.

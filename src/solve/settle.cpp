@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 namespace elamin {
@@ -50,6 +51,7 @@ class Descend {
   // Whether the residual gets below the tolerance.
   bool to(State& state, double tolerance, int most) {
     energy_.evaluate(state);
+    lately_ = {energy_.last_terms().total()};
     for (int k = 0, refused = 0; k < most && !interrupted(); ++k) {
       const double residual = energy_.relative(energy_.gradient());
       report_.history.push_back({energy_.last_terms().total(), residual, moved_, shift_});
@@ -62,21 +64,24 @@ class Descend {
   }
 
  private:
-  // The smallest shift, of a short list that begins below the last one, with which H + τI is positive definite and the step within reach.
+  // The smallest shift, of a short list that begins below the last one, farther where that was the first to be tried, with which H + τI is
+  // positive definite and the step within reach.
   bool shifted_step(const Vector& g, Vector& p) {
     const double stiff = infinity_norm(g) / step_bound_, least = limits::least_shift * stiff;
-    const double first = shift_ / 8 > least ? shift_ / 8 : 0.0;
+    const double below = shift_ / (at_once_ ? 8 : 2), first = below > least ? below : 0.0;
     for (double shift = first; std::isfinite(shift) && !interrupted(); shift = std::max(4 * shift, least)) {
       if (!factors_.try_cholesky(shift)) continue;
       p = -factors_.cholesky().solve(g);
       if (!p.allFinite() || infinity_norm(p) > 2 * step_bound_) continue;
-      shift_ = shift;
+      shift_ = shift, at_once_ = shift == first;
       return true;
     }
     return false;
   }
 
-  // Takes a step if the energy falls as predicted, or, where rounding hides that, the residual; and chooses how long the next one may be.
+  // Takes a step if the energy falls as predicted below the highest of the last few, or, where rounding hides that, the residual; and chooses
+  // how long the next one may be. A grain that is met in a step overlaps too deeply at first, and the overlap shrinks to a third a step: an
+  // energy that must fall at once forbids that.
   bool step(State& state) {
     const Vector g = energy_.gradient();
     const double before = energy_.last_terms().total(), rounding = 16 * epsilon * energy_.last_terms().size();
@@ -88,13 +93,16 @@ class Descend {
     energy_.evaluate(next);
     ++report_.evaluations;
     const double change = energy_.last_terms().total() - before;
+    const double above = std::max(0.0, *std::max_element(lately_.begin(), lately_.end()) - before);
     const bool hidden = std::abs(predicted) <= rounding;
-    if (hidden ? !(infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(g)) : !(change <= limits::armijo * predicted)) {
+    if (hidden ? !(infinity_norm(energy_.gradient()) < 0.9 * infinity_norm(g)) : !(change <= above + limits::armijo * predicted)) {
       step_bound_ = length / 4;
       energy_.evaluate(state);
       return false;
     }
     state = std::move(next), moved_ = length;
+    lately_.push_back(energy_.last_terms().total());
+    if (lately_.size() > limits::falls_within) lately_.pop_front();
     if (change <= predicted / 2) step_bound_ = std::min(farthest_, std::max(step_bound_, 2 * length));
     else if (change > predicted / 4) step_bound_ = length / 2;
     return true;
@@ -104,6 +112,8 @@ class Descend {
   Factors& factors_;
   const double farthest_;
   double step_bound_, shift_ = 0, moved_ = 0;
+  bool at_once_ = false;                         // the last shift was the first that was tried
+  std::deque<double> lately_;                    // energies
   Report& report_;
 };
 
@@ -126,9 +136,9 @@ Report settle(Newton& newton, State& state, int most) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const int d : energy.unbonded_dofs()) smallest = std::min(smallest, model.diameter[energy.kinematics().site_of(d)]);
   const double farthest = limits::settling_step * smallest, first = first_part(energy, state);
-  const auto descend = [&](Energy& in, Factors& factors) {
+  const auto descend = [&](Energy& in, Factors& factors, double tolerance) {
     const int before = factors.factorizations();
-    const bool there = Descend(in, factors, farthest, report).to(state, newton.tolerance(), most);
+    const bool there = Descend(in, factors, farthest, report).to(state, tolerance, most);
     report.factorizations += factors.factorizations() - before;
     return there;
   };
@@ -137,9 +147,10 @@ Report settle(Newton& newton, State& state, int most) {
     const Model soft = softened(model, part);
     Energy in(soft);
     Factors factors(in);
-    if (!descend(in, factors) && !falling(in).empty()) break;   // what falls without end falls in stiffer contacts as well
+    const bool there = descend(in, factors, std::max(newton.tolerance(), limits::softened_tolerance));
+    if (!there && !falling(in).empty()) break;                  // what falls without end falls in stiffer contacts as well
   }
-  if (falling(energy).empty()) descend(energy, newton.factors());
+  if (falling(energy).empty()) descend(energy, newton.factors(), newton.tolerance());
   Report last = newton.minimise(state);
   report.history.insert(report.history.end(), last.history.begin(), last.history.end());
   last.history = std::move(report.history);
