@@ -6,17 +6,13 @@
 #include "figures/figure.hpp"
 #include "input/key_tree.hpp"
 #include "report/report.hpp"
-#include "results/ink.hpp"
+#include "results/terminal.hpp"
 #include "results/summary.hpp"
-#include "study/check_command.hpp"
+#include "study/commands.hpp"
 #include "study/compare.hpp"
-#include "study/energy_command.hpp"
-#include "study/export_command.hpp"
-#include "study/import_command.hpp"
 #include "study/resume.hpp"
 #include "study/run.hpp"
-#include "study/sweep_parts.hpp"
-#include "study/verify_command.hpp"
+#include "study/sweep.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

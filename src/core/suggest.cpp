@@ -119,4 +119,8 @@ std::string in_quotes(const std::string& word) {
   return text + '"';
 }
 
+std::string there_are(const std::vector<std::string>& words, const std::string& word) {
+  return (words.empty() ? "there is none" : "there are: " + listed(words)) + did_you_mean(word, words);
+}
+
 }  // namespace elamin

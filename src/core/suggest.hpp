@@ -12,6 +12,9 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 /// `a, b, c`; a long list is cut short.
 std::string listed(const std::vector<std::string>& words);
 
+/// `there are: a, b; did you mean "a"?` of the words that `word` might have been; `there is none`.
+std::string there_are(const std::vector<std::string>& words, const std::string& word);
+
 /// `"a", "b" or "c"`.
 std::string quoted_choice(const std::vector<std::string>& words);
 

@@ -1,11 +1,13 @@
 #include "core/text.hpp"
 
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 
 #include <openssl/evp.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -120,6 +122,18 @@ std::string sha256(const std::string& bytes) {
   for (unsigned i = 0; i < length; ++i)
     for (const int digit : {digest[i] >> 4, digest[i] & 15}) text += "0123456789abcdef"[digit];
   return text;
+}
+
+std::optional<double> finite_number(std::string_view word, std::string& why) {
+  const std::string shown = in_quotes(std::string(word));
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::result_out_of_range) why = shown + " is too large or too small for a floating-point number";
+  else if (error != std::errc{} || end != word.data() + word.size()) why = shown + " is not a number";
+  else if (!std::isfinite(value)) why = shown + " is not finite";
+  else return value;
+  return std::nullopt;
 }
 
 }  // namespace elamin

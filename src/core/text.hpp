@@ -2,6 +2,8 @@
 // The bytes of a file, before anything is known of them.
 #include "core/place.hpp"
 
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +29,15 @@ bool is_text(const std::string& bytes);
 
 /// Line and column, in characters from 1, of the byte at an offset.
 Place place_in(const std::string& text, std::size_t offset);
+
+/// Whether the whole word is a number that the type can hold, which is then in `number`; a sign + is none of it.
+template <class Number> bool reads_as(std::string_view word, Number& number) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
+/// The finite number that a word of a file is, perhaps with a sign +; else `why` says what is wrong with it.
+std::optional<double> finite_number(std::string_view word, std::string& why);
 
 /// SHA-256, as 64 hexadecimal digits.
 std::string sha256(const std::string& bytes);

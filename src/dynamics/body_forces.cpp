@@ -1,6 +1,6 @@
 #include "dynamics/body_forces.hpp"
 
-#include "dynamics/carry.hpp"
+#include "dynamics/motion.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/body_groups.hpp"
 #include "laws/rounded/closest.hpp"
@@ -11,7 +11,6 @@
 namespace elamin {
 
 namespace {
-
 
 RoundedFriction friction_of(const RoundedDamping& d, const RoundedKernel& kernel) {
   return {d.normal, d.tangential, d.friction, kernel.normal, d.slip, d.apart};

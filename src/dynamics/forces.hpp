@@ -1,13 +1,33 @@
 #pragma once
 // All forces of a model on plain doubles, as fast as they come: without energies, exact tails, or anything allocated.
 #include "dynamics/body_forces.hpp"
+#include "dynamics/columns.hpp"
 #include "dynamics/edge_forces.hpp"
-#include "dynamics/other_forces.hpp"
 #include "dynamics/wall_forces.hpp"
+#include "energy/element_group.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace elamin {
+
+// What has no fast way of its own: rest angles, pressures, angles that share an edge's end with another one.
+
+/// Forces of the bonds and angles that an EdgeOrder left out and of the pressures, by way of the groups of the energy.
+class OtherForces {
+ public:
+  OtherForces(const Model& model, const EdgeOrder& order, double load_factor);
+  static bool needed(const Model& model, const EdgeOrder& order) {
+    return !order.bonds.empty() || !order.angles.empty() || !model.pressures.empty();
+  }
+  void add(const Columns& x, Rows& force);
+
+ private:
+  Model part_;                                  // the model with nothing but these bonds, angles and pressures
+  std::vector<std::unique_ptr<ElementGroup>> groups_;
+  State state_;
+  std::vector<double> value_, gradient_;
+};
 
 /// The forces at a load factor that stays. prepare() finds what particles push on each other; what is left is done for four
 /// particles at a time by whoever moves them, so that everything is still near when it is wanted again: see on().

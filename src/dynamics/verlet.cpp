@@ -2,8 +2,8 @@
 
 #include "core/exact.hpp"
 #include "core/interrupt.hpp"
-#include "dynamics/body_steps.hpp"
-#include "dynamics/carry.hpp"
+#include "dynamics/moving_bodies.hpp"
+#include "dynamics/motion.hpp"
 #include "dynamics/forces.hpp"
 #include "energy/kinematics.hpp"
 

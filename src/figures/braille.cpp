@@ -1,4 +1,4 @@
-#include "figures/braille.hpp"
+#include "figures/diagram.hpp"
 
 #include <fmt/format.h>
 

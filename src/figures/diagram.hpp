@@ -1,6 +1,6 @@
 #pragma once
 // What a run found, as curves of one column of its tables against another.
-#include "figures/axes.hpp"
+#include "figures/drawing.hpp"
 #include "results/table.hpp"
 
 #include <string>
@@ -8,6 +8,39 @@
 #include <vector>
 
 namespace elamin {
+
+// Two axes with their ticks.
+
+/// A range of numbers; what is added to it widens it.
+struct Extent {
+  double lo = 1, hi = 0;               // lo > hi: empty
+  bool empty() const { return lo > hi; }
+  void add(double v);
+};
+
+/// A range for an axis: with a little room on both sides; numbers that differ by rounding alone are one.
+Extent with_room(const Extent& range);
+
+/// Numbers on an axis: 1, 2 or 5 times a power of ten apart, five or so, as multiples of 10^exponent.
+struct Ticks {
+  std::vector<double> values;
+  std::vector<std::string> labels;
+  int exponent = 0;
+};
+Ticks ticks_of(const Extent& range, bool whole = false);
+
+/// A frame on the page, and where numbers are in it.
+struct PlotArea {
+  Vec2 lo, hi;                         // corners on the page: left and low, right and high
+  Extent x, y;
+  bool whole_x = false;                // ticks at whole numbers only
+  Vec2 at(double u, double v) const {
+    return {lo.x() + (u - x.lo) / (x.hi - x.lo) * (hi.x() - lo.x()), lo.y() + (v - y.lo) / (y.hi - y.lo) * (hi.y() - lo.y())};
+  }
+};
+
+/// Draws the frame with its ticks and names.
+void draw_axes(Drawing& drawing, const PlotArea& frame, const std::string& x, const std::string& y);
 
 struct Curve {
   enum class Kind { stable, unstable, snap, points };     // points: each by itself, of a sweep
@@ -48,5 +81,11 @@ Diagram sweep_diagram(const Table& sweep, const Axes& axes, const std::string& f
 
 /// Draws it with axes and legend into a rectangle of the page. Returns the lower end of all that.
 double draw_diagram(Drawing& drawing, const Diagram& diagram, const Vec2& corner, double width, double height);
+
+// A diagram in characters, for a terminal.
+
+/// Lines of `width` characters at most and height + 3 of them: the curves in dots of braille, 2 × 4 a character (unstable ones
+/// with gaps, snaps dotted), events as letters, the ends of both axes, and below what the letters mean.
+std::string braille(const Diagram& diagram, int width, int height);
 
 }  // namespace elamin

@@ -51,4 +51,8 @@ const std::string& colour(int index);
 /// Leaves out of a line what is nearer to it than `tolerance` [Douglas, Peucker 1973].
 Polyline thinned(const Polyline& line, double tolerance);
 
+/// Writes a figure as a PDF, lines as lines and words as text, by the program rsvg-convert. Throws InputError, which names its
+/// package, if that is not there, or if the file cannot be written.
+void write_pdf(const std::string& svg, const std::string& file);
+
 }  // namespace elamin

@@ -2,9 +2,9 @@
 
 #include "core/error.hpp"
 #include "core/text_file.hpp"
-#include "figures/braille.hpp"
-#include "figures/pdf.hpp"
-#include "figures/shapes.hpp"
+#include "figures/diagram.hpp"
+#include "figures/drawing.hpp"
+#include "figures/scene.hpp"
 #include "results/results_directory.hpp"
 #include "results/stored_run.hpp"
 

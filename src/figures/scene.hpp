@@ -1,5 +1,6 @@
 #pragma once
 // What a stored state looks like: particles, bonds, bodies and walls, from the files that a run leaves beside it.
+#include "figures/drawing.hpp"
 #include "laws/region.hpp"
 
 #include <string>
@@ -26,5 +27,12 @@ Scene read_scene(const std::string& directory, const std::string& label);
 
 /// Edges and outlines of a wall's surface in space, as far as it goes through a box: lines.
 std::vector<std::vector<Vec3>> outlines(const Region& wall, const Eigen::AlignedBox3d& box);
+
+// States side by side, in one scale.
+
+/// Draws the scenes in rows of equal panels between two sides of the page: particles as discs, bonds coloured by tension with a scale below,
+/// bodies, walls. What lies in a plane of two axes is seen along the third, all else from a fixed direction, 30° beside −y and 20° above.
+/// Returns the lower end of all that.
+double draw_shapes(Drawing& drawing, const std::vector<Scene>& scenes, const Vec2& corner, double width);
 
 }  // namespace elamin

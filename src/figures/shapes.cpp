@@ -1,4 +1,4 @@
-#include "figures/shapes.hpp"
+#include "figures/scene.hpp"
 
 #include "laws/section.hpp"
 

@@ -1,7 +1,7 @@
 #include "input/beam.hpp"
 
 #include "input/csv.hpp"
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "model/centerline.hpp"
 #include "model/geometry.hpp"
 
@@ -53,7 +53,7 @@ std::optional<std::vector<Vec3>> curve_of(const BeamTable& table, Mistakes& mist
 }
 
 void check_arch(BeamTable& b, bool in_plane, Mistakes& mistakes) {
-  const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
+  const auto written = [&](const char* key) { return b.place.written(key); };
   const bool is_arch = written("rise") || written("angle");
   if (is_arch && !(written("from") && written("to")))
     mistakes.add(b.place, written("rise") ? "rise" : "angle",
@@ -104,8 +104,12 @@ void describe(Keys& keys, BeamTable& t) {
 }
 
 void check(BeamTable& b, bool in_plane, Mistakes& mistakes) {
-  const auto written = [&](const char* key) { return b.place.keys.count(key) > 0; };
+  const auto written = [&](const char* key) { return b.place.written(key); };
   const bool ends = written("from") || written("to"), middle = written("center") || written("axis");
+  const auto need_both = [&](const char* first, const char* second) {
+    for (const auto& [key, other] : {std::pair(first, second), {second, first}})
+      if (!written(key)) mistakes.add(b.place, key, fmt::format("is missing beside {}; it must be a list of three numbers [x, y, z]", other));
+  };
   const char* const line = written("through") ? "through" : written("points") ? "points" : written("file") ? "file" : nullptr;
   if (line && (ends || middle)) {
     mistakes.add(b.place, line, "gives the place; leave out from, to, center and axis");
@@ -116,18 +120,12 @@ void check(BeamTable& b, bool in_plane, Mistakes& mistakes) {
     if (b.through) check_corners(b.place, "through", *b.through, mistakes);
     if (b.points) check_corners(b.place, "points", *b.points, mistakes);
   } else if (ends) {
-    if (!written("from"))
-      mistakes.add(b.place, "from", "is missing beside to; it must be a list of three numbers [x, y, z]");
-    if (!written("to"))
-      mistakes.add(b.place, "to", "is missing beside from; it must be a list of three numbers [x, y, z]");
+    need_both("from", "to");
     if (written("spacing")) mistakes.add(b.place, "spacing", "follows from from, to and particles; leave it out");
     if (b.from && b.to && *b.from == *b.to)
       mistakes.add(b.place, "to", "is the same point as from; a beam has a length");
   } else if (middle) {
-    if (!written("center"))
-      mistakes.add(b.place, "center", "is missing beside axis; it must be a list of three numbers [x, y, z]");
-    if (!written("axis"))
-      mistakes.add(b.place, "axis", "is missing beside center; it must be a list of three numbers [x, y, z]");
+    need_both("center", "axis");
     if (b.axis) check_direction(b.place, "axis", *b.axis, mistakes);
   } else {
     mistakes.add(b.place, "its place is missing; give from and to, or center, axis and spacing, or through, points or file");

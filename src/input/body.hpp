@@ -3,7 +3,6 @@
 #include "input/keys.hpp"
 #include "laws/section.hpp"
 
-
 namespace elamin {
 
 /// A rotation by an angle about an axis.
@@ -44,6 +43,8 @@ struct GlueTable {
 };
 
 void describe(Keys& keys, TurnTable& t);
+/// Also of the table that it is in.
+void check(std::optional<TurnTable>& turn, TablePlace& of, Mistakes& mistakes);
 void describe(Keys& keys, BodyTable& t);
 void describe(Keys& keys, GlueTable& t);
 

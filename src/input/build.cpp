@@ -1,12 +1,8 @@
 #include "input/build.hpp"
 
-#include "input/bodies.hpp"
-#include "input/build_checks.hpp"
-#include "input/acting.hpp"
-#include "input/interactions.hpp"
-#include "input/groups.hpp"
-#include "input/build_lammps.hpp"
-#include "input/structures.hpp"
+#include "input/parts.hpp"
+#include "input/group.hpp"
+#include "input/lammps.hpp"
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
 
@@ -42,7 +38,9 @@ class Builder {
     if (p_.in_time()) need_masses(p_, model_, mistakes_);
     holding = add_supports(p_, groups, model_, mistakes_) && holding;
     add_loads(p_, groups, model_, mistakes_);
-    const bool contacts = add_contacts(p_, groups, model_, mistakes_);
+    add_motion(p_, groups, model_, mistakes_);
+    bool contacts = add_contacts(p_, groups, model_, mistakes_);
+    contacts = add_walls(p_, groups, model_, mistakes_) && contacts;
     if (contacts) check_observed(p_, groups, model_, mistakes_);
     holding = contacts && holding;
     model_.groups = groups.groups();

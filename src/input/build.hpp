@@ -1,7 +1,7 @@
 #pragma once
 // From what the file says to a structure: particles, bonds, angles, who is held and who is loaded.
 #include "model/model.hpp"
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/problem.hpp"
 
 namespace elamin {

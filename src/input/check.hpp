@@ -1,6 +1,6 @@
 #pragma once
 // What can be said of a problem before anything is built: names, references, and keys that go together or do not.
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/problem.hpp"
 
 #include <optional>

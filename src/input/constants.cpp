@@ -121,9 +121,7 @@ class Calculation {
       return **constant;
     }
     if (constants_.is_later(name)) throw Wrong{"where " + in_quotes(name) + " stands further down; a constant uses those above it"};
-    const std::vector<std::string> names = constants_.names();
-    throw Wrong{"where " + in_quotes(name) + " is no constant; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
-                did_you_mean(name, names)};
+    throw Wrong{"where " + in_quotes(name) + " is no constant; " + there_are(constants_.names(), name)};
   }
   void open(const std::string& name) {
     if (!take('(')) throw Wrong{fmt::format("where {} is a function: {}(…)", name, name)};

@@ -1,5 +1,14 @@
 #include "input/contact.hpp"
 
+#include "dynamics/contact_damping.hpp"
+#include "input/parts.hpp"
+#include "model/entities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace elamin {
 
 namespace {
@@ -82,6 +91,177 @@ void describe(Keys& keys, ContactTable& t) {
   keys.either("law", {{{"hertz"}, "law \"hertz\"", t.law == "hertz", [&] { describe_hertz(keys, t), exclude(); }},
                       {{"lj"}, "law \"lj\"", t.law == "lj", [&] { describe_cohesion(keys, t), exclude(); }},
                       {{"rounded"}, "law \"rounded\"", t.law == "rounded", [&] { describe_rounded(keys, t); }}});
+}
+
+void check_damping(TablePlace& place, const DampingKeys& d, Mistakes& mistakes) {
+  using Way = ContactDamping::Model;
+  const auto wrong = [&](const char* key, const char* what) { mistakes.add(place, key, what); };
+  if (d.model == Way::none) {
+    if (d.coefficient) wrong("damping_coefficient", "is of no use without damping: \"velocity\", \"mass_velocity\" or \"viscoelastic\"");
+    if (d.restitution) wrong("restitution", "is of no use without damping = \"tsuji\"");
+    if (d.friction > 0) wrong("friction", "needs damping, which limits it at small sliding velocities");
+  } else if (d.model == Way::tsuji) {
+    if (d.coefficient) wrong("damping_coefficient", "is not for damping = \"tsuji\", which has restitution");
+    if (!d.restitution) wrong("restitution", "is missing; damping = \"tsuji\" needs a number between 0 and 1");
+  } else {
+    if (d.restitution) wrong("restitution", "is for damping = \"tsuji\" only; give damping_coefficient");
+    if (!d.coefficient) wrong("damping_coefficient", "is missing; it must be a number not below 0");
+  }
+}
+
+void check_hard(const Problem& problem, TablePlace& place, Mistakes& mistakes) {
+  for (const char* key : {"youngs_modulus", "poissons_ratio", "effective_modulus"})
+    if (place.written(key)) mistakes.add(place, key, "is of no use with hard = true; what is impenetrable has no modulus");
+  if (problem.in_time())
+    mistakes.add(place, "hard", "cannot be had in dynamics; give it a modulus");
+  else if (problem.study == StudyType::dynamics || problem.solver.method != "ipopt")
+    mistakes.add(place, "hard", "needs a method for inequality constraints: solver.method = \"ipopt\"");
+}
+
+bool has_effective_modulus(TablePlace& place, Mistakes& mistakes) {
+  if (!place.written("effective_modulus")) return false;
+  const bool E = place.written("youngs_modulus");
+  if (E) mistakes.add(place, "effective_modulus", "youngs_modulus is there too; give one of them");
+  if (place.written("poissons_ratio") && !E) mistakes.add(place, "poissons_ratio", "is of no use beside effective_modulus; leave it out");
+  return true;
+}
+
+void check_potential(const Problem& problem, TablePlace& place, const char* why, Mistakes& mistakes) {
+  const bool minimises = problem.study == StudyType::equilibrium || problem.study == StudyType::path ||
+                         problem.study == StudyType::modes || (problem.study == StudyType::dynamics && problem.dynamics.relax);
+  if (minimises) mistakes.add(place, "formulation", why);
+}
+
+namespace {
+
+void check_hertz(const Problem& problem, ContactTable& c, Mistakes& mistakes) {
+  check_damping(c.place, c.damping, mistakes);
+  if (c.hard) return check_hard(problem, c.place, mistakes);
+  if (has_effective_modulus(c.place, mistakes)) return;
+  if (!c.place.written("youngs_modulus"))
+    mistakes.add(c.place, "youngs_modulus", "is missing; give youngs_modulus and poissons_ratio, or effective_modulus");
+  else if (!c.place.written("poissons_ratio"))
+    mistakes.add(c.place, "poissons_ratio", "is missing; it must be a number above -1 and at most 0.5, or give effective_modulus alone");
+  else if (c.youngs_modulus.size() != c.poissons_ratio.size())
+    mistakes.add(c.place, "poissons_ratio",
+                 c.poissons_ratio.size() == 1 ? "is one number for two moduli; give a list of two"
+                                              : "are two numbers for one modulus; give one, or two moduli");
+}
+
+void check_rounded(const Problem& problem, ContactTable& c, Mistakes& mistakes) {
+  const RoundedKeys& r = c.rounded;
+  if (r.k_na > 0 && !c.cutoff)
+    mistakes.add(c.place, "cutoff", "is missing; it must be a positive number, within which k_na attracts");
+  if (r.formulation == RoundedFormulation::lammps)
+    return check_potential(problem, c.place, "\"lammps\" has no potential: its forces are no gradient of an energy; take formulation = "
+                                             "\"multi\" or \"closest\"", mistakes);
+  if (r.mu > 0 && r.slip == 0)
+    mistakes.add(c.place, "slip", "is missing; it must be a positive number, the damping that takes the place of friction mu at small "
+                                  "sliding velocities");
+}
+
+}  // namespace
+
+void check_contacts(Problem& problem, Names& names, Mistakes& mistakes) {
+  const ContactTable* first = nullptr;                // of the law "rounded"
+  for (ContactTable& c : problem.contacts) {
+    const bool whole = !c.place.broken;
+    names.refer(c.place, "between", c.between);
+    if (whole && c.inner_cutoff && *c.inner_cutoff >= *c.cutoff)
+      mistakes.add(c.place, "inner_cutoff", fmt::format("is {}, and cutoff is {}; the shell in which the force goes to zero ends there, and begins before",
+                                                        *c.inner_cutoff, *c.cutoff));
+    if (whole && c.law == "hertz") check_hertz(problem, c, mistakes);
+    if (c.place.broken || c.law != "rounded") continue;
+    check_rounded(problem, c, mistakes);
+    if (!first) first = &c;
+    else if (c.cutoff.value_or(0) != first->cutoff.value_or(0))
+      mistakes.add(c.place, "cutoff", fmt::format("is {}, and that of {} is {}; all tables with law \"rounded\" have one cutoff",
+                                                  c.cutoff.value_or(0), named(first->place), first->cutoff.value_or(0)));
+  }
+}
+
+ContactDamping damping_of(const DampingKeys& keys) {
+  ContactDamping d{keys.model, keys.coefficient.value_or(0), keys.friction_damping, keys.friction};
+  if (d.model == ContactDamping::Model::tsuji) d.coefficient = tsuji_coefficient(*keys.restitution);
+  return d;
+}
+
+bool is_finite_modulus(const TablePlace& place, double modulus, Mistakes& mistakes) {
+  if (!std::isfinite(modulus)) mistakes.add(place, "its effective modulus is beyond what numbers can hold");
+  return std::isfinite(modulus);
+}
+
+bool are_spheres(const TablePlace& place, const char* key, const std::vector<int>& particles, const Model& model, Mistakes& mistakes) {
+  const auto flat = std::find_if(particles.begin(), particles.end(), [&](int i) { return !(model.diameter[i] > 0); });
+  if (flat != particles.end()) mistakes.add(place, key, called(model, *flat) + " has no diameter, which contact needs");
+  return flat == particles.end();
+}
+
+namespace {
+
+/// E_eff of two spheres: ((1 − ν₁²)/E₁ + (1 − ν₂²)/E₂)⁻¹, for like materials E/(2 (1 − ν²)).
+/// Source: Guerra 2021, below equation (5).
+double effective_modulus(const ContactTable& t) {
+  if (t.effective_modulus) return *t.effective_modulus;
+  const double E0 = t.youngs_modulus.front(), E1 = t.youngs_modulus.back();
+  const double n0 = t.poissons_ratio.front(), n1 = t.poissons_ratio.back();
+  const double c0 = (1 - n0) * (1 + n0), c1 = (1 - n1) * (1 + n1);
+  return t.youngs_modulus.size() == 1 ? E0 / (2 * c0) : 1 / (c0 / E0 + c1 / E1);
+}
+
+bool add_rounded(const ContactTable& t, std::array<Members, 2>& members, Model& model, Mistakes& mistakes) {
+  if (members[0].bodies.empty() && members[1].bodies.empty()) {
+    mistakes.add(t.place, "between", "none of the groups has a body; the law \"rounded\" is between bodies, or a body and particles");
+    return false;
+  }
+  const RoundedKeys& r = t.rounded;
+  RoundedPair p;
+  p.between = t.between, p.formulation = r.formulation;
+  p.kernel = {r.k_n, r.k_na, t.cutoff.value_or(0), r.kernel};
+  p.damping = {r.c_n, r.c_t, r.mu, r.slip, r.apart};
+  p.unit_area = r.delta_ua.value_or(1);
+  for (int side = 0; side < 2; ++side) {
+    if (!are_spheres(t.place, "between", members[side].particles, model, mistakes)) return false;
+    p.particles[side] = std::move(members[side].particles), p.bodies[side] = std::move(members[side].bodies);
+  }
+  model.rounded.push_back(std::move(p));
+  return true;
+}
+
+bool add_contact(const ContactTable& t, Groups& groups, Model& model, Mistakes& mistakes) {
+  std::optional<std::array<Members, 2>> members = groups.find(t.place, t.between);
+  if (!members) return false;
+  if (t.law == "rounded") return add_rounded(t, *members, model, mistakes);
+  PairContact c;
+  c.between = t.between, c.exclude_bonds = t.exclude_bonds;
+  for (int side = 0; side < 2; ++side) {
+    const auto refuse = [&](const char* key, const char* what) { mistakes.add(t.place, key, fmt::format("\"{}\" {}", t.between[side], what)); };
+    Members& of = (*members)[side];
+    if (of.particles.empty()) return refuse("between", "has no particle; between bodies write law = \"rounded\""), false;
+    if (t.hard && !of.bodies.empty()) return refuse("hard", "has bodies, which feel no hard contacts; write law = \"rounded\""), false;
+    c.particles[side] = std::move(of.particles);
+  }
+  if (t.law == "lj") {
+    c.law = PairContact::Law::lj;
+    c.epsilon = *t.epsilon, c.sigma = *t.sigma, c.cutoff = *t.cutoff;
+    c.cutoff_style = t.cutoff_style, c.inner_cutoff = t.inner_cutoff.value_or(0);
+  } else {
+    c.hard = t.hard, c.damping = damping_of(t.damping);
+    c.effective_modulus = t.hard ? 0 : effective_modulus(t);
+    if (!is_finite_modulus(t.place, c.effective_modulus, mistakes)) return false;
+    for (const auto& side : c.particles)
+      if ((c.hard || c.effective_modulus > 0) && !are_spheres(t.place, "between", side, model, mistakes)) return false;
+  }
+  model.contacts.push_back(std::move(c));
+  return true;
+}
+
+}  // namespace
+
+bool add_contacts(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
+  bool whole = true;
+  for (const ContactTable& t : problem.contacts) whole = add_contact(t, groups, model, mistakes) && whole;
+  return whole;
 }
 
 }  // namespace elamin

@@ -3,7 +3,6 @@
 #include "input/keys.hpp"
 #include "model/model.hpp"
 
-
 namespace elamin {
 
 /// What a contact does in dynamics beside its elastic force; see ContactDamping.
@@ -43,7 +42,23 @@ struct ContactTable {
 
 void describe(Keys& keys, ContactTable& t);
 
+// Of contacts and walls alike.
+
 /// Damping and friction stand among the keys of a contact or a wall.
 void describe_damping(Keys& keys, DampingKeys& d);
+void check_damping(TablePlace& place, const DampingKeys& d, Mistakes& mistakes);
+/// What the keys say, tsuji's restitution as a coefficient.
+ContactDamping damping_of(const DampingKeys& keys);
+
+/// What is impenetrable has no modulus, and only some methods know it.
+void check_hard(const Problem& problem, TablePlace& place, Mistakes& mistakes);
+/// Whether the effective modulus is given; then the others must not be.
+bool has_effective_modulus(TablePlace& place, Mistakes& mistakes);
+/// A mistake in a study of energies: LAMMPS's rules are forces without one.
+void check_potential(const Problem& problem, TablePlace& place, const char* why, Mistakes& mistakes);
+
+/// Whether it is a number to compute with; whether all of these have a diameter. Else that is told.
+bool is_finite_modulus(const TablePlace& place, double modulus, Mistakes& mistakes);
+bool are_spheres(const TablePlace& place, const char* key, const std::vector<int>& particles, const Model& model, Mistakes& mistakes);
 
 }  // namespace elamin

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -42,7 +41,7 @@ class NumberReader {
   void row(const std::vector<CsvCell>& cells) {
     if (table_.columns.empty()) {
       std::string why;
-      const bool numbers = std::all_of(cells.begin(), cells.end(), [&](const CsvCell& c) { return csv_number(c, why).has_value(); });
+      const bool numbers = std::all_of(cells.begin(), cells.end(), [&](const CsvCell& c) { return finite_number(c.text, why).has_value(); });
       if (!numbers || needed_.empty()) return names(cells);
       table_.columns = needed_;
     }
@@ -53,7 +52,7 @@ class NumberReader {
       const std::string& name = table_.columns[c];
       std::string why;
       const bool may_be_empty = std::find(others_.begin(), others_.end(), name) != others_.end();
-      const auto value = cells[c].text.empty() && may_be_empty ? std::numeric_limits<double>::quiet_NaN() : csv_number(cells[c], why);
+      const auto value = cells[c].text.empty() && may_be_empty ? std::numeric_limits<double>::quiet_NaN() : finite_number(cells[c].text, why);
       if (!value) mistake(cells[c].column, name, why);
       values.push_back(value.value_or(0));
     }
@@ -100,19 +99,6 @@ std::vector<CsvCell> csv_cells(std::string_view line) {
     if (end == line.size()) return cells;
     at = end + 1;
   }
-}
-
-std::optional<double> csv_number(const CsvCell& cell, std::string& why) {
-  std::string_view word = cell.text;
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const std::string shown = in_quotes(std::string(cell.text));
-  if (error == std::errc::result_out_of_range) why = shown + " is too large or too small for a floating-point number";
-  else if (error != std::errc{} || end != word.data() + word.size()) why = shown + " is not a number";
-  else if (!std::isfinite(value)) why = shown + " is not finite";
-  else return value;
-  return std::nullopt;
 }
 
 int NumberTable::column(const std::string& name) const {

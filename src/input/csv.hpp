@@ -17,9 +17,6 @@ struct CsvCell {
 /// The cells of a line without the blanks around them and what follows '#'; none if the line is blank.
 std::vector<CsvCell> csv_cells(std::string_view line);
 
-/// The finite number in a cell, or none; `why` then says what is wrong with it.
-std::optional<double> csv_number(const CsvCell& cell, std::string& why);
-
 /// Numbers in columns.
 struct NumberTable {
   std::vector<std::string> columns;

@@ -61,4 +61,7 @@ std::string to_toml(const Node& node);
 std::string to_toml(double value);               // 17 digits: reads back to the same bits
 std::string to_toml(const std::string& value);   // quoted and escaped
 
+/// Gives keys and words of a problem file that had another name the one they have now; a sentence for each. A table that has both keeps both.
+std::vector<std::string> take_old_names(Document& document);
+
 }  // namespace elamin

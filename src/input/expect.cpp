@@ -1,13 +1,13 @@
 #include "input/check.hpp"
 
 #include "core/suggest.hpp"
+#include "core/text.hpp"
 #include "energy/terms.hpp"
-#include "input/check_parts.hpp"
+#include "input/parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace elamin {
@@ -72,18 +72,14 @@ std::vector<std::string> columns_of(const Problem& p) {
 
 std::optional<double> load_factor_of(const std::string& at) {
   double lambda = 0;
-  if (at.compare(0, 7, "lambda=") != 0) return std::nullopt;
-  const auto [end, error] = std::from_chars(at.data() + 7, at.data() + at.size(), lambda);
-  if (error != std::errc() || end != at.data() + at.size() || !std::isfinite(lambda)) return std::nullopt;
-  return lambda;
+  const bool is_one = at.starts_with("lambda=") && reads_as(std::string_view(at).substr(7), lambda) && std::isfinite(lambda);
+  return is_one ? std::optional(lambda) : std::nullopt;
 }
 
 std::optional<int> step_of(const std::string& at) {
   int step = 0;
-  if (at.compare(0, 5, "step=") != 0) return std::nullopt;
-  const auto [end, error] = std::from_chars(at.data() + 5, at.data() + at.size(), step);
-  if (error != std::errc() || end != at.data() + at.size() || step < 0) return std::nullopt;
-  return step;
+  const bool is_one = at.starts_with("step=") && reads_as(std::string_view(at).substr(5), step) && step >= 0;
+  return is_one ? std::optional(step) : std::nullopt;
 }
 
 std::string wrong_observable(const Problem& p, const std::string& observable, const std::string& at) {

@@ -1,8 +1,8 @@
-#include "input/groups.hpp"
+#include "input/group.hpp"
 
 #include "core/suggest.hpp"
 #include "input/check.hpp"
-#include "input/check_parts.hpp"
+#include "input/parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -120,6 +120,7 @@ std::vector<Group> Groups::groups() const {
 }
 
 const Members* Groups::find(const TablePlace& table, const char* key, const std::string& name) {
+  if (table.broken) return nullptr;
   const auto found = sets_.find(name);
   if (found != sets_.end()) return found->second ? &*found->second : nullptr;
   // Other names were checked when the file was read; the types are known only now, if the data file could be read.
@@ -132,6 +133,13 @@ const Members* Groups::find(const TablePlace& table, const char* key, const std:
                   in_quotes(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
   }
   return nullptr;
+}
+
+std::optional<std::array<Members, 2>> Groups::find(const TablePlace& table, const std::array<std::string, 2>& between) {
+  const Members* first = find(table, "between", between[0]);
+  const Members* second = between[1] == between[0] ? first : find(table, "between", between[1]);
+  if (!first || !second) return std::nullopt;
+  return std::array{*first, *second};
 }
 
 void Groups::add(const GroupTable& table) {

@@ -1,6 +1,5 @@
 #pragma once
 // How a structure differs from what is meant.
-#include "input/mistakes.hpp"
 #include "input/keys.hpp"
 
 namespace elamin {

@@ -2,13 +2,16 @@
 // How a table says its keys, once: `void describe(Keys&, Table&)` names each with what it means and may be, and what goes
 // together. Four things go through that: the Reader (TOML → structs, every mistake), the Writer (structs → resolved.toml),
 // the KeyTree (--set, key reference, JSON schema).
+#include "core/error.hpp"
+#include "core/place.hpp"
 #include "core/types.hpp"
-#include "input/table.hpp"
 
 #include <array>
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -17,6 +20,44 @@
 #include <vector>
 
 namespace elamin {
+
+// What every table of a problem file has, and what its keys may hold.
+
+class Groups;
+class Mistakes;
+class Names;
+struct Problem;
+
+/// Where a table and its keys stand, for messages that come after reading. It is not part of what the file says:
+/// two tables that say the same are equal wherever they stand.
+struct TablePlace : Place {
+  std::string key;                              // what `--set` calls the table: "beam.column", "support.2", "path"
+  std::map<std::string, Place> keys;            // of those that are written
+  bool broken = false;                          // a mistake was found in it
+  bool written(const char* name) const { return keys.count(name) > 0; }
+  bool operator==(const TablePlace&) const { return true; }
+};
+
+/// What a number may be: lo ≤ x ≤ hi, or lo < x ≤ hi.
+struct Range {
+  double lo = -std::numeric_limits<double>::max(), hi = std::numeric_limits<double>::max();
+  bool above = false;
+};
+inline constexpr int most_particles = 100'000'000, most_steps = 1'000'000, most_branches = 1000, most_modes = 1000;
+namespace range {
+inline constexpr Range any{}, positive{0, any.hi, true}, not_negative{0}, count{1, most_particles};
+inline constexpr Range id{1, std::numeric_limits<int>::max()};
+inline constexpr Range poissons_ratio{-1, 0.5, true}, degrees{0, 180};
+}  // namespace range
+
+/// A word of the file and what it stands for.
+template <class T> struct Word {
+  const char* text;
+  T value;
+};
+
+/// Films of a run's states, by the ends of their names.
+inline constexpr Word<const char*> film_words[]{{"lammpstrj", "lammpstrj"}, {"pvd", "pvd"}, {"xyz", "xyz"}};
 
 /// The rest angle of a structure's angles: "straight", "as_built", or degrees.
 struct Rest {
@@ -154,6 +195,64 @@ class Keys {
     for (const auto& w : known) all.push_back(w.text);
     return all;
   }
+};
+
+// Collects what is wrong with a problem file, so that everything is told in one go.
+
+class Mistakes {
+ public:
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+
+  const std::string& file() const { return file_; }
+  bool any() const { return !list_.empty(); }
+  const std::vector<Mistake>& list() const { return list_; }
+
+  /// A mistake at a place of the file; line 0: of the command line.
+  void add(Place at, const std::string& key, const std::string& what) {
+    keep({at.line > 0 ? file_ : "--set", at.line, at.column, key, what});
+  }
+  /// A mistake of a key of a table: at its value if it is written, else at the table.
+  void add(const TablePlace& table, const std::string& key, const std::string& what) {
+    const auto found = table.keys.find(key);
+    add(found == table.keys.end() ? Place{table} : found->second, table.key + "." + key, what);
+  }
+  /// A mistake of a table as a whole.
+  void add(const TablePlace& table, const std::string& what) { add(Place{table}, table.key, what); }
+  /// The same, and marks the table as broken.
+  void add(TablePlace& table, const std::string& key, const std::string& what) {
+    table.broken = true;
+    add(static_cast<const TablePlace&>(table), key, what);
+  }
+  void add(TablePlace& table, const std::string& what) {
+    table.broken = true;
+    add(static_cast<const TablePlace&>(table), what);
+  }
+  /// A mistake of the file as a whole.
+  void add(const std::string& what) { keep({file_, 0, 0, {}, what}); }
+  void add(const std::vector<Mistake>& others) {
+    for (const Mistake& m : others) keep(m);
+  }
+
+  /// Throws InputError, which has the order of the file, if there is any.
+  void raise() const {
+    if (!any()) return;
+    std::vector<Mistake> all = list_;
+    if (left_out_ > 0)
+      all.push_back({file_, 0, 0, {}, "has " + std::to_string(left_out_) + " more mistakes than are told here"});
+    throw InputError(std::move(all));
+  }
+
+ private:
+  static constexpr std::size_t most = 200;   // further ones are counted, not kept
+  void keep(Mistake m) {
+    if (list_.size() >= most)
+      ++left_out_;
+    else
+      list_.push_back(std::move(m));
+  }
+  std::string file_;
+  std::vector<Mistake> list_;
+  std::size_t left_out_ = 0;
 };
 
 }  // namespace elamin

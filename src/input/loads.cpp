@@ -1,9 +1,7 @@
 #include "core/suggest.hpp"
 #include "energy/changes.hpp"
-#include "input/acting.hpp"
-#include "input/check_parts.hpp"
+#include "input/parts.hpp"
 #include "input/conditions.hpp"
-#include "input/structures.hpp"
 #include "model/entities.hpp"
 #include "model/triangles.hpp"
 
@@ -91,8 +89,7 @@ void check_pressure(const Problem& problem, PressureTable& p, Mistakes& mistakes
     std::vector<std::string> names;
     for (const auto& t : tables) names.push_back(t.name);
     if (std::find(names.begin(), names.end(), *name) == names.end())
-      mistakes.add(p.place, key, in_quotes(*name) + " is no [[" + key + "]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
-                                     did_you_mean(*name, names));
+      mistakes.add(p.place, key, in_quotes(*name) + " is no [[" + key + "]]; " + there_are(names, *name));
   };
   is_one("loop", p.loop, problem.loops);
   is_one("sheet", p.sheet, problem.sheets);
@@ -114,9 +111,7 @@ void check_parameter(Problem& problem, Mistakes& mistakes) {
   for (const std::string& word : problem.path.parameter) {
     const int found = find_condition(conditions, word);
     if (found < 0)
-      mistakes.add(problem.path.place, "parameter",
-                   in_quotes(word) + " names no table that a load factor scales; " +
-                       (labels.empty() ? "there is none" : "there are: " + listed(labels)) + did_you_mean(word, labels));
+      mistakes.add(problem.path.place, "parameter", in_quotes(word) + " names no table that a load factor scales; " + there_are(labels, word));
     else if (!chosen.insert(found).second)
       mistakes.add(problem.path.place, "parameter", in_quotes(word) + " is there twice; once is enough");
   }
@@ -137,15 +132,6 @@ void check_loads(Problem& problem, Names& names, Mistakes& mistakes) {
 }
 
 namespace {
-
-/// An axial vector must be normal to the plane.
-void turn_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
-                   Mistakes& mistakes) {
-  for (int c = 0; model.plane_normal && c < 3; ++c)
-    if (c != *model.plane_normal && v[c] != 0)
-      return mistakes.add(place, key, fmt::format("turns out of the plane \"{}\": its {} component is {}; it must be 0",
-                                                  problem.plane, "xyz"[c], v[c]));
-}
 
 /// Every structure that has a particle without mass among these, which `needed` names, is told once. Particles and structures both ascend.
 void need_density(const Problem& problem, const Model& model, const std::vector<int>& particles, const std::string& needed,
@@ -206,26 +192,6 @@ Field radial_forces(const Problem& problem, const Model& model, const LoadTable&
   return forces;
 }
 
-void set_velocity(const Problem& problem, const VelocityTable& table, const Members& members, Model& model, Mistakes& mistakes) {
-  const auto bodies = static_cast<Eigen::Index>(model.bodies.size());
-  if (table.velocity) {
-    stay_in_plane(problem, model, table.place, "velocity", *table.velocity, mistakes);
-    if (model.velocity.cols() == 0) model.velocity = Field::Zero(3, model.particles());
-    for (const int i : members.particles) model.velocity.col(i) = *table.velocity;
-    if (model.body_velocity.cols() == 0) model.body_velocity = Field::Zero(3, bodies);
-    for (const int b : members.bodies) model.body_velocity.col(b) = *table.velocity;
-  }
-  if (!table.angular_velocity) return;
-  if (members.bodies.empty())
-    mistakes.add(table.place, "angular_velocity", fmt::format("is of bodies, and \"{}\" has none; leave it out", table.group));
-  turn_in_plane(problem, model, table.place, "angular_velocity", *table.angular_velocity, mistakes);
-  if (model.angular_momentum.cols() == 0) model.angular_momentum = Field::Zero(3, bodies);
-  for (const int b : members.bodies) {
-    const Mat3 R = model.start.bodies[b].rotation.toRotationMatrix();
-    model.angular_momentum.col(b) = R * (model.bodies[b].inertia * (R.transpose() * *table.angular_velocity));
-  }
-}
-
 /// Triangles of a sheet, the forces on its rim, and whether all of that is held; else it is told who is not.
 void press_sheet(const PressureTable& table, const SheetTable& sheet, const Structure& s, Model& model, const Scaling& scaling, Mistakes& mistakes) {
   const bool round = sheet.shape == SheetShape::cylinder;
@@ -275,7 +241,7 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
   std::vector<const ChangeTable*> tables;         // of the model's changes
   for (std::size_t t = 0; t < problem.changes.size(); ++t) {
     const ChangeTable& table = problem.changes[t];
-    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    const Members* members = groups.find(table.place, "group", table.group);
     if (!members) continue;
     model.changes.push_back({table.group, members->particles, table.rest_length.value_or(0), table.bond_stiffness.value_or(0),
                              table.angle_stiffness.value_or(0),
@@ -314,8 +280,15 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
 
 }  // namespace
 
-void stay_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
+void turn_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v,
                    Mistakes& mistakes) {
+  for (int c = 0; model.plane_normal && c < 3; ++c)
+    if (c != *model.plane_normal && v[c] != 0)
+      return mistakes.add(place, key, fmt::format("turns out of the plane \"{}\": its {} component is {}; it must be 0",
+                                                  problem.plane, "xyz"[c], v[c]));
+}
+
+void stay_in_plane(const Problem& problem, const Model& model, const TablePlace& place, const char* key, const Vec3& v, Mistakes& mistakes) {
   if (!model.plane_normal || v[*model.plane_normal] == 0) return;
   const char normal = "xyz"[*model.plane_normal];
   mistakes.add(place, key,
@@ -336,7 +309,7 @@ void need_masses(const Problem& problem, const Model& model, Mistakes& mistakes)
 void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes) {
   for (std::size_t t = 0; t < problem.loads.size(); ++t) {
     const LoadTable& table = problem.loads[t];
-    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    const Members* members = groups.find(table.place, "group", table.group);
     if (!members) continue;
     Load load{table.group, members->particles, Vec3::Zero(),
               scaling_of(problem, condition_of("load", problem.loads, t))};
@@ -361,7 +334,7 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
   std::set<std::string> told;
   for (std::size_t t = 0; t < problem.gravity.size(); ++t) {
     const GravityTable& table = problem.gravity[t];
-    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    const Members* members = groups.find(table.place, "group", table.group);
     if (!members) continue;
     stay_in_plane(problem, model, table.place, "acceleration", table.acceleration, mistakes);
     need_density(problem, model, members->particles, named(table.place), told, mistakes);
@@ -369,12 +342,6 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
     model.gravity.push_back({table.group, members->particles, table.acceleration,
                              scaling_of(problem, condition_of("gravity", problem.gravity, t)), members->bodies});
   }
-  for (const ViscosityTable& table : problem.viscosity)
-    if (const auto* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
-      model.viscosity.push_back({members->particles, table.coefficient, members->bodies});
-  for (const VelocityTable& table : problem.velocities)
-    if (const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group))
-      set_velocity(problem, table, *members, model, mistakes);
   add_pressures(problem, model, mistakes);
   add_changes(problem, groups, model, mistakes);
 }

@@ -1,6 +1,6 @@
 #include "input/loop.hpp"
 
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 
 namespace elamin {
 

@@ -1,6 +1,6 @@
 #pragma once
 // The names of what a problem file holds, and references to them.
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/problem.hpp"
 
 #include <map>

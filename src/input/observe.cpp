@@ -1,9 +1,8 @@
 #include "input/observe.hpp"
 
 #include "core/suggest.hpp"
-#include "input/build_checks.hpp"
+#include "input/parts.hpp"
 #include "input/check.hpp"
-#include "input/check_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -188,9 +187,7 @@ class CheckObserved {
 
   void known(ObserveTable& o, const char* key, const std::string& name) {
     if (!is_in(before_, name))
-      return mistakes_.add(o.place, key,
-                           in_quotes(name) + " is no [[observe]] further up; " +
-                               (before_.empty() ? "there is none" : "there are: " + listed(before_)) + did_you_mean(name, before_));
+      return mistakes_.add(o.place, key, in_quotes(name) + " is no [[observe]] further up; " + there_are(before_, name));
     if (o.quantity != Quantity::derivative) return;
     for (std::size_t k = 0; k < p_.observe.size(); ++k)
       if (p_.observe[k].name == name)

@@ -1,5 +1,5 @@
 #include "core/suggest.hpp"
-#include "input/check_parts.hpp"
+#include "input/parts.hpp"
 #include "input/stages.hpp"
 
 #include <fmt/format.h>
@@ -107,25 +107,24 @@ void check_range(PathTable& t, Mistakes& mistakes) {
     mistakes.add(t.place, "highest", fmt::format("is below {}, where the path starts; it must not be", start));
 }
 
+/// Load factors that the path is to meet, from lo to hi.
+void check_within(PathTable& t, const char* key, const std::vector<double>& list, double lo, double hi, Mistakes& mistakes) {
+  const auto outside = std::find_if(list.begin(), list.end(), [&](double at) { return at < lo || at > hi; });
+  if (outside != list.end())
+    mistakes.add(t.place, key, fmt::format("{} lies outside the path, whose load factors run from {} to {}", *outside, lo, hi));
+}
+
 void check_deflation(PathTable& t, Mistakes& mistakes) {
   if (!t.deflate_at) return;
   if (t.deflate == 0)
     return mistakes.add(t.place, "deflate_at", "is of no use without deflate, the number of further equilibria to look for");
-  const double lo = t.lowest.value_or(std::min(t.from, t.to)), hi = t.highest.value_or(std::max(t.from, t.to));
-  for (const double at : *t.deflate_at)
-    if (at < lo || at > hi)
-      return mistakes.add(t.place, "deflate_at",
-                          fmt::format("{} lies outside the path, whose load factors run from {} to {}", at, lo, hi));
+  check_within(t, "deflate_at", *t.deflate_at, t.lowest.value_or(std::min(t.from, t.to)), t.highest.value_or(std::max(t.from, t.to)), mistakes);
 }
 
 /// Load steps meet what lies on their way; a branch in arc length may go anywhere.
 void check_stops(PathTable& t, bool staged, Mistakes& mistakes) {
   if (!t.stops || staged || t.method == PathMethod::arc_length || t.branches > 0) return;
-  const auto [lo, hi] = std::minmax(t.from, t.to);
-  for (const double at : *t.stops)
-    if (at < lo || at > hi)
-      return mistakes.add(t.place, "stops",
-                          fmt::format("{} lies outside the path, whose load factors run from {} to {}", at, lo, hi));
+  check_within(t, "stops", *t.stops, std::min(t.from, t.to), std::max(t.from, t.to), mistakes);
 }
 
 void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
@@ -169,10 +168,7 @@ void check_path(Problem& problem, Mistakes& mistakes) {
       mistakes.add(e.place, "name", in_quotes(e.name) + " is the name of another [[event]]; names are unique");
     names.push_back(e.name);
     if (e.observable.empty() || std::find(observables.begin(), observables.end(), e.observable) != observables.end()) continue;
-    mistakes.add(e.place, "observable",
-                 in_quotes(e.observable) + " is no [[observe]]; " +
-                     (observables.empty() ? "there is none" : "there are: " + listed(observables)) +
-                     did_you_mean(e.observable, observables));
+    mistakes.add(e.place, "observable", in_quotes(e.observable) + " is no [[observe]]; " + there_are(observables, e.observable));
   }
 }
 

@@ -14,11 +14,7 @@ void describe(Keys& keys, ProblemFile& file) {
   keys.word("plane", p.plane, plane_words, "that every particle stays in; by default none");
   keys.table("constants", p.constants);   // before all that may use them
   keys.table("lammps", p.lammps);
-  keys.tables("beam", p.beams);
-  keys.tables("loop", p.loops);
-  keys.tables("sheet", p.sheets);
-  keys.tables("grains", p.grains);
-  keys.tables("body", p.bodies);
+  for_structures(p, [&](const char* kind, auto& tables) { keys.tables(kind, tables); });
   keys.tables("group", p.groups);
   keys.tables("connect", p.connections);
   keys.tables("bonds", p.bonds);

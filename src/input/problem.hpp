@@ -8,7 +8,7 @@
 #include "input/grains.hpp"
 #include "input/group.hpp"
 #include "input/imperfection.hpp"
-#include "input/lammps_table.hpp"
+#include "input/lammps.hpp"
 #include "input/loads.hpp"
 #include "input/loop.hpp"
 #include "input/motion.hpp"
@@ -66,6 +66,11 @@ struct Problem {
   bool in_time() const { return study == StudyType::dynamics && !dynamics.relax; }
   bool operator==(const Problem&) const = default;
 };
+
+/// Calls with the name and the list of the tables of each kind of structure; P: Problem, const or not.
+template <class P, class Call> void for_structures(P& p, const Call& call) {
+  call("beam", p.beams), call("loop", p.loops), call("sheet", p.sheets), call("grains", p.grains), call("body", p.bodies);
+}
 
 /// What a file holds: the problem, and the sweeps over its keys.
 struct ProblemFile {

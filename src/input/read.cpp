@@ -3,11 +3,10 @@
 #include "dynamics/relax.hpp"
 #include "input/build.hpp"
 #include "input/check.hpp"
-#include "input/lammps_input.hpp"
-#include "input/old_names.hpp"
+#include "input/lammps.hpp"
+#include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/state_supplement.hpp"
-#include "input/tables.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -68,10 +67,11 @@ std::vector<std::string> names_in_unknown_tables(const Document& document) {
 
 /// Whether there is a table that is meant to be a structure and was refused.
 bool structure_refused(const Document& document) {
-  return std::any_of(document.root.begin(), document.root.end(), [](const Entry& e) {
+  const Problem none;
+  return std::any_of(document.root.begin(), document.root.end(), [&](const Entry& e) {
     const bool is_table = std::holds_alternative<Entries>(e.node.value) || is_tables(e.node);
-    const bool structure = e.key == "beam" || e.key == "loop" || e.key == "sheet" || e.key == "grains" ||
-                           e.key == "body";
+    bool structure = false;
+    for_structures(none, [&](std::string_view kind, const auto&) { structure = structure || e.key == kind; });
     return (structure && !is_tables(e.node)) || (is_table && !has_table(e.key));
   });
 }
@@ -89,9 +89,8 @@ ProblemFile read_tables(const Document& document, Mistakes& mistakes) {
   file.problem.sha256 = document.sha256;
   if (file.problem.lammps) file.problem.lammps->script = document.script;
   complete(file.problem);
-  const Problem& p = file.problem;
-  const bool empty =
-      !p.lammps && p.beams.empty() && p.loops.empty() && p.sheets.empty() && p.grains.empty() && p.bodies.empty();
+  bool empty = !file.problem.lammps;
+  for_structures(file.problem, [&](const char*, const auto& tables) { empty = empty && tables.empty(); });
   if (empty && !structure_refused(document))
     mistakes.add("holds no structure; add a [[beam]], [[loop]], [[sheet]], [[grains]], [[body]] or a [lammps] data file");
   check_problem(file.problem, names_in_unknown_tables(document), mistakes);

@@ -3,7 +3,6 @@
 #include "input/constants.hpp"
 #include "input/document.hpp"
 #include "input/keys.hpp"
-#include "input/mistakes.hpp"
 
 #include <string>
 #include <vector>

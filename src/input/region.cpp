@@ -1,6 +1,6 @@
 #include "input/region.hpp"
 
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/stiffness.hpp"
 
 #include <fmt/format.h>

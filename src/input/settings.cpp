@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 namespace elamin {
 namespace {
 
@@ -26,8 +24,7 @@ std::vector<std::string> split(const std::string& key) {
 /// A number from 1, or 0.
 std::size_t index_of(const std::string& part) {
   std::size_t number = 0;
-  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-  return error == std::errc() && end == part.data() + part.size() ? number : 0;
+  return reads_as(part, number) ? number : 0;
 }
 
 std::string name_of(const Node& element) {
@@ -79,16 +76,14 @@ class Walk {
     for (const Entry& e : *entries_) names.push_back(e.key);
     Node* node = find(*entries_, part);
     if (!node || at_ + 1 < parts_.size())
-      return refuse(fmt::format("{} is no constant of this file; {}{}", in_quotes(part), names.empty() ? "there is none" : "there are: " + listed(names),
-                                did_you_mean(part, names)));
+      return refuse(fmt::format("{} is no constant of this file; {}", in_quotes(part), there_are(names, part)));
     canonical_ += "." + part;
     is_number_ = true;
     return node;
   }
   Node* value(const KeyTree& key, const std::string& part) {
-    using Type = KeyTree::Type;
-    is_number_ = key.type == Type::number || key.type == Type::integer || key.type == Type::list;
-    is_integer_ = key.type == Type::integer;
+    is_number_ = key.type == KeyTree::Type::number || key.type == KeyTree::Type::integer || key.type == KeyTree::Type::list;
+    is_integer_ = key.type == KeyTree::Type::integer;
     Node* node = find(*entries_, part);
     if (at_ == parts_.size()) {
       return node ? node : &entries_->emplace_back(Entry{part, {}, {}}).node;

@@ -2,7 +2,7 @@
 // Changes of a problem file from outside: `--set path.steps=50`, and the values of a sweep.
 #include "input/constants.hpp"
 #include "input/document.hpp"
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "input/sheet.hpp"
 
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -17,12 +17,6 @@ constexpr Word<SheetShape> sheet_words[]{
 /// K = √3/4 E t and B = E t³/(8√3) of the triangular lattice. Source: Guerra 2021, equations (21), (27).
 double sheet_bond_stiffness(double E, double t) { return std::sqrt(3.0) / 4 * E * t; }
 double sheet_angle_stiffness(double E, double t) { return E * t * t * t / (8 * std::sqrt(3.0)); }
-
-Sheet::Shape shape_of(SheetShape shape) {
-  return shape == SheetShape::rectangle ? Sheet::Shape::rectangle
-         : shape == SheetShape::circle  ? Sheet::Shape::circle
-                                        : Sheet::Shape::cylinder;
-}
 
 }  // namespace
 
@@ -56,7 +50,7 @@ void check(SheetTable& t, Mistakes& mistakes) {
 std::optional<Sheet> built(const SheetTable& table, Mistakes& mistakes) {
   const double thickness = table.thickness.value_or(table.spacing), E = table.youngs_modulus.value_or(0);
   Sheet s;
-  s.name = table.name, s.shape = shape_of(table.shape);
+  s.name = table.name, s.shape = table.shape;
   s.center = table.center, s.normal = table.normal;
   s.size = table.size.value_or(s.size), s.radius = table.radius.value_or(0), s.height = table.height.value_or(0);
   s.lattice_angle = table.lattice_angle * pi / 180;

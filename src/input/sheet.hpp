@@ -3,10 +3,9 @@
 #include "input/stiffness.hpp"
 #include "model/sheet.hpp"
 
-
 namespace elamin {
 
-enum class SheetShape { rectangle, circle, cylinder };
+using SheetShape = Sheet::Shape;
 
 struct SheetTable : StiffnessKeys {
   TablePlace place;

@@ -1,8 +1,13 @@
 #include "input/solver.hpp"
 
+#include "core/suggest.hpp"
 #include "dynamics/relax.hpp"
+#include "input/parts.hpp"
 #include "solve/ipopt.hpp"
 
+#include <fmt/format.h>
+
+#include <string_view>
 #include <tuple>
 
 namespace elamin {
@@ -19,11 +24,12 @@ constexpr Word<const char*> solver_words[]{
     {"nlopt:LN_NELDERMEAD", "nlopt:LN_NELDERMEAD"}, {"nlopt:LN_SBPLX", "nlopt:LN_SBPLX"}, {"nlopt:G_MLSL", "nlopt:G_MLSL"},
     {"nlopt:G_MLSL_LDS", "nlopt:G_MLSL_LDS"}, {"nlopt:GN_DIRECT", "nlopt:GN_DIRECT"}, {"nlopt:GN_DIRECT_L", "nlopt:GN_DIRECT_L"},
     {"nlopt:GN_CRS2_LM", "nlopt:GN_CRS2_LM"}, {"nlopt:GN_ISRES", "nlopt:GN_ISRES"}, {"nlopt:GN_ESCH", "nlopt:GN_ESCH"}};
-const Keys::Names of_nlopt{
-    "nlopt:LD_LBFGS", "nlopt:LD_TNEWTON", "nlopt:LD_TNEWTON_RESTART", "nlopt:LD_TNEWTON_PRECOND", "nlopt:LD_TNEWTON_PRECOND_RESTART",
-    "nlopt:LD_VAR1", "nlopt:LD_VAR2", "nlopt:LD_SLSQP", "nlopt:LD_MMA", "nlopt:LD_CCSAQ", "nlopt:LN_COBYLA", "nlopt:LN_BOBYQA",
-    "nlopt:LN_NEWUOA", "nlopt:LN_PRAXIS", "nlopt:LN_NELDERMEAD", "nlopt:LN_SBPLX", "nlopt:G_MLSL", "nlopt:G_MLSL_LDS", "nlopt:GN_DIRECT",
-    "nlopt:GN_DIRECT_L", "nlopt:GN_CRS2_LM", "nlopt:GN_ISRES", "nlopt:GN_ESCH"};
+Keys::Names nlopt_words() {
+  Keys::Names words;
+  for (const auto& w : solver_words)
+    if (std::string_view(w.text).starts_with("nlopt:")) words.push_back(w.text);
+  return words;
+}
 
 }  // namespace
 
@@ -34,7 +40,7 @@ void describe(Keys& keys, SolverTable& t) {
   keys.may("max_iterations", t.max_iterations, "by default as many as suit the method", Range{1, most_steps});
   const std::string what = "the method " + t.method + "; it is for NLopt's";
   keys.either("method", {{{"auto", "newton", "ipopt", "fire"}, what.c_str(), !t.by_nlopt(), [] {}},
-                         {of_nlopt, "the method", t.by_nlopt(), [&] {
+                         {nlopt_words(), "the method", t.by_nlopt(), [&] {
                             keys.may("max_evaluations", t.nlopt.max_evaluations, "of the energy", range::count);
                             keys.may("polish", t.nlopt.polish, "ends with Newton's method");
                             keys.may("precondition", t.nlopt.precondition, "in variables in which the Hessian at the start is the identity");
@@ -58,6 +64,25 @@ std::optional<int> standard_iterations(const SolverTable& t) {
   if (t.by_nlopt()) return std::nullopt;
   if (t.by_newton()) return NewtonOptions{}.max_iterations;
   return t.method == "ipopt" ? IpoptOptions{}.max_iterations : static_cast<int>(RelaxOptions{}.max_steps);
+}
+
+void check_solver(Problem& problem, Mistakes& mistakes) {
+  SolverTable& s = problem.solver;
+  const bool newton = s.by_newton();
+  if (!newton && problem.study == StudyType::modes)
+    mistakes.add(s.place, "method", "must be \"auto\" or \"newton\" in a study of modes, is " + in_quotes(s.method));
+  if (!newton && problem.study == StudyType::path) {
+    const auto by_newton = [&](TablePlace& place, const char* key, const char* what) {
+      mistakes.add(place, key, fmt::format("{} follows stable and unstable equilibria, which {} does not; use solver.method = "
+                                           "\"newton\"", what, in_quotes(s.method)));
+    };
+    if (problem.path.method == PathMethod::arc_length) by_newton(problem.path.place, "method", "arc length");
+    else if (problem.path.when_unstable == WhenUnstable::follow) by_newton(problem.path.place, "when_unstable", "\"follow\"");
+    if (problem.path.branches > 0) by_newton(problem.path.place, "branches", "branch switching");
+    if (problem.path.deflate > 0) by_newton(problem.path.place, "deflate", "deflation");
+    for (StageTable& t : problem.stages)
+      if (t.method == PathMethod::arc_length) by_newton(t.place, "method", "arc length");
+  }
 }
 
 }  // namespace elamin

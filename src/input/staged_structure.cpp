@@ -2,8 +2,7 @@
 
 #include "model/connect.hpp"
 #include "model/entities.hpp"
-#include "input/interactions.hpp"
-#include "input/listed.hpp"
+#include "input/parts.hpp"
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>
@@ -28,14 +27,6 @@ std::vector<bool> members_of(const Model& model, const std::string& name) {
     for (const int b : group->bodies) of[model.particles() + b] = true;
   }
   return of;
-}
-
-/// Calls with every table of structures.
-template <class P, class Call> void for_structures(P& problem, const Call& call) {
-  const auto all = [&](auto& tables) {
-    for (auto& t : tables) call(t);
-  };
-  all(problem.beams), all(problem.loops), all(problem.sheets), all(problem.grains), all(problem.bodies);
 }
 
 template <class Element> bool any_of(const Element& element, const std::vector<bool>& marked) {
@@ -121,8 +112,9 @@ std::vector<bool> absent_in(const Problem& problem, int stage, const Model& mode
     const std::vector<bool> of = members_of(model, group);
     for (std::size_t p = 0; p < of.size(); ++p) absent[p] = absent[p] || of[p];
   };
-  for_structures(problem, [&](const auto& t) {
-    if (stage_number(problem, t.from_stage) > stage) mark(t.name);
+  for_structures(problem, [&](const char*, const auto& tables) {
+    for (const auto& t : tables)
+      if (stage_number(problem, t.from_stage) > stage) mark(t.name);
   });
   for (const GroupTable& g : problem.groups)
     if (stage_number(problem, g.from_stage) > stage) mark(g.name);
@@ -199,13 +191,14 @@ void check_from_stage(const Problem& problem, TablePlace& place, const std::stri
   std::vector<std::string> names;
   for (const StageTable& s : problem.stages) names.push_back(s.name);
   if (from.empty() || std::find(names.begin(), names.end(), from) != names.end()) return;
-  mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + (names.empty() ? "there is none" : "there are: " + listed(names)) +
-                                        did_you_mean(from, names));
+  mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + there_are(names, from));
 }
 
 void check_staged_structure(Problem& problem, Mistakes& mistakes) {
   const auto check = [&](TablePlace& place, const std::string& from) { check_from_stage(problem, place, from, mistakes); };
-  for_structures(problem, [&](auto& t) { check(t.place, t.from_stage); });
+  for_structures(problem, [&](const char*, auto& tables) {
+    for (auto& t : tables) check(t.place, t.from_stage);
+  });
   for (GroupTable& g : problem.groups) check(g.place, g.from_stage);
   for (ConnectTable& c : problem.connections) check(c.place, c.from_stage);
   for (BondsTable& t : problem.bonds) check(t.place, t.from_stage);

@@ -1,7 +1,7 @@
 #pragma once
 // Structures that come and go with the stages of a path.
 #include "model/model.hpp"
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/problem.hpp"
 
 #include <string>

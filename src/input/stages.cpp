@@ -201,8 +201,7 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
     for (const Condition& c : to) labels.push_back(c.label());
     for (const std::string& word : words)
       if (find_condition(to, word) < 0)
-        mistakes.add(s.place, key, in_quotes(word) + " names no table; " + (labels.empty() ? "there is none" : "there are: " + listed(labels)) +
-                                       did_you_mean(word, labels));
+        mistakes.add(s.place, key, in_quotes(word) + " names no table; " + there_are(labels, word));
   };
   for (StageTable& s : problem.stages) {
     if (s.vary) refer(s, "vary", *s.vary, conditions);

@@ -1,7 +1,7 @@
 #pragma once
 // A path in stages: which tables are in force in each of them, and how much of each acts.
 #include "input/conditions.hpp"
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/state_supplement.hpp"
 
 #include <string>

@@ -1,6 +1,6 @@
 #include "input/stiffness.hpp"
 
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include "laws/section.hpp"
 #include "model/model.hpp"
 
-
 namespace elamin {
 
 struct StiffnessKeys {
@@ -27,7 +26,7 @@ inline constexpr Word<Section> section_words[]{{"cylinder", Section::cylinder}, 
 void describe_stiffness(Keys& keys, StiffnessKeys& s, const char* thickness);
 void describe_row_stiffness(Keys& keys, RowStiffnessKeys& s);
 
-/// The key `values`, of a row of particles or another structure; see input/own_values.hpp.
+/// The key `values`, of a row of particles or another structure; see add_own_values.
 void describe_own_values(Keys& keys, std::string& file, bool row);
 
 /// Stiffnesses that follow from nothing are a mistake.

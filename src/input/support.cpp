@@ -1,6 +1,5 @@
 #include "core/suggest.hpp"
-#include "input/acting.hpp"
-#include "input/check_parts.hpp"
+#include "input/parts.hpp"
 #include "input/conditions.hpp"
 #include "input/stages.hpp"
 #include "model/entities.hpp"
@@ -26,6 +25,8 @@ void describe(Keys& keys, SupportTable& t) {
   keys.table("rotation", t.rotation);
 }
 
+namespace {
+
 void check_support(const Problem& problem, SupportTable& s, Mistakes& mistakes) {
   for (const auto& [key, words] : {std::pair("directions", &s.directions), {"rotations", &s.rotations}}) {
     if (!*words) continue;
@@ -37,19 +38,25 @@ void check_support(const Problem& problem, SupportTable& s, Mistakes& mistakes) 
   const std::set<char> letters(d.begin(), d.end());
   if (s.rotation && (s.directions || s.rotations) && s.rotations.value_or("").size() != 3)
     mistakes.add(s.place, "rotation", "needs all rotations held; write rotations = \"xyz\"");
-  for (int c = 0; c < 3; ++c)
-    if (s.displacement[c] != 0 && !letters.count("xyz"[c]))
-      mistakes.add(s.place, "displacement", fmt::format("moves along {}, which is not among the directions \"{}\"; "
-                                                        "give 0 there or hold that direction", "xyz"[c], d));
-  for (int c = 0; c < 3; ++c)
-    if (s.velocity[c] != 0 && !letters.count("xyz"[c]))
-      mistakes.add(s.place, "velocity", fmt::format("moves along {}, which is not among the directions \"{}\"; "
-                                                    "give 0 there or hold that direction", "xyz"[c], d));
+  for (const auto& [key, by] : {std::pair("displacement", s.displacement), {"velocity", s.velocity}})
+    for (int c = 0; c < 3; ++c)
+      if (by[c] != 0 && !letters.count("xyz"[c]))
+        mistakes.add(s.place, key, fmt::format("moves along {}, which is not among the directions \"{}\"; give 0 there or hold that direction", "xyz"[c], d));
   if (s.velocity.isZero(0)) return;
   if (problem.study != StudyType::dynamics)
     mistakes.add(s.place, "velocity", "belongs to dynamics, study.type = \"dynamics\"; elsewhere give a displacement");
   else if (problem.dynamics.relax)
     mistakes.add(s.place, "velocity", "does not go with dynamics.relax, which ends in an equilibrium; leave one of them out");
+}
+
+}  // namespace
+
+void check_supports(Problem& problem, Names& names, Mistakes& mistakes) {
+  for (SupportTable& s : problem.supports) {
+    names.refer(s.place, "group", s.group);
+    check_support(problem, s, mistakes);
+    check(s.rotation, s.place, mistakes);
+  }
 }
 
 namespace {
@@ -156,7 +163,7 @@ bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes
   Holders holders(problem, model, mistakes);
   for (int t = 0; t < static_cast<int>(problem.supports.size()); ++t) {
     const SupportTable& table = problem.supports[t];
-    const Members* members = table.place.broken ? nullptr : groups.find(table.place, "group", table.group);
+    const Members* members = groups.find(table.place, "group", table.group);
     if (!members) {
       whole = false;
       continue;

@@ -1,7 +1,5 @@
 #include "lammps/export.hpp"
 
-#include "lammps/export_fixes.hpp"
-#include "lammps/export_types.hpp"
 #include "lammps/state.hpp"
 
 #include <fmt/format.h>

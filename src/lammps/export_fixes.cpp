@@ -1,4 +1,4 @@
-#include "lammps/export_fixes.hpp"
+#include "lammps/export.hpp"
 
 #include "dynamics/contact_damping.hpp"
 

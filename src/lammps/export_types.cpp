@@ -1,4 +1,4 @@
-#include "lammps/export_types.hpp"
+#include "lammps/export.hpp"
 
 #include "energy/contact_rules.hpp"
 

@@ -79,19 +79,10 @@ void LammpsLines::finish() const {
 }
 
 std::optional<double> LammpsLines::number(const DataLine& line, std::size_t i, const std::string& key) {
-  std::string_view word = line[i];
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error == std::errc::result_out_of_range)
-    mistake(line, i, key, in_quotes(std::string(line[i])) + " is too large or too small for a floating-point number");
-  else if (error != std::errc{} || end != word.data() + word.size())
-    mistake(line, i, key, in_quotes(std::string(line[i])) + " is not a number");
-  else if (!std::isfinite(value))
-    mistake(line, i, key, in_quotes(std::string(line[i])) + " is not finite");
-  else
-    return value;
-  return std::nullopt;
+  std::string why;
+  const std::optional<double> value = finite_number(line[i], why);
+  if (!value) mistake(line, i, key, why);
+  return value;
 }
 
 std::optional<int> LammpsLines::integer(const DataLine& line, std::size_t i, const std::string& key, int lo, int hi) {

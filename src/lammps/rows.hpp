@@ -1,17 +1,25 @@
 #pragma once
 // The sections of a LAMMPS data file as rows, before they are held against each other.
 #include "core/types.hpp"
-#include "lammps/bodies_section.hpp"
+#include "lammps/bodies.hpp"
 #include "lammps/lines.hpp"
 #include "lammps/reading.hpp"
-#include "lammps/style.hpp"
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace elamin {
+
+// LAMMPS atom styles: which columns a line of the section Atoms has.
+
+enum class AtomColumn { id, type, molecule, diameter, density, charge, bodyflag, mass, x, y, z };
+
+/// Columns of an atom style, image flags left out. Nothing: not known; why not is written to *why (a sentence's end).
+/// Source: LAMMPS manual, read_data; a hybrid has id type x y z, then every sub-style's own columns in order.
+[[nodiscard]] std::optional<std::vector<AtomColumn>> atom_columns(const std::string& style, std::string* why);
 
 struct AtomRow {
   int line, id, type, molecule;
@@ -60,5 +68,17 @@ LammpsRows read_lammps_rows(LammpsLines& lines, const LammpsReading& how);
 /// Word i as a type from 1 to most, or as the label of one; else notes a mistake.
 std::optional<int> type_in(LammpsLines& lines, const DataLine& line, std::size_t i, const std::string& key, int most,
                            const TypeLabels& labels);
+
+// Coefficients of bonds and angles in a LAMMPS data file, by style.
+
+/// Why a section with that comment behind its name cannot be read, or "". kind: "bond" or "angle".
+std::string refused_style(const std::string& kind, const std::string& comment);
+
+/// A row of "Bond Coeffs" or "Angle Coeffs"; the style is the one that the line names, else that of the section's
+/// comment, else harmonic or cosine. Types may have labels. A mistake, also a type
+/// above most_types, is noted in the lines.
+[[nodiscard]] std::optional<CoefficientRow> coefficient_row(LammpsLines& lines, const DataLine& line, const std::string& kind,
+                                              const std::string& comment, int most_types,
+                                              const TypeLabels& labels);
 
 }  // namespace elamin

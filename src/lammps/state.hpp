@@ -2,6 +2,7 @@
 // States as LAMMPS data files.
 #include "model/model.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,26 @@ bool straight_at_rest(const Model& model);
 struct Box { Vec3 lo, hi; };
 /// All of these with room: a tenth of the largest extent, at least the largest diameter, and not lost in rounding.
 Box box_around(const Field& x, const std::vector<double>& diameter);
+
+// States as LAMMPS's custom dump, one frame after the other.
+
+/// Something that is known of every particle, and behind them of every body, besides where it is: a number or a vector.
+struct EntityColumn {
+  std::string name;                        // "force"
+  std::vector<std::string> components;     // "fx", "fy", "fz"
+  Eigen::MatrixXd values;                  // components × entities (see model/entities.hpp), finite
+};
+using EntityColumns = std::vector<EntityColumn>;
+
+/// The box around particles, or around bodies instead.
+Box dump_box(const Model& model, const State& state, bool of_bodies);
+
+/// One frame: TIMESTEP, number of atoms, a box, and of each particle, or of each body instead, id type mol x y z radius (of
+/// a body the bounding one, and quati quatj quatk quatw), then the components of the columns. Numbers read back to the same doubles.
+std::string dump_frame(std::int64_t step, const Model& model, const State& state, const EntityColumns& columns, bool of_bodies,
+                       const Box& box);
+
+/// The same frame in another box.
+std::string in_box(const std::string& frame, const Box& box);
 
 }  // namespace elamin

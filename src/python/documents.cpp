@@ -2,7 +2,7 @@
 #include "input/document.hpp"
 #include "input/settings.hpp"
 #include "core/text.hpp"
-#include "python/documents.hpp"
+#include "python/module.hpp"
 
 #include <fmt/format.h>
 

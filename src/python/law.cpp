@@ -1,4 +1,4 @@
-#include "python/law.hpp"
+#include "python/module.hpp"
 
 #include "energy/carried_group.hpp"
 #include "core/suggest.hpp"

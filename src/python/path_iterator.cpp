@@ -1,12 +1,11 @@
 // A path as an iterator: `trace` works on a thread of its own and hands over one point at a time.
 #include "core/parallel.hpp"
-#include "python/states.hpp"
-#include "python/system.hpp"
+#include "python/module.hpp"
 #include "results/columns.hpp"
-#include "results/probe.hpp"
+#include "results/observables.hpp"
 #include "results/record.hpp"
 #include "results/summary.hpp"
-#include "study/eigenvalues.hpp"
+#include "study/modes.hpp"
 #include "study/trace.hpp"
 
 #include <condition_variable>

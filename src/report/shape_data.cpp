@@ -1,8 +1,8 @@
-#include "report/shape_data.hpp"
+#include "report/run_data.hpp"
 
 #include "core/error.hpp"
 #include "report/base64.hpp"
-#include "results/body_picture.hpp"
+#include "results/surfaces.hpp"
 #include "results/fields.hpp"
 
 #include <fmt/format.h>

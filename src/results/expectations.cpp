@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace elamin {
@@ -46,14 +45,10 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
       if (row[column] == Cell(*step)) return {&path, &row};
     return *why = "the motion has no such step; the last one is " + csv_text(path.rows.back()[column]), Found{};
   }
-  const std::string prefix = "lambda=";
-  if (at.rfind(prefix, 0) == 0) {
-    double lambda = 0;
-    const char* end = at.data() + at.size();
-    const auto [stop, error] = std::from_chars(at.data() + prefix.size(), end, lambda);
-    if (error != std::errc{} || stop != end || !std::isfinite(lambda))
-      return *why = "what follows \"lambda=\" is not a number", Found{};
-    const Found found = at_load_factor(path, lambda);
+  if (at.starts_with("lambda=")) {
+    const auto lambda = load_factor_of(at);
+    if (!lambda) return *why = "what follows \"lambda=\" is not a number", Found{};
+    const Found found = at_load_factor(path, *lambda);
     if (!found.row) *why = fmt::format("no equilibrium of the path has this load factor; the last one has {}",
                                        csv_text(path.rows.back()[column_index(path.columns, "lambda")]));
     return found;

@@ -1,9 +1,10 @@
 #pragma once
 // What [[observe]] asks for: numbers taken from the particles and bodies of a group, from what is inside it, from a wall.
 #include "dynamics/motion.hpp"
+#include "energy/energy.hpp"
 #include "energy/touch.hpp"
-#include "model/model.hpp"
 #include "input/problem.hpp"
+#include "model/model.hpp"
 
 #include <memory>
 #include <optional>
@@ -106,6 +107,32 @@ class Observables {
   Eigen::Matrix<bool, 3, Eigen::Dynamic> held_;       // by supports: 3 × sites
   std::unique_ptr<Energy> energy_;                    // where an energy is observed
   std::unique_ptr<PathRates> rates_;                  // where a derivative is
+};
+
+// Some observables at any state.
+
+/// All closed contacts of a state, what an event has located as touching, and open ones as far as the observed gaps need.
+std::vector<Touch> observed_touches(Energy& energy, const State& state, const Observables& observables);
+
+/// Evaluates on an energy of its own, so that nobody's evaluation is disturbed.
+class Probe {
+ public:
+  /// These of the [[observe]]s of a problem, ascending, with all that they are made of. The model must outlive this. Throws as Observables
+  /// does.
+  Probe(const Problem& problem, const Model& model, const std::vector<std::size_t>& numbers);
+  Probe(const Probe&) = delete;
+  Probe& operator=(const Probe&) = delete;
+
+  /// One number for each.
+  std::vector<double> operator()(const State& state);
+
+  Energy& energy() { return energy_; }
+  const std::vector<ObserveTable>& observed() const { return problem_.observe; }
+
+ private:
+  Problem problem_;                    // with these observables alone
+  Energy energy_;
+  Observables observables_;
 };
 
 }  // namespace elamin

@@ -1,6 +1,6 @@
 #pragma once
 // How observables change along the path of equilibria that goes through a state.
-#include "results/probe.hpp"
+#include "results/observables.hpp"
 #include "solve/newton.hpp"
 
 namespace elamin {

@@ -4,7 +4,7 @@
 #include "input/stages.hpp"
 #include "results/observables.hpp"
 #include "results/table.hpp"
-#include "results/trajectory.hpp"
+#include "results/columns.hpp"
 
 #include <optional>
 #include <string>

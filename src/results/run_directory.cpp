@@ -3,7 +3,7 @@
 #include "model/entities.hpp"
 #include "input/state_supplement.hpp"
 #include "path/arc.hpp"
-#include "results/body_picture.hpp"
+#include "results/surfaces.hpp"
 #include "results/columns.hpp"
 #include "results/stored_run.hpp"
 #include "lammps/state.hpp"

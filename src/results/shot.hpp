@@ -1,7 +1,7 @@
 #pragma once
 // A state of a run as films and pictures show it.
 #include "dynamics/motion.hpp"
-#include "lammps/dump.hpp"
+#include "lammps/state.hpp"
 #include "results/fields.hpp"
 
 namespace elamin {

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <filesystem>
 #include <set>
 
@@ -48,19 +47,13 @@ std::vector<std::vector<std::string>> fields(const std::string& text) {
   return lines;
 }
 
-template <class Number> bool whole(const std::string& text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc{} && stop == end;
-}
-
 Cell cell(const std::string& text) {
   int i = 0;
   double d = 0;
   if (text.empty()) return {};
   if (text == "true" || text == "false") return text == "true";
-  if (text != "-0" && whole(text, i)) return i;
-  if (whole(text, d)) return d;
+  if (text != "-0" && reads_as(text, i)) return i;
+  if (reads_as(text, d)) return d;
   return text;
 }
 

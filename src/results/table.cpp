@@ -1,5 +1,7 @@
 #include "results/table.hpp"
 
+#include "core/error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <utility>
 
 namespace elamin {
+
 namespace {
 
 std::string csv_quoted(const std::string& text) {
@@ -65,6 +68,23 @@ CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, std:
 void CsvFile::add(const Row& row) {
   if (row.size() != columns_) throw std::logic_error(fmt::format("a row of {} entries for {} columns", row.size(), columns_));
   out_.add(csv_line(row, digits_));
+}
+
+SweepTable::~SweepTable() {
+  try {
+    for (const auto& [run, row] : waiting_) csv_.add(row);
+  } catch (const OutputError&) {
+    // a destructor has nobody to tell; the rows before were written
+  }
+}
+
+void SweepTable::add(int run, Row row) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_[run] = std::move(row);
+  for (auto it = waiting_.find(next_); it != waiting_.end(); it = waiting_.find(++next_)) {
+    csv_.add(it->second);
+    waiting_.erase(it);
+  }
 }
 
 }  // namespace elamin

@@ -4,7 +4,7 @@
 #include "energy/wall_group.hpp"
 #include "model/entities.hpp"
 #include "results/mode.hpp"
-#include "results/wall_surface.hpp"
+#include "results/surfaces.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

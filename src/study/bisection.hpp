@@ -1,7 +1,7 @@
 #pragma once
 // A sweep that looks for the value of a key at which an outcome changes.
 #include "input/document.hpp"
-#include "input/mistakes.hpp"
+#include "input/keys.hpp"
 #include "input/problem.hpp"
 #include "input/settings.hpp"
 

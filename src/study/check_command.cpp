@@ -1,10 +1,10 @@
-#include "study/check_command.hpp"
+#include "study/commands.hpp"
 
 #include "core/say.hpp"
-#include "input/build_lammps.hpp"
+#include "input/lammps.hpp"
 #include "solve/ordering.hpp"
-#include "study/prepare.hpp"
 #include "study/describe.hpp"
+#include "study/prepare.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 #include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
 #include "input/read.hpp"
-#include "results/progress.hpp"
+#include "results/terminal.hpp"
 #include "results/summary.hpp"
 #include "study/imperfection.hpp"
 #include "study/run.hpp"

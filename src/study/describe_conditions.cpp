@@ -1,14 +1,18 @@
-#include "study/describe.hpp"
-
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 #include "dynamics/timestep.hpp"
 #include "energy/changes.hpp"
+#include "energy/wall_group.hpp"
 #include "input/conditions.hpp"
-#include "core/suggest.hpp"
+#include "laws/frustum.hpp"
+#include "model/entities.hpp"
+#include "study/describe.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace elamin {
@@ -106,6 +110,145 @@ std::vector<std::string> idle_at_rest(const Problem& problem) {
   }
   for (const ViscosityTable& t : problem.viscosity) idle(t.place, t.coefficient > 0, "coefficient");
   return lines;
+}
+
+namespace {
+
+struct Overlaps {
+  int count = 0;
+  double deepest = 0;
+  void add(const Touch& t) {
+    if (t.gap < 0) ++count, deepest = std::max(deepest, -t.gap);
+  }
+  std::string text(const char* what) const {
+    return count == 0 ? fmt::format("no {} at the start", what)
+                      : fmt::format("{} {}{} at the start, the deepest {:.6g}", count, what, count == 1 ? "" : "s", deepest);
+  }
+};
+
+// Smallest and largest radius of the particles of a group.
+std::array<double, 2> radii(const Model& model, const std::vector<int>& particles) {
+  std::array<double, 2> r{};
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const double radius = model.diameter[particles[k]] / 2;
+    r = k == 0 ? std::array{radius, radius} : std::array{std::min(r[0], radius), std::max(r[1], radius)};
+  }
+  return r;
+}
+
+// What is in force in dynamics only.
+std::string describe_damping(const ContactDamping& d) {
+  using Model = ContactDamping::Model;
+  if (d.model == Model::none) return "";
+  const std::pair<Model, const char*> names[]{{Model::velocity, "velocity"}, {Model::mass_velocity, "mass_velocity"},
+                                              {Model::viscoelastic, "viscoelastic"}, {Model::tsuji, "tsuji"}};
+  std::string text = "\n  in dynamics ";
+  for (const auto& [model, name] : names)
+    if (d.model == model) text += fmt::format("{} damping, coefficient {:.10g}", name, d.coefficient);
+  if (d.friction > 0) text += fmt::format(", friction {:.10g}, tangential damping {:.10g} of the normal one", d.friction, d.tangential);
+  return text;
+}
+
+// How a cohesion ends at its cutoff.
+std::string end_of(const PairContact& c) {
+  if (c.cutoff_style == CutoffStyle::smooth) return fmt::format(", smooth from {:.10g} on", c.inner_cutoff);
+  return c.cutoff_style == CutoffStyle::shifted ? ", shifted" : "";
+}
+
+std::string describe_pair(const Model& model, const PairContact& c, int excluded, const Overlaps& overlaps) {
+  std::string text = fmt::format("contact of '{}' and '{}': ", c.between[0], c.between[1]);
+  const std::string left_out = excluded > 0 ? fmt::format("pairs up to {} bond{} apart are left out", excluded, excluded == 1 ? "" : "s")
+                                            : std::string("bonded pairs too");
+  if (c.law == PairContact::Law::lj)
+    return text + fmt::format("lj, epsilon = {:.10g}, sigma = {:.10g}, cutoff {:.10g}{}; {}\n", c.epsilon, c.sigma, c.cutoff, end_of(c), left_out);
+  const auto a = radii(model, c.particles[0]), b = radii(model, c.particles[1]);
+  const auto effective = [](double r, double s) { return r + s > 0 ? r * s / (r + s) : 0.0; };
+  const double least = effective(a[0], b[0]), most = effective(a[1], b[1]);
+  if (c.hard) return text + fmt::format("hard, gap >= 0; {}\n  {}\n", left_out, overlaps.text("overlap"));
+  text += fmt::format("hertz, E_eff = {:.10g}, r_eff = {:.10g}", c.effective_modulus, least);
+  if (most > least) text += fmt::format(" to {:.10g}", most);
+  return text + fmt::format("; {}{}\n  {}\n", left_out, describe_damping(c.damping), overlaps.text("overlap"));
+}
+
+std::string listed(const Vec3& v) { return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", v[0], v[1], v[2]); }
+
+std::string shape_of(const Region& r) {
+  const auto along = [&](const std::string& name) {
+    const std::string ends = std::isfinite(r.axial_lo) || std::isfinite(r.axial_hi)
+                                 ? fmt::format(" from {:.10g} to {:.10g}", r.axial_lo, r.axial_hi) : std::string(" without ends");
+    return fmt::format("a {} along {}{}", name, "xyz"[r.axis], ends);
+  };
+  switch (r.shape) {
+    case Shape::plane: return fmt::format("a plane through {}, normal {}", listed(r.center), listed(r.normal));
+    case Shape::block: return fmt::format("a block from {} to {}", listed(r.lo), listed(r.hi));
+    case Shape::sphere: return fmt::format("a sphere of radius {:.10g}", r.radius);
+    case Shape::cylinder: return along("cylinder") + fmt::format(", radius {:.10g}", r.radius);
+    case Shape::cone: return along("cone") + fmt::format(", radii {:.10g} and {:.10g}", r.radius_lo, r.radius_hi);
+  }
+  return "";
+}
+
+// k_n, k_na and the rest of a rounded contact or of a wall of bodies.
+std::string describe_kernel(const RoundedKernel& k) {
+  std::string text = fmt::format("k_n = {:.10g}", k.normal);
+  if (k.attraction > 0) text += fmt::format(", k_na = {:.10g}, cutoff {:.10g}", k.attraction, k.cutoff);
+  return text + (k.form == RoundedKernel::Form::printed ? ", as printed" : "");
+}
+
+std::string describe_damping(const RoundedDamping& d) {
+  std::string text;
+  if (d.normal > 0 || d.tangential > 0)
+    text += fmt::format("\n  in dynamics damping c_n = {:.10g}{}, c_t = {:.10g}", d.normal, d.apart ? " within the cutoff" : "", d.tangential);
+  if (d.friction > 0) text += fmt::format("\n  in dynamics mu = {:.10g}{}", d.friction, d.slip > 0 ? fmt::format(", slip {:.10g}", d.slip) : "");
+  return text;
+}
+
+std::string describe_body_wall(const Wall& wall) {
+  return fmt::format("bodies {} {}{}", wall.lammps ? "by LAMMPS's rules," : "by a potential,", describe_kernel(wall.kernel),
+                     describe_damping(wall.body_damping));
+}
+
+std::string describe_rounded(const RoundedPair& r, const Overlaps& overlaps) {
+  const bool lammps = r.formulation == RoundedFormulation::lammps;
+  std::string text = fmt::format("contact of '{}' and '{}': rounded, formulation {}, {}", r.between[0], r.between[1],
+                                 lammps ? "lammps" : r.formulation == RoundedFormulation::multi ? "multi" : "closest", describe_kernel(r.kernel));
+  if (lammps) return text + fmt::format(", delta_ua = {:.10g}{}\n", r.unit_area, describe_damping(r.damping));
+  return text + fmt::format("{}\n  {}\n", describe_damping(r.damping), overlaps.text("overlap"));
+}
+
+std::string describe_wall(const Wall& wall, const State& state, const Overlaps& overlaps) {
+  const Region region = wall_at(wall, state.load_factor).region;
+  int wrong = 0;
+  for (const int p : wall.particles) wrong += !on_side(region, wall.inside, state.at(p));
+  const int open = static_cast<int>(std::count(region.open.begin(), region.open.end(), true));
+  std::string text = fmt::format("wall '{}' of '{}': {} of {}, ", wall.name, wall.group,
+                                 wall.inside ? "inside" : "outside", shape_of(region));
+  if (wall.hard) text += "hard, gap >= 0";
+  else if (!wall.particles.empty() || wall.bodies.empty())
+    text += fmt::format("E_eff = {:.10g}, effective radius {}", wall.effective_modulus, wall.curved ? "with the wall's curvature" : "the particle's");
+  if (!wall.bodies.empty()) text += (wall.particles.empty() ? "" : "; ") + describe_body_wall(wall);
+  if (open > 0) text += fmt::format(", {} open face{}: both sides act", open, open == 1 ? "" : "s");
+  text += describe_damping(wall.damping) + fmt::format("\n  {}", overlaps.text("overlap"));
+  if (wrong > 0 && open == 0)
+    text += fmt::format("; {} on the wrong side, feeling nothing", wrong == 1 ? "1 particle is" : std::to_string(wrong) + " particles are");
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string describe_contacts(const Model& model, Energy& energy, const State& state) {
+  std::vector<Overlaps> pairs(model.contacts.size()), rounded(model.rounded.size()), walls(model.walls.size());
+  for (const Touch& t : energy.touches(state)) {
+    if (t.wall >= 0) walls[t.wall].add(t);
+    else if (is_body(model, std::max(t.particle, t.other))) rounded[energy.body_rules().table(t.particle, t.other)].add(t);
+    else pairs[energy.contact_rules().hertz(t.particle, t.other)].add(t);
+  }
+  std::string text;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    text += describe_pair(model, model.contacts[k], energy.contact_rules().excluded_bonds(static_cast<int>(k)), pairs[k]);
+  for (std::size_t k = 0; k < rounded.size(); ++k) text += describe_rounded(model.rounded[k], rounded[k]);
+  for (std::size_t k = 0; k < walls.size(); ++k) text += describe_wall(model.walls[k], state, walls[k]);
+  return text;
 }
 
 }  // namespace elamin

@@ -1,7 +1,7 @@
 // What a problem is told to be doubtful in.
 #include "study/describe.hpp"
 
-#include "input/build_lammps.hpp"
+#include "input/lammps.hpp"
 #include "model/entities.hpp"
 #include "study/trace.hpp"
 

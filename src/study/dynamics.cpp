@@ -1,8 +1,8 @@
-#include "study/dynamics.hpp"
+#include "study/trace.hpp"
 
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
-#include "dynamics/carry.hpp"
+#include "dynamics/motion.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "dynamics/verlet.hpp"
 #include "input/check.hpp"

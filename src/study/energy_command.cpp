@@ -1,4 +1,4 @@
-#include "study/energy_command.hpp"
+#include "study/commands.hpp"
 
 #include "core/say.hpp"
 #include "dynamics/lammps_bodies.hpp"

@@ -1,4 +1,4 @@
-#include "study/import_command.hpp"
+#include "study/commands.hpp"
 
 #include "core/error.hpp"
 #include "core/say.hpp"

@@ -1,6 +1,5 @@
 #include "study/modes.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -88,6 +87,16 @@ Outcome trace_modes(const Problem& problem, Newton& newton, const Sink& sink) {
   const std::vector<Mode> modes = lowest_modes(newton, e, problem.modes.count);
   sink.modes(e.point, modes);
   return {report.status, std::to_string(modes.size()) + " lowest modes; " + report.why};
+}
+
+std::vector<double> LowestEigenvalues::at(const State& state) {
+  constexpr int more = 4;
+  constexpr double accuracy = 1e-14;
+  energy_.evaluate(state);
+  const double guess = before_.values.size() > 0 ? std::max(0.0, -2 * before_.values[0]) : 0.0;
+  before_ = factors_.lowest(count_ + more, guess, accuracy, before_.vectors);
+  const Eigen::Index count = std::min<Eigen::Index>(count_, before_.values.size());
+  return {before_.values.data(), before_.values.data() + count};
 }
 
 }  // namespace elamin

@@ -2,7 +2,6 @@
 
 #include "input/check.hpp"
 #include "input/read.hpp"
-#include "input/tables.hpp"
 #include "study/imperfection.hpp"
 
 #include <fmt/format.h>

@@ -2,12 +2,11 @@
 
 #include "core/parallel.hpp"
 #include "core/say.hpp"
-#include "results/closing.hpp"
+#include "results/terminal.hpp"
 #include "results/summary.hpp"
 #include "solve/blas.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
-#include "study/sweep_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -6,14 +6,13 @@
 #include "input/resolved.hpp"
 #include "results/run_directory.hpp"
 #include "results/stored_run.hpp"
-#include "study/eigenvalues.hpp"
-#include "study/observed.hpp"
+#include "study/modes.hpp"
+#include "study/trace.hpp"
 #include "study/run.hpp"
 #include "study/describe.hpp"
 #include "study/end_check.hpp"
 #include "study/strain_watch.hpp"
 #include "study/teller.hpp"
-#include "study/trace.hpp"
 
 #include <fmt/format.h>
 

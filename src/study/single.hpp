@@ -3,7 +3,7 @@
 #include "model/model.hpp"
 #include "results/expectations.hpp"
 #include "results/mode.hpp"
-#include "results/progress.hpp"
+#include "results/terminal.hpp"
 #include "results/table.hpp"
 #include "solve/report.hpp"
 #include "study/checkpoint.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 // All runs of a file with [[sweep]].
+#include "results/results_directory.hpp"
 #include "study/prepare.hpp"
 #include "study/run.hpp"
 #include "study/single.hpp"
@@ -53,5 +54,25 @@ std::string run_name(std::size_t number, std::size_t runs, const std::vector<Set
 /// The swept keys, and their values as they stand in sweep.csv: numbers where they are such.
 std::vector<std::string> swept_keys(const PreparedRun& run);
 std::vector<Cell> swept_values(const PreparedRun& run);
+
+// A sweep in parts, for machines that share a file system: elamin FILE --part K/N, then elamin collect DIR.
+
+struct PreparedRuns;
+
+/// "K/N" as part K of N. Throws InputError where it is not that, or K is not within 1 … N.
+SweepPart parse_part(const std::string& text);
+
+/// The runs K, K + N, K + 2N, … of a sweep into its directory, which parts share: what has ended there is not run again, what was
+/// stopped goes on. No sweep.csv is written. Throws InputError where the directory holds anything but parts of the same sweep.
+RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& options);
+
+struct CollectOptions {
+  std::string directory;
+  bool quiet = false;
+};
+
+/// Writes sweep.csv of what has ended of a sweep that was run in parts. Not converged if runs are missing, which are named.
+/// Throws InputError if the directory is not of such a sweep, or a run is at work in it.
+RunResult collect(const CollectOptions& options);
 
 }  // namespace elamin

@@ -1,7 +1,7 @@
 #pragma once
 // What a run tells while it works.
 #include "core/heartbeat.hpp"
-#include "results/progress.hpp"
+#include "results/terminal.hpp"
 #include "results/run_directory.hpp"
 
 #include <mutex>

@@ -3,9 +3,7 @@
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "path/equilibrium.hpp"
-#include "study/dynamics.hpp"
 #include "study/modes.hpp"
-#include "study/trace_path.hpp"
 
 #include <fmt/format.h>
 

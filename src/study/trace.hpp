@@ -1,11 +1,13 @@
 #pragma once
 // From a problem and its model to equilibria: which solver calls a study is made of.
 #include "core/archive.hpp"
-#include "path/point.hpp"
 #include "input/problem.hpp"
 #include "input/stages.hpp"
+#include "path/options.hpp"
+#include "path/point.hpp"
 #include "results/mode.hpp"
-#include "results/trajectory.hpp"
+#include "results/observables.hpp"
+#include "results/columns.hpp"
 #include "study/solving.hpp"
 
 #include <functional>
@@ -46,5 +48,20 @@ std::string not_finite(const Energy& energy, const State& state);
 /// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from; stopped: where the same study
 /// of this problem was when it was stopped, from which it goes on with the same bits, beginning with the stage that it is in.
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped = nullptr);
+
+// A motion in time, from its starting state to its last step.
+
+/// Velocity Verlet over the steps of [dynamics]; yields a moment at every step that has a row or a frame. Ends where a
+/// position is not finite any more, with the last moment that was.
+Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& sink, Archive* stopped = nullptr);
+
+/// The study "path": the path that [path] asks for, or one after the other those of its stages. Watches the [[event]]s.
+/// stored: what stands beside the state to start from; if it is of this very path, that goes on as if it had never stopped.
+Outcome trace_path(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped = nullptr);
+
+// Observables whose values are looked for.
+
+/// The [[event]]s of a problem as functions of a state; problem and model must outlive them.
+std::vector<UserEvent> user_events(const Problem& problem, const Model& model);
 
 }  // namespace elamin

@@ -1,13 +1,11 @@
-#include "study/trace_path.hpp"
-
 #include "core/interrupt.hpp"
-#include "model/entities.hpp"
-#include "path/carry.hpp"
-#include "path/path.hpp"
 #include "input/check.hpp"
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
-#include "study/observed.hpp"
+#include "model/entities.hpp"
+#include "path/carry.hpp"
+#include "path/path.hpp"
+#include "study/trace.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +14,7 @@
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <memory>
 
 namespace elamin {
 
@@ -229,6 +228,17 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
   }
   if (held) sink.point(*held, true);
   return outcome;
+}
+
+std::vector<UserEvent> user_events(const Problem& problem, const Model& model) {
+  std::vector<UserEvent> all;
+  for (const EventTable& e : problem.events)
+    for (std::size_t k = 0; k < problem.observe.size(); ++k) {
+      if (problem.observe[k].name != e.observable) continue;
+      const auto probe = std::make_shared<Probe>(problem, model, made_of(problem.observe, k));
+      all.push_back({e.name, [probe](const State& state) { return (*probe)(state).back(); }, e.value, e.stop});
+    }
+  return all;
 }
 
 }  // namespace elamin

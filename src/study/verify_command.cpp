@@ -1,4 +1,4 @@
-#include "study/verify_command.hpp"
+#include "study/commands.hpp"
 
 #include "core/error.hpp"
 #include "core/say.hpp"

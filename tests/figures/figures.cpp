@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
-#include "figures/braille.hpp"
+#include "figures/diagram.hpp"
 #include "figures/scene.hpp"
 #include "results/stored_run.hpp"
 #include "scratch_directory.hpp"

@@ -7,7 +7,7 @@
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
-#include "input/grains_file.hpp"
+#include "input/grains.hpp"
 #include "input/state_supplement.hpp"
 #include "scratch_directory.hpp"
 #include "study/prepare.hpp"

@@ -1,7 +1,7 @@
 // Tables of grains, right and wrong.
 #include "catch.hpp"
 
-#include "input/grains_file.hpp"
+#include "input/grains.hpp"
 #include "input/model_of.hpp"
 
 using namespace elamin;

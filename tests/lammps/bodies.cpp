@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "laws/rounded/reference_bodies.hpp"
 #include "lammps/data.hpp"
-#include "lammps/molecule.hpp"
+#include "lammps/bodies.hpp"
 #include "input/model_of.hpp"
 
 #include <fmt/format.h>

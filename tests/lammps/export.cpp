@@ -5,7 +5,7 @@
 #include "input/build.hpp"
 #include "input/read.hpp"
 #include "lammps/data.hpp"
-#include "lammps/export_types.hpp"
+#include "lammps/export.hpp"
 #include "lammps/state.hpp"
 #include "scratch_directory.hpp"
 #include "study/program.hpp"

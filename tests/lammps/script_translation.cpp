@@ -5,7 +5,7 @@
 #include "lammps/script_reading.hpp"
 #include "lammps/small_data_file.hpp"
 #include "results/run_directory.hpp"
-#include "study/check_command.hpp"
+#include "study/commands.hpp"
 #include "study/program.hpp"
 #include "study/run.hpp"
 

@@ -7,7 +7,7 @@
 #include "lammps/state.hpp"
 #include "results/sample.hpp"
 #include "core/text_file.hpp"
-#include "results/trajectory.hpp"
+#include "results/columns.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "core/error.hpp"
 #include "input/build.hpp"
-#include "input/build_lammps.hpp"
+#include "input/lammps.hpp"
 #include "input/read.hpp"
 #include "lammps/data.hpp"
 #include "lammps/small_data_file.hpp"

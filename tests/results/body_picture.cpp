@@ -1,5 +1,5 @@
 // Rounded bodies as surfaces: closed, outward, on the body.
-#include "results/body_picture.hpp"
+#include "results/surfaces.hpp"
 
 #include "catch.hpp"
 #include "laws/rounded/core_distance.hpp"

@@ -1,7 +1,6 @@
-#include "results/progress.hpp"
+#include "results/terminal.hpp"
 
 #include "catch.hpp"
-#include "results/closing.hpp"
 #include "results/columns.hpp"
 #include "results/sample.hpp"
 #include "scratch_directory.hpp"

@@ -1,12 +1,11 @@
 // N and M of sheets against cuts through the lattice, equilibrium and the plate that the lattice is.
-#include "results/stress_resultants.hpp"
+#include "results/fields.hpp"
 
 #include "catch.hpp"
 #include "chain.hpp"
 #include "model/append.hpp"
 #include "model/sheets.hpp"
 #include "plate.hpp"
-#include "results/fields.hpp"
 #include "scratch_directory.hpp"
 #include "solve/newton.hpp"
 

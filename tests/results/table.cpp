@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 #include "results/columns.hpp"
 #include "results/sample.hpp"
-#include "results/sweep_table.hpp"
 #include "scratch_directory.hpp"
 
 #include <bit>

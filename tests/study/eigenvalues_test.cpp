@@ -8,7 +8,7 @@
 #include "scratch_directory.hpp"
 #include "study/column.hpp"
 #include "study/spectrum.hpp"
-#include "study/eigenvalues.hpp"
+#include "study/modes.hpp"
 #include "study/results_of.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 #include "model/entities.hpp"
 #include "path/arc.hpp"
 #include "study/prepare.hpp"
-#include "study/observed.hpp"
 #include "study/trace.hpp"
 
 #include <algorithm>
