@@ -5,8 +5,8 @@
 //
 // Problem number k has the seed S + k (default S = 1, M = 100); its family is the next one in turn, or NAME. Prints how many
 // ended right, in all and by family, and a line for each that did not. --only: this one problem alone; --keep: its files are
-// left in DIR, to be run by hand. Each problem runs in a process of its own, which may crash; after T seconds (default 60) it
-// counts as one without end. Fails if one did not end right, or with --least if fewer than N of them did.
+// left in DIR, to be run by hand. Each problem runs in a process of its own, which may crash; after T seconds of the processor
+// (default 60) it counts as one without end. Fails if one did not end right, or with --least if fewer than N of them did.
 #include "core/exact.hpp"
 #include "core/parallel.hpp"
 #include "energy/energy.hpp"
@@ -25,6 +25,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -1441,7 +1442,8 @@ int main(int argc, char** argv) {
       if (child < 0) return std::perror("fork"), EXIT_FAILURE;
       if (child == 0) {
         close(ends[0]);
-        alarm(static_cast<unsigned>(seconds));
+        const itimerval most{{0, 0}, {seconds, 0}};
+        setitimer(ITIMER_PROF, &most, nullptr);
         const std::string answer = judge(family, s, directory).substr(0, 4000);
         _exit(write(ends[1], answer.data(), answer.size()) == static_cast<ssize_t>(answer.size()) ? 0 : 1);
       }
@@ -1460,7 +1462,7 @@ int main(int argc, char** argv) {
     const ssize_t size = read(r.answer, answer.data(), answer.size());
     answer.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
     close(r.answer);
-    if (WIFSIGNALED(status)) answer = WTERMSIG(status) == SIGALRM ? fmt::format("no end after {} seconds", seconds) : fmt::format("killed by signal {}", WTERMSIG(status));
+    if (WIFSIGNALED(status)) answer = WTERMSIG(status) == SIGPROF ? fmt::format("no end after {} seconds", seconds) : fmt::format("killed by signal {}", WTERMSIG(status));
     ++done, right += answer.empty();
     if (const double took = now() - r.since; took > slowest) slowest = took, slowest_name = fmt::format("--family {} --only {}", r.family->name, r.seed);
     by_family[r.family->name][0] += answer.empty(), ++by_family[r.family->name][1];
