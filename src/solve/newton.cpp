@@ -280,15 +280,17 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     if (settled) {
       const double before = report.residual;
       if (!guided) polish(state, report, [&](State& next) { see(next), move(next, solve(energy_.gradient()), 1); });
-      // What is left may be more than rounding, and all that tells one branch from another: then on, as long as that halves it. Of contacts, whose
-      // stiffness changes with every step, it is rounding.
+      // Of contacts, whose stiffness changes with every step, what is left is rounding.
       if (guided || touches(energy_.last_terms()) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
         return end(Status::converged, below(options_.tolerance));
       }
+      // Else, where it would still bend the structure, it may be all that tells one branch from another: then on, as long as that halves it.
+      energy_.evaluate(state, false), see(state);
+      const Factors::Bordered left = solve(energy_.gradient());
+      if (distortion(energy_, state, left.p, left.delta) <= limits::unbent) return end(Status::converged, below(options_.tolerance));
       settled_at = state, least = report.residual;
       if (least < before) continue;
-      energy_.evaluate(state, false), see(state);
     }
     const Factors::Bordered step = solve(energy_.gradient());
     sizes.push_back(plane ? std::hypot(step.p.norm() / plane->length, step.delta / plane->load) : step.p.norm());
