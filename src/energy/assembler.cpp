@@ -245,6 +245,22 @@ void Assembler::multiply(const Field& v, Field& out) {
   gather(products_, out);
 }
 
+BilinearForm Assembler::slope(const Field& v) const {
+  ExactSum sum;
+  double squares = 0;
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const ElementGroup& group = *groups_[k];
+    const double* g = gradients_.data() + gradient_offset_[k];
+    for (int e = 0; e < group.elements(); ++e, g += group.gradient_size()) {
+      double local[most_local], part = 0;
+      relative_motion(v, group.stencil(e), group.anchored(), local);
+      for (int r = 0; r < group.gradient_size(); ++r) part += g[r] * local[r], squares += g[r] * local[r] * g[r] * local[r];
+      sum.add(part);
+    }
+  }
+  return {sum.value(), std::sqrt(squares)};
+}
+
 BilinearForm Assembler::form(const Field& u, const Field& v, const State* state) const {
   ExactSum sum;
   double size = 0;

@@ -42,6 +42,8 @@ class Assembler {
   /// H v for a field v that is zero at prescribed coordinates (3 × sites), element by element on differences of v, so
   /// that soft modes of slender structures keep their digits; from the last evaluation with Hessian.
   void multiply(const Field& v, Field& out);
+  /// gᵀv in the same way, g without loads; from the last evaluation. The size is the root of the sum of its terms' squares.
+  BilinearForm slope(const Field& v) const;
   /// uᵀHv in the same way, summed with compensation. `state`: of the last evaluation, where laws that form it better than their Hessian's
   /// entries do so anew; null: all of it from the entries.
   BilinearForm form(const Field& u, const Field& v, const State* state) const;

@@ -255,6 +255,7 @@ void Energy::anchor_null_dofs() {
 }
 
 void Energy::finish_gradient(const State& state) {
+  load_factor_ = state.load_factor;
   assembler_->gradient(site_gradient_);
   force_scale_ = assembler_->largest_element_force();
   for (Eigen::Index p = 0; p < site_gradient_.cols(); ++p) {
@@ -301,6 +302,12 @@ BilinearForm Energy::form(const Vector& u, const Vector& v) const {
     form.value += part, form.size += std::abs(part);
   }
   return form;
+}
+
+BilinearForm Energy::slope(const Vector& v) const {
+  const Field field = kinematics_.extend(v), by_loads = (constant_load_ + load_factor_ * scaled_load_).cwiseProduct(field);
+  const BilinearForm inside = assembler_->slope(field);
+  return {inside.value - by_loads.sum(), std::hypot(inside.size, by_loads.norm())};
 }
 
 double Energy::relative(const Vector& force) const {

@@ -76,6 +76,9 @@ class Energy {
   Vector multiply(const Vector& v, bool anchored = true) const;
   double quadratic_form(const Vector& v) const { return form(v, v).value; }
   BilinearForm form(const Vector& u, const Vector& v) const;
+  /// gᵀv, the slope of the energy along v (dofs) [energy], formed in the same way: along a soft motion the rounded sum of forces is noise. Its
+  /// rounding is some ε times the size, the root of the sum of the terms' squares, as errors are independent.
+  BilinearForm slope(const Vector& v) const;
   /// Where the last evaluation with Hessian was.
   const State& evaluated() const { return evaluated_; }
   /// Largest part of the way from → to, in (0, 1], on which nothing passes through anything (see collision_free_particle_step, collision_free_body_step).
@@ -133,6 +136,7 @@ class Energy {
   BodyNeighbours body_neighbours_;
   Assembler::Groups groups_;                                  // by place: see energy.cpp
   std::unique_ptr<Assembler> assembler_;
+  double load_factor_ = 0;                                     // of the last evaluation
   Field constant_load_, scaled_load_;                         // F₀, F₁: 3 × sites, of what nothing carries
   Field site_gradient_;
   Vector gradient_, row_sums_;

@@ -62,6 +62,23 @@ bool Factors::factorize_holding(const Eigen::MatrixXd& held) {
   return holder_ != nullptr;
 }
 
+bool Factors::factorize_resolving(const Eigen::MatrixXd& held) {
+  if (held.cols() > 0 || soft_.cols() == 0) return factorize_holding(held);
+  const bool positive = !indefinite_ && try_cholesky(zero_level());
+  resolved_ = resolve(soft_, positive).has_value(), shift_ = 0;
+  return resolved_ || factorize_holding(held);
+}
+
+Vector Factors::gradient() const {
+  Vector g = energy_.gradient();
+  for (Eigen::Index j = 0; resolved_ && j < near_.x.cols(); ++j) {
+    const BilinearForm slope = energy_.slope(near_.x.col(j));
+    const double along = std::abs(slope.value) > limits::slope_rounding * epsilon * slope.size ? slope.value : 0;
+    g += (along - near_.x.col(j).dot(g)) * near_.x.col(j);
+  }
+  return g;
+}
+
 Vector Factors::solve_holding(const Vector& b) {
   assert(b.size() == energy_.dofs());
   if (resolved_) return solve_resolved(b);

@@ -55,6 +55,12 @@ class Factors {
   /// where the columns of `held` (orthonormal, dofs × m) keep still: zero modes, critical modes. H may be singular along
   /// them. False if there is no factor (see why_none); all solutions are then zero.
   bool factorize_holding(const Eigen::MatrixXd& held);
+  /// The same for the steps of a corrector: where nothing is held, the modes whose signs the last inertia() had to resolve are resolved here, too, so
+  /// that solutions along them are not rounding.
+  bool factorize_resolving(const Eigen::MatrixXd& held);
+  /// The gradient of the last evaluation (dofs), for solutions after that: its parts along the modes that are resolved formed element by element, and
+  /// none where that is rounding.
+  Vector gradient() const;
   /// p of the system above; the factors must be those of factorize_holding (or of inertia, then Z is empty).
   Vector solve_holding(const Vector& b);
   /// p of |H| p = b, |H| being H with the signs of its negative eigenvalues changed, where the last inertia() had to tell signs that a factor
@@ -104,6 +110,7 @@ class Factors {
     Vector error;                                // of the eigenvalues of T by rounding
     Solve outside;                               // H⊥⁻¹, or near to it
   } near_;
+  Eigen::MatrixXd soft_;                         // X of the last inertia, where that needed it
   bool indefinite_ = false;                      // the last inertia had a negative eigenvalue: try the pivoted factor first
   Factorization* holder_ = nullptr;              // the factor of factorize_holding; none: solutions are zero, or …
   bool resolved_ = false;                        // … those of solve_resolved

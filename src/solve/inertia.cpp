@@ -161,7 +161,7 @@ Inertia Factors::inertia() {
   std::optional<Eigen::MatrixXd> soft;
   bool looked = false, positive = false;
   const auto doubtful = [&] { return std::max(limits::doubtful * sigma, 2 * out_of_balance_of(energy_) * Curvature(energy_).largest()); };
-  resolved_ = false, shift_ = 0;
+  resolved_ = false, shift_ = 0, soft_.resize(energy_.dofs(), 0);
   if (indefinite_ && try_pivoted(0) && pivoted().negative() > 0) {
     holder_ = &pivoted();
     const double bound = doubtful();
@@ -186,7 +186,7 @@ Inertia Factors::inertia() {
     const std::optional<Inertia> resolved = resolve(*soft, positive);
     if (!resolved) return unknown;
     inertia = *resolved;
-    resolved_ = true;
+    resolved_ = true, soft_ = near_.x;
   } else {                                                      // too many: what a factor cannot tell is zero
     if (!pivot_near(sigma, 1.5 * sigma)) return unknown;
     inertia.negative = pivoted().negative();
@@ -231,21 +231,24 @@ Vector Factors::solve_shifted(const Vector& b) {
   return wrong > limits::shifted * p.norm() && factorize_holding({}) ? holder_->solve(b) : p;
 }
 
-// H⁻¹ b in the basis (X, X⊥), refined with products formed element by element.
+// H⁻¹ b in the basis (X, X⊥), refined with products formed element by element. What is left of b along X is xᵀb − xᵀHp, a form: in H p, summed and
+// rounded, it drowns, and softness would make motions of it.
 Vector Factors::solve_resolved(const Vector& b) {
   const Eigen::MatrixXd& x = near_.x;
-  const auto once = [&](const Vector& right) -> Vector {
+  const auto once = [&](const Vector& right, const Vector& along) -> Vector {
     Vector y = near_.outside(right);
     y -= x * (x.transpose() * y);
-    const Vector c = solved(near_.t, x.transpose() * right - near_.r.transpose() * y);
+    const Vector c = solved(near_.t, along - near_.r.transpose() * y);
     return y + (x - near_.w) * c;
   };
-  Vector p = once(b), before;
-  for (int k = 0; k < limits::most_refinements; ++k) {
-    const Vector correction = once(b - energy_.multiply(p));
-    if (before.size() > 0 && !(correction.norm() < before.norm() / 2)) break;
+  Vector p = Vector::Zero(b.size()), left = b, along = x.transpose() * b, before;
+  for (int k = 0; k <= limits::most_refinements; ++k) {
+    const Vector correction = once(left, along);
+    if (k > 1 && !(correction.norm() < before.norm() / 2)) break;
     p += correction, before = correction;
-    if (correction.norm() <= limits::refined * p.norm()) break;
+    if (k > 0 && correction.norm() <= limits::refined * p.norm()) break;
+    left = b - energy_.multiply(p);
+    for (Eigen::Index j = 0; j < x.cols(); ++j) along[j] = x.col(j).dot(b) - energy_.form(x.col(j), p).value;
   }
   return p;
 }

@@ -15,6 +15,8 @@ constexpr int most_doubtful = 40;
 /// Error of a form Σ_e u_eᵀ H_e v_e, in ε · Σ_e |u_e|ᵀ |H_e| |v_e|: three roundings in an entry of an element's Hessian, two in a
 /// difference of the vector on either side, one in each product.
 constexpr double form_rounding = 8;
+/// Error of a slope Σ_e g_e·v_e, in ε · (Σ_e |g_e·v_e|²)^½: two roundings in a force, one each in a difference and a product, of either sign.
+constexpr double slope_rounding = 4;
 
 /// Rounds of inverse iteration after which eigenvalues that do not settle below σ/64 are taken for zero.
 constexpr int patience = 12;

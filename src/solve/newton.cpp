@@ -253,7 +253,8 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
   const auto see = [&](const State& at) {
     if (plane && plane->condition) off = plane->condition(at, *plane);
   };
-  const auto solve = [&](const Vector& g) -> Factors::Bordered {
+  const auto correction = [&]() -> Factors::Bordered {          // with the factor at hand, from the last evaluation
+    const Vector g = factors_.gradient();
     if (!plane) return {-factors_.solve_holding(g), 0.0};
     return factors_.solve_bordered(column, plane->row, plane->corner, -g, -off);
   };
@@ -272,14 +273,14 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     const bool settled = report.residual <= options_.tolerance && std::abs(off) <= (plane ? plane->close : 0.0);
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
-    if (!factors_.factorize_holding(held)) {
+    if (!factors_.factorize_resolving(held)) {
       const Halt halt = without_factor();
       return end(halt.status, halt.why);
     }
     if (plane) column = energy_.load_derivative();
     if (settled) {
       const double before = report.residual;
-      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, solve(energy_.gradient()), 1); });
+      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, correction(), 1); });
       // Of contacts, whose stiffness changes with every step, what is left is rounding.
       if (guided || touches(energy_.last_terms()) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
@@ -287,12 +288,12 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
       }
       // Else, where it would still bend the structure, it may be all that tells one branch from another: then on, as long as that halves it.
       energy_.evaluate(state, false), see(state);
-      const Factors::Bordered left = solve(energy_.gradient());
+      const Factors::Bordered left = correction();
       if (distortion(energy_, state, left.p, left.delta) <= limits::unbent) return end(Status::converged, below(options_.tolerance));
       settled_at = state, least = report.residual;
       if (least < before) continue;
     }
-    const Factors::Bordered step = solve(energy_.gradient());
+    const Factors::Bordered step = correction();
     sizes.push_back(plane ? std::hypot(step.p.norm() / plane->length, step.delta / plane->load) : step.p.norm());
     const std::size_t k = sizes.size() - 1;
     if (!step.p.allFinite() || !std::isfinite(step.delta) || (k >= 4 && !(sizes[k] < sizes[k - 2])))
