@@ -97,6 +97,7 @@ constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2â
 namespace locate {
 constexpr int most_iterations = 16;  // of a corrector between two equilibria
 constexpr double vanished = 1e-2;  // of the eigenvalues at both ends: where rounding hides which is zero
+constexpr double steepest = 4;  // times the mean rate of a segment: more is a leap
 constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
 constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
 constexpr double work_rounding = 1e-10;  // of a load: its work along a critical mode as far as that is known; and â€¦

@@ -95,6 +95,14 @@ void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, co
   e.tangent = newton.factors().solve_holding(-newton.energy().load_derivative());
 }
 
+// Whether the states on both sides of a zero are as near to each other as their parameters: a branch is continuous. Else the eigenvalue has
+// changed its sign in a leap between two branches that pass by each other, as those of an unfolded pitchfork do.
+bool meet(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, const Sample& below, const Sample& above) {
+  const auto apart = [&](const Equilibrium& from, const Equilibrium& to) { return kinematics.difference(from.point.state, to.point.state).norm(); };
+  const double part = std::abs((above.t - below.t) / (segment.b - segment.a));
+  return apart(below.e, above.e) <= (equilibrium::same_end + locate::steepest * part) * apart(a, b);
+}
+
 // Whether the branch from an equilibrium, at which the eigenvalue is `value`, comes to a limit point here rather than to a branch point,
 // however little of the load does work w along the critical mode, as where a structure is stiff along the load:  g = w (λ − λ*) + w c a²
 // over the amplitude a has its zeros at  w (λ − λ*) = −μ a/2; at a branch point w = 0.
@@ -154,6 +162,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const bool limit = told.value_or(false);
   const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && (limit || e.point.report.residual <= rounding); };
   const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
+  Sample below = lower, above = upper;                          // the last ones on both sides of the zero
   const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
     // At a branch point the equations are regular with the critical modes held where the branch has them.
     Equilibrium e;
@@ -167,8 +176,11 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     if (!good(e)) return {};
     e.zero_modes = known, e.lowest = from.e.lowest;
     const double value = critical_value(newton, e, index);
-    return Sample{t, value, std::move(e)};
+    const Sample sample{t, value, std::move(e)};
+    ((value < 0) == (lower.f < 0) ? below : above) = sample;
+    return sample;
   });
+  if (!meet(newton.energy().kinematics(), segment, a, b, below, above)) return {};
   // Small beside both ends, too: of slender chains all that decides is below the zero level.
   if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale))) return {};
   Event event = finish(newton, first, lower.f, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
