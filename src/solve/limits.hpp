@@ -53,6 +53,8 @@ constexpr double relaxed = 0.01;
 /// Newton steps in one run that are taken unseen, where rounding hides the change of energy: as many as quadratic convergence from 1e-8
 /// and a few sets of contacts need.
 constexpr int most_unseen = 12;
+/// Iterations of a descent that Newton's method alone does not take, where bonds are many times stiffer than they bend.
+constexpr int slow = 8;
 /// Of a step of rigid bodies, before a shorter one is computed anew: five halvings.
 constexpr double shortest_part = 1.0 / 32;
 /// Of any step: beyond, positions do not change.

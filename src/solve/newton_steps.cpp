@@ -163,10 +163,13 @@ std::optional<Newton::Step> Newton::step_within(double step_bound, const Vector&
 }
 
 // Where a step goes along motions that are softer than the shift that makes a factor, it is by far too short: slender structures bend that
-// softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp). False: there is no factor any more.
-bool Newton::resolve_softest(const Vector& g, double shift, Step& step) {
-  if (energy_.model().bonds.empty() || !(shift > 0 && shift <= limits::hold_zero_modes * factors_.zero_level())) return true;
-  if (energy_.quadratic_form(step.p) > shift * step.p.squaredNorm()) return true;
+// softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp). Where steps are many already, it may be that a factor without
+// shift is one by rounding alone. False: there is no factor any more.
+bool Newton::resolve_softest(const Vector& g, double shift, bool slow, Step& step) {
+  const double sigma = factors_.zero_level();
+  if (energy_.model().bonds.empty() || shift > limits::hold_zero_modes * sigma || (shift == 0 && !slow)) return true;
+  const Vector soft = slow ? factors_.cholesky().solve(step.p) : step.p;         // of inverse iteration: the softest is most of it
+  if (energy_.quadratic_form(soft) > std::max(shift, limits::doubtful * sigma) * soft.squaredNorm()) return true;
   factors_.inertia();
   std::optional<Vector> p = factors_.solve_convex(-g);
   if (!p || !p->allFinite()) return factors_.make_positive_from(shift).has_value();
