@@ -141,7 +141,7 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   if (settled) return Halt{Status::not_converged, "a saddle could not be left along its negative curvature"};
   std::optional<Step> step = step_within(descent.step_bound, g, descent.shift);
   if (!step) return without_factor();
-  if (!resolve_softest(g, descent.shift, descent.report.iterations >= limits::slow, *step)) return without_factor();
+  if (!resolve_softest(g, descent, *step)) return without_factor();
   return advance(state, descent, std::move(*step));
 }
 

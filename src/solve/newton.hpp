@@ -129,7 +129,7 @@ class Newton {
   double free_part(const State& state, const Vector& p, double part) const;
   Step newton_step(const Vector& g, double shift);
   [[nodiscard]] std::optional<Step> step_within(double step_bound, const Vector& g, double& shift);
-  [[nodiscard]] bool resolve_softest(const Vector& g, double shift, bool slow, Step& step);
+  [[nodiscard]] bool resolve_softest(const Vector& g, const Descent& descent, Step& step);
   bool take(const State& from, const Step& step, double alpha, Pace pace, State& to);
   [[nodiscard]] bool comes_nearer(const Step& step, double alpha);
   [[nodiscard]] bool take_downhill(const State& from, const Step& step, double alpha, State& to);

@@ -165,14 +165,15 @@ std::optional<Newton::Step> Newton::step_within(double step_bound, const Vector&
 // Where a step goes along motions that are softer than the shift that makes a factor, it is by far too short: slender structures bend that
 // softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp). Where steps are many already, it may be that a factor without
 // shift is one by rounding alone. False: there is no factor any more.
-bool Newton::resolve_softest(const Vector& g, double shift, bool slow, Step& step) {
-  const double sigma = factors_.zero_level();
+bool Newton::resolve_softest(const Vector& g, const Descent& descent, Step& step) {
+  const double sigma = factors_.zero_level(), shift = descent.shift;
+  const bool slow = descent.report.iterations >= limits::slow;
   if (energy_.model().bonds.empty() || shift > limits::hold_zero_modes * sigma || (shift == 0 && !slow)) return true;
   const Vector soft = slow ? factors_.cholesky().solve(step.p) : step.p;         // of inverse iteration: the softest is most of it
   if (energy_.quadratic_form(soft) > std::max(shift, limits::doubtful * sigma) * soft.squaredNorm()) return true;
   factors_.inertia();
   std::optional<Vector> p = factors_.solve_convex(-g);
-  if (!p || !p->allFinite()) return factors_.make_positive_from(shift).has_value();
+  if (!p || !(infinity_norm(*p) <= 2 * descent.step_bound)) return factors_.make_positive_from(shift).has_value();      // what falls freely goes by the shift
   step.resolved = true, step.p = std::move(*p), step.hp = energy_.multiply(step.p);
   step.slope = g.dot(step.p), step.curvature = step.p.dot(step.hp);
   return true;

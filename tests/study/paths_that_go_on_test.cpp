@@ -623,6 +623,36 @@ TEST_CASE("a column that is pushed by less than the tolerance of its residual ha
   }
 }
 
+// In space nothing but the push, 1e-9 of the load, resists rotation about the axis beyond the critical load; in a plane the branch of the other side
+// passes by near.
+TEST_CASE("a slender column that is pushed next to nothing has no branch point, whatever the steps", "[paths][column_pushed_in_space]") {
+  const auto same_end = [](const std::string& name, const std::string& first_steps, const std::vector<std::string>& others) {
+    const Run first(name, {first_steps});
+    CHECK(first.summary["status"] == "done");
+    CHECK(first.events.empty());
+    for (const std::string& steps : others) {
+      INFO(name << " " << steps);
+      const Run run(name, {steps});
+      CHECK_ENDS_AT(run, first.end());
+      CHECK(run.events.empty());
+      CHECK(run.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-10));
+    }
+  };
+  same_end("column_pushed_in_space", in_steps(14), {in_steps(5), in_steps(40)});
+  same_end("column_pushed_passes", in_steps(3), {in_steps(8), in_steps(21)});
+}
+
+TEST_CASE("a slender column snaps from its branch point to a minimum, whatever the steps", "[paths][column_snaps_slender]") {
+  const Run first("column_snaps_slender", {in_steps(40)});
+  CHECK_ENDS_AT(first, 2.0665538235128222);
+  REQUIRE(first.of("branch").size() == 1);
+  const Run other("column_snaps_slender", {in_steps(181)});
+  CHECK_ENDS_AT(other, 2.0665538235128222);
+  same_events(first, other);
+  for (const Run* run : {&first, &other}) CHECK(run->path.back()["negative"] == 0);
+  CHECK(other.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-10));
+}
+
 // Unstable, on the way back, a column meets a stop that is all but rigid: nᵀH⁻¹n < 0 there, the load factor turns where the contact is made, and the contact makes it stable.
 TEST_CASE("the load turns at a stiff contact on the way back, whatever the steps", "[paths][column_back_at_stop]") {
   const Run first("column_back_at_stop", {in_steps(10)});
