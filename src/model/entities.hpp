@@ -6,6 +6,8 @@ namespace elamin {
 
 inline int entities(const Model& model) { return model.particles() + static_cast<int>(model.bodies.size()); }
 inline bool is_body(const Model& model, int entity) { return entity >= model.particles(); }
+/// Whether anything of the model may come into contact.
+inline bool may_touch(const Model& model) { return !(model.contacts.empty() && model.walls.empty() && model.rounded.empty()); }
 /// LAMMPS's own, or counted from 1.
 int id_of(const Model& model, int entity);
 /// Its structure and its number there, from 1: "ball 1", "sheet 1757"; "body cube"; "particle 7", "body 9" with their ids of

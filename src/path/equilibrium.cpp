@@ -259,8 +259,6 @@ bool lower_already(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   return there.total() < here.total() - equilibrium::energy_rounding * std::max(here.size(), there.size());
 }
 
-bool may_touch(const Model& model) { return !model.contacts.empty() || !model.walls.empty() || !model.rounded.empty(); }
-
 Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_factor, const Corrector& correct) {
   const Kinematics& kinematics = newton.energy().kinematics();
   Energy& energy = newton.energy();

@@ -1,5 +1,6 @@
 #pragma once
 // One equilibrium with what its neighbours are computed from.
+#include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "path/options.hpp"
 #include "solve/newton.hpp"
@@ -20,9 +21,6 @@ struct Equilibrium {
 
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
 Equilibrium assess(Newton& newton, const State& state, const Report& report);
-
-/// Whether anything of the model may come into contact.
-bool may_touch(const Model& model);
 
 /// Follows the branch from one equilibrium to the load factor λ: tangent predictor, Newton's corrector or another one.
 /// Converged only if it is on the same branch, as far as can be told; beyond a contact that is made on the way it cannot.

@@ -10,11 +10,13 @@
 //   T = S − Rᵀ H⊥⁻¹ R,
 // for any X whatever. H⊥ has no small eigenvalue: a factor of H with borders X tells its inertia. T is small; S is formed element by
 // element, and RᵀH⊥⁻¹R is of second order in the error of X (Parlett 1980, The Symmetric Eigenvalue Problem, §11.7), so that it need not be
-// known well; X ← X − H⊥⁻¹R makes it vanish. An eigenvalue of T is zero if it is within the error of its own form (BilinearForm::size, ε) plus a part of
-// the second-order term plus what forces out of balance, g, leave of a motion that costs nothing: it goes on a curve, a rotation at the rate φ on
-// one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ. So X spans the eigenvectors to eigenvalues up to 2|g|φ too.
+// known well; X ← X − H⊥⁻¹R makes it vanish, but for the rounding of HX. An eigenvalue of T is zero if it is within the error of its own
+// form (BilinearForm::size, ε) plus the second-order term plus what forces out of balance, g, leave of a motion that costs nothing: it goes
+// on a curve, a rotation at the rate φ on one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ. So X spans the eigenvectors to
+// eigenvalues up to 2|g|φ too.
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "solve/factors.hpp"
 #include "solve/limits.hpp"
@@ -22,6 +24,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace elamin {
 
@@ -39,7 +43,7 @@ class Curvature {
       const Vector u = energy.kinematics().restrict(m.velocity_field(energy.kinematics().sites()));
       if (u.norm() > 0) rotations_.push_back({u.normalized(), m.twist.tail<3>().norm() / m.size / u.norm()});
     }
-    touching_ = !(model.contacts.empty() && model.walls.empty() && model.rounded.empty());
+    touching_ = may_touch(model);
   }
 
   double of(const Vector& v) const {
@@ -98,7 +102,6 @@ std::optional<Eigen::MatrixXd> Factors::soft_modes(double bound, const Solve& so
 //   H⊥⁻¹ b ≈ F⁻¹b − Y (XᵀY)⁻¹ XᵀF⁻¹b,   Y = F⁻¹X.
 std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   constexpr int most = 12;
-  constexpr double part = 1 / limits::doubtful;                 // to which the second-order term is known
   int below = 0;
   if (positive) {
     const Eigen::MatrixXd y = cholesky().solve(x);
@@ -114,6 +117,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   const double out_of_balance = out_of_balance_of(energy_);
   const Curvature curvature(energy_);
   Inertia inertia;
+  double before = std::numeric_limits<double>::infinity();
   for (int k = 0;; ++k) {
     const Eigen::Index m = x.cols();
     Eigen::MatrixXd s(m, m), r(x.rows(), m), w(x.rows(), m);
@@ -137,7 +141,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     const Eigen::MatrixXd weight = v.cwiseAbs2().transpose();
     const Vector of_forms = limits::form_rounding * epsilon * (weight * size), rounding = of_forms + 2 * out_of_balance * (weight * bend);
     const Vector unknown = (v.transpose() * second * v).diagonal().cwiseAbs();
-    const Vector error = rounding + part * unknown;
+    const Vector error = rounding + unknown;
     const Vector& t = small.values;
     inertia = {below, 0};
     bool clear = true;
@@ -147,7 +151,8 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
       clear = clear && (std::abs(t[j]) > error[j] || unknown[j] <= rounding[j]);
     }
     near_.x = x, near_.w = w, near_.r = r, near_.t = s - second, near_.error = of_forms;
-    if (clear || k == most || interrupted()) return inertia;
+    const bool rounded = !(unknown.sum() < std::exchange(before, unknown.sum()) / 2);
+    if (clear || rounded || k == most || interrupted()) return inertia;
     x = orthonormal((x - w) * v);
   }
 }

@@ -5,6 +5,7 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "energy/step_limits.hpp"
+#include "model/entities.hpp"
 #include "solve/limits.hpp"
 #include "solve/steady_bodies.hpp"
 
@@ -286,10 +287,11 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
         if (settled_at && report.residual > least) state = *settled_at;
         return end(Status::converged, below(options_.tolerance));
       }
-      // Else, where it would still bend the structure, it may be all that tells one branch from another: then on, as long as that halves it.
+      // Else, where it would still bend the structure, it may be all that tells one branch from another, or, where something may touch, whether it
+      // does: then on, as long as that halves it.
       energy_.evaluate(state, false), see(state);
       const Factors::Bordered left = correction();
-      if (distortion(energy_, state, left.p, left.delta) <= limits::unbent) return end(Status::converged, below(options_.tolerance));
+      if (!may_touch(energy_.model()) && distortion(energy_, state, left.p, left.delta) <= limits::unbent) return end(Status::converged, below(options_.tolerance));
       settled_at = state, least = report.residual;
       if (least < before) continue;
     }

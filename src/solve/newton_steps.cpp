@@ -173,7 +173,8 @@ bool Newton::resolve_softest(const Vector& g, const Descent& descent, Step& step
   if (energy_.quadratic_form(soft) > std::max(shift, limits::doubtful * sigma) * soft.squaredNorm()) return true;
   factors_.inertia();
   std::optional<Vector> p = factors_.solve_convex(-g);
-  if (!p || !(infinity_norm(*p) <= 2 * descent.step_bound)) return factors_.make_positive_from(shift).has_value();      // what falls freely goes by the shift
+  if (!p || !p->allFinite() || infinity_norm(*p) > 2 * descent.step_bound)      // what falls freely goes by the shift
+    return factors_.make_positive_from(shift).has_value();
   step.resolved = true, step.p = std::move(*p), step.hp = energy_.multiply(step.p);
   step.slope = g.dot(step.p), step.curvature = step.p.dot(step.hp);
   return true;
