@@ -291,7 +291,8 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
       // does: then on, as long as that halves it.
       energy_.evaluate(state, false), see(state);
       const Factors::Bordered left = correction();
-      if (!may_touch(energy_.model()) && distortion(energy_, state, left.p, left.delta) <= limits::unbent) return end(Status::converged, below(options_.tolerance));
+      if (!may_touch(energy_.model()) && distortion(energy_, state, left.p, left.delta) <= limits::unbent)
+        return end(Status::converged, below(options_.tolerance));
       settled_at = state, least = report.residual;
       if (least < before) continue;
     }
