@@ -3,6 +3,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "model/entities.hpp"
 #include "solve/limits.hpp"
 #include "solve/steady_bodies.hpp"
 
@@ -164,10 +165,10 @@ std::optional<Newton::Step> Newton::step_within(double step_bound, const Vector&
 
 // Where a step goes along motions that are softer than the shift that makes a factor, it is by far too short: slender structures bend that
 // softly. Then it is taken with what forms tell of their stiffness (see inertia.cpp). Where steps are many already, it may be that a factor without
-// shift is one by rounding alone. False: there is no factor any more.
+// shift is one by rounding alone; but where something may touch, long steps along what floats lead past it. False: there is no factor any more.
 bool Newton::resolve_softest(const Vector& g, const Descent& descent, Step& step) {
   const double sigma = factors_.zero_level(), shift = descent.shift;
-  const bool slow = descent.report.iterations >= limits::slow;
+  const bool slow = descent.report.iterations >= limits::slow && !may_touch(energy_.model());
   if (energy_.model().bonds.empty() || shift > limits::hold_zero_modes * sigma || (shift == 0 && !slow)) return true;
   const Vector soft = slow ? factors_.cholesky().solve(step.p) : step.p;         // of inverse iteration: the softest is most of it
   if (energy_.quadratic_form(soft) > std::max(shift, limits::doubtful * sigma) * soft.squaredNorm()) return true;
