@@ -159,31 +159,61 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const double resolution = 1e-13 * std::abs(segment.b - segment.a);
   // A force that is left along the critical modes breaks the branch point: then there is none.
   const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
-  const bool limit = told.value_or(false);
-  const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && (limit || e.point.report.residual <= rounding); };
   const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
-  Sample below = lower, above = upper;                          // the last ones on both sides of the zero
-  const std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
-    // At a branch point the equations are regular with the critical modes held where the branch has them.
-    Equilibrium e;
-    const Eigen::MatrixXd modes = limit ? Eigen::MatrixXd() : soft_modes(from.e, locate::vanishing_together * std::abs(from.f), known);
-    if (modes.cols() > 0) {
-      State state = between(t).state;
-      const Report report = segment.settle(state, side_by_side(known, modes));
+  // free: nothing is held, as at a limit point. At a branch point the equations are regular with the critical modes held where the branch has them.
+  const auto search = [&](bool free) -> std::optional<Sample> {
+    const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && (free || e.point.report.residual <= rounding); };
+    Sample below = lower, above = upper;                        // the last ones on both sides of the zero
+    const auto sample = [&](double t, const Sample& from, Equilibrium e) {
+      e.zero_modes = known, e.lowest = from.e.lowest;
+      const double value = critical_value(newton, e, index);
+      const Sample s{t, value, std::move(e)};
+      ((value < 0) == (lower.f < 0) ? below : above) = s;
+      return s;
+    };
+    const auto held_at = [&](const Sample& from) {
+      return free ? Eigen::MatrixXd() : soft_modes(from.e, locate::vanishing_together * std::abs(from.f), known);
+    };
+    const auto settled = [&](State& state, const Eigen::MatrixXd& modes, const auto& settle) {
+      Equilibrium e;
+      const Report report = settle(state, side_by_side(known, modes));
       if (report.converged() && report.residual <= rounding) e = assess(newton, state, report);
+      return e;
+    };
+    std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
+      Equilibrium e;
+      const Eigen::MatrixXd modes = held_at(from);
+      State state = between(t).state;
+      if (modes.cols() > 0) e = settled(state, modes, segment.settle);
+      if (!good(e)) e = segment.at(t, from.e);
+      if (!good(e)) return {};
+      return sample(t, from, std::move(e));
+    });
+    // Small beside both ends, too: of slender chains all that decides is below the zero level.
+    const bool small = zero && std::abs(zero->f) <= std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale));
+    if (!small || !meet(newton.energy().kinematics(), segment, a, b, below, above)) return {};
+    // Where little moves as the load factor grows, rounding of what is soft in x is more in t than in λ, which the last step goes by.
+    const double from = zero->e.point.state.load_factor, width = above.e.point.state.load_factor - below.e.point.state.load_factor;
+    const double load = below.e.point.state.load_factor - below.f * width / (above.f - below.f);
+    const Eigen::MatrixXd modes = held_at(*zero);
+    if (modes.cols() > 0 && std::abs(load - from) > locate::load_rounding * std::abs(load)) {
+      State state = zero->e.point.state;
+      newton.energy().kinematics().prescribe(state, load);
+      const Equilibrium e = settled(state, modes, [&](State& x, const Eigen::MatrixXd& held) { return newton.correct(x, held, nullptr, locate::most_iterations); });
+      if (good(e))
+        if (const Sample s = sample(zero->t, *zero, e); std::abs(s.f) < std::abs(zero->f)) zero = s;
     }
-    if (!good(e)) e = segment.at(t, from.e);
-    if (!good(e)) return {};
-    e.zero_modes = known, e.lowest = from.e.lowest;
-    const double value = critical_value(newton, e, index);
-    const Sample sample{t, value, std::move(e)};
-    ((value < 0) == (lower.f < 0) ? below : above) = sample;
-    return sample;
-  });
-  if (!meet(newton.energy().kinematics(), segment, a, b, below, above)) return {};
-  // Small beside both ends, too: of slender chains all that decides is below the zero level.
-  if (!zero || std::abs(zero->f) > std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale))) return {};
-  Event event = finish(newton, first, lower.f, zero->e, index, std::max(1e-7 * scale, 4 * std::abs(zero->f)), known, told);
+    return zero;
+  };
+  const auto finished = [&](const Sample& zero, std::optional<bool> limit) {
+    return finish(newton, first, lower.f, zero.e, index, std::max(1e-7 * scale, 4 * std::abs(zero.f)), known, limit);
+  };
+  std::optional<Sample> zero = search(told.value_or(false));
+  if (!zero) return {};
+  Event event = finished(*zero, told);
+  // Of a limit point what was held has kept a force that a branch point does not have.
+  if (event.kind == EventKind::limit && !told)
+    if (std::optional<Sample> free = search(true)) event = finished(*free, true), zero = std::move(free);
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   return done(std::move(event), zero->t);
 }

@@ -94,6 +94,8 @@ constexpr double lost = 100;
 
 /// Inverse iteration: at least so many rounds, since Ritz values settle to rounding before their vectors do, and so many at most.
 constexpr int least_rounds = 4, most_rounds = 12;
+/// Refinements of eigenvectors: each leaves 1e-3 or less of what a factor's rounding has put there.
+constexpr int eigenvector_refinements = 3;
 /// Refinements of a solution beside resolved modes, each of which halves the correction at least.
 constexpr int most_refinements = 8;
 /// Attempts of a search for a shift that grows by 1.5 or more: 1.5¹⁰⁰ = 4·10¹⁷, from the rounding of any matrix to beyond its norm.
