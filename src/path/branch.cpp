@@ -86,13 +86,25 @@ bool Branch::undoes(const ContactChange& change) const {
   return moved <= contact_event::together * kinematics.smallest_size() && std::abs(to.load_factor - from.load_factor) <= contact_event::same_load * load;
 }
 
-bool Branch::find_contact(const Segment& segment, Candidate& c, std::string& why) {
+// The candidate is where a contact is made, or lost, which is as it was again where the step ends.
+bool Branch::stop_where_contact_passes(const Segment& segment, Candidate& c) {
+  const std::optional<double> where = where_contact_may_pass(newton_.energy(), segment, current_, c.e, changed_);
+  if (!where) return false;
+  Equilibrium e = segment.at(*where, current_);
+  if (!e.point.report.converged() || closed_contacts(newton_.energy(), e) == closed_) return false;
+  c.parameter = *where, c.e = std::move(e);
+  return true;
+}
+
+bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   // Not looked for unless asked, or where something floats and may be caught, or where one may explain why the Morse index changes.
   const bool tells = current_.slack || (c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()));
   if (!contacts_ && !tells) return true;
+  const bool passes = contacts_ && !current_.slack && stop_where_contact_passes(segment, c);
+  segment.b = c.parameter;
   std::optional<ContactChange> change = locate_contact(newton_, segment, closed_, current_, c.e);
-  if (!change) return true;
-  if (!change->found) return why = "a contact that is made or lost could not be located", false;
+  if (!change && !passes) return true;
+  if (!change || !change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
   if (undoes(*change)) return why = "a contact that has just changed changes back where it is", false;
   const double way = c.e.point.state.load_factor - current_.point.state.load_factor;

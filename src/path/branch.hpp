@@ -74,7 +74,8 @@ class Branch {
   Candidate with_contact(Candidate c, ContactChange change) const;
   void look_behind(Event& contact, double way);
   bool undoes(const ContactChange& change) const;
-  [[nodiscard]] bool find_contact(const Segment& segment, Candidate& c, std::string& why);
+  bool stop_where_contact_passes(const Segment& segment, Candidate& c);
+  [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;
   [[nodiscard]] bool find_user_events(Segment segment, Candidate& c, std::string& why);

@@ -213,6 +213,15 @@ bool slope(const Energy& energy, const ContactKey& key, const State& state, doub
   return row.allFinite() && std::isfinite(by_load);
 }
 
+// How far anything goes on a way (dofs) over which the load factor changes.
+double farthest(const Energy& energy, const Vector& way, double load_change) {
+  const Kinematics& kinematics = energy.kinematics();
+  double most = driven_way(energy, load_change);
+  const Field moves = kinematics.extend(way);
+  for (int s = 0; s < kinematics.sites(); ++s) most = std::max(most, (moves.col(s) + load_change * kinematics.drive(s)).norm());
+  return most;
+}
+
 // The equilibrium at which a gap vanishes, from a state that is near:  g(x, λ) = 0, gap(x, λ) = 0. way, load_change: the scales of
 // what may move. The state is moved along the way first, to where the gap vanishes to first order.
 Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from, const Vector& way, double load_change, State& state) {
@@ -376,8 +385,9 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   State found = b.point.state;
   Report report;
   const auto near = [&](const ContactKey& key, const State& state) {
-    const double ga = gap(key, a.point.state);
-    return vanishes(energy, key, ga, state) || std::abs(gap(key, state)) <= contact_event::together_in_step * std::abs(gap(key, b.point.state) - ga);
+    const double ga = gap(key, a.point.state);                  // an overlap may be next to nothing beside what opens behind it
+    const double moves = ga < 0 && key.feature < 0 ? 0.0 : std::abs(gap(key, b.point.state) - ga);
+    return vanishes(energy, key, ga, state) || std::abs(gap(key, state)) <= contact_event::together_in_step * moves;
   };
   for (std::size_t round = 0; round <= changed.size(); ++round) {
     // The one that changes first, as far as straight lines tell, of those that change before.
@@ -438,14 +448,41 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   return change;
 }
 
+std::optional<double> where_contact_may_pass(Energy& energy, const Segment& segment, const Equilibrium& a, const Equilibrium& b, const ContactSet& but) {
+  const double width = segment.b - segment.a, load_change = b.point.state.load_factor - a.point.state.load_factor;
+  const double reach = farthest(energy, energy.kinematics().difference(a.point.state, b.point.state), load_change);
+  Vector row;
+  const auto rate = [&](const ContactKey& key, const Equilibrium& e) {
+    double by_load = 0;
+    if (!slope(energy, key, e.point.state, load_change, row, by_load)) return std::numeric_limits<double>::quiet_NaN();
+    return width * segment.load_rate(e) * (row.dot(e.tangent) + by_load);
+  };
+  std::optional<double> where;
+  double most = 0;
+  for (const Touch& t : energy.touches(a.point.state, reach)) {
+    const ContactKey key{t.particle, t.other, t.wall, t.feature};
+    const double ga = gap(energy, key, a.point.state), gb = gap(energy, key, b.point.state);
+    if (but.count(key) || !std::isfinite(gb) || (ga < 0) != (gb < 0)) continue;
+    const double ra = rate(key, a), rb = rate(key, b), sign = ga < 0 ? -1 : 1;
+    // g' = ra + 2u (3(gb − ga) − 2ra − rb) + 3u² (ra + rb − 2(gb − ga)); on the way to the other side at one end, on the way back at the other.
+    if (!(sign * ra < 0 && sign * rb > 0)) continue;
+    const double c = ra + rb - 2 * (gb - ga), h = 3 * (gb - ga) - 2 * ra - rb;
+    const double root = std::sqrt(std::max(0.0, h * h - 3 * c * ra)), u = ra / (-h - std::copysign(root, h)), v = (-h - std::copysign(root, h)) / (3 * c);
+    for (const double x : {u, v}) {
+      if (!(x > 0 && x < 1)) continue;
+      const double g = ga + x * (ra + x * (h + x * c)), past = -sign * g / std::max(std::abs(ga), std::abs(gb));
+      if (past > most) most = past, where = segment.a + x * width;
+    }
+  }
+  return where;
+}
+
 std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
   const State& from = a.point.state;
-  double step_bound = 4 * driven_way(energy, load_change);
-  const Field moves = kinematics.extend(way);
-  for (int s = 0; s < kinematics.sites(); ++s) step_bound = std::max(step_bound, 4 * (moves.col(s) + load_change * kinematics.drive(s)).norm());
+  const double step_bound = 4 * farthest(energy, way, load_change);
   // The one that the tangent meets first.
   ContactKey first{};
   ContactSet candidates = before;

@@ -43,6 +43,10 @@ struct ContactChange {
 [[nodiscard]] std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segment, const ContactSet& before, const Equilibrium& a,
                                             const Equilibrium& b);
 
+/// Where on a segment a contact may be made and lost, or lost and made, which is open, or closed, at both ends: the parameter at which Hermite's cubic of its gap,
+/// with the rates that the tangents tell, is farthest on the other side, of the one that goes farthest; `but`: not looked at. Nothing if no gap gets there.
+[[nodiscard]] std::optional<double> where_contact_may_pass(Energy& energy, const Segment& segment, const Equilibrium& a, const Equilibrium& b, const ContactSet& but);
+
 /// A kink that is ahead: the equilibrium at which the first contact changes on the way along the tangent of `a`, up to the
 /// part 1 of the way (dofs) and change of the load factor, found without equilibria beyond, of which there may be none: by
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.

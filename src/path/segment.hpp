@@ -3,6 +3,7 @@
 #include "path/equilibrium.hpp"
 #include "path/limits.hpp"
 
+#include <algorithm>
 #include <functional>
 
 namespace elamin {
@@ -35,12 +36,14 @@ Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, c
   return along >= -limits::segment::widest && along <= 1 + limits::segment::widest && (way - along * chord).norm() <= limits::segment::widest * length;
 }
 
-/// Whether the way between two equilibria is by more than `most` of it another one than the mean of their tangents, as it is of a parabola: a step over a
-/// bend, where what the corrector finds may belong to another branch, as over a pitchfork, one branch of which is as stable as what is before.
+/// Whether the way between two equilibria is by more than `most` of it another one than the mean of their tangents, as it is of a parabola, or either tangent
+/// tells less of it than none would: a step over a bend, where what the corrector finds may belong to another branch, as over a pitchfork, one branch of
+/// which is as stable as what is before.
 [[nodiscard]] inline bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b, double most) {
   const Vector moved = kinematics.difference(a.point.state, b.point.state);
-  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = 1e-12 * b.point.state.position.norm();
-  return !((moved - change / 2 * (a.tangent + b.tangent)).norm() <= most * moved.norm() + rounding);
+  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = 1e-12 * b.point.state.position.norm(), way = moved.norm();
+  const auto off = [&](const Vector& tangent) { return (moved - change * tangent).norm(); };
+  return !(off((a.tangent + b.tangent) / 2) <= most * way + rounding && std::min(off(a.tangent), off(b.tangent)) <= way + rounding);
 }
 
 }  // namespace elamin
