@@ -96,6 +96,14 @@ bool Branch::stop_where_contact_passes(const Segment& segment, Candidate& c) {
   return true;
 }
 
+// Whether contacts are closed, or open, at a change that is none of theirs, and were not where the step begins.
+bool Branch::changes_before(const ContactChange& change) {
+  ContactSet others = difference(closed_contacts(newton_.energy(), change.at), change.after);
+  for (const ContactKey& key : difference(change.after, closed_)) others.erase(key);
+  const ContactSet here = closed_contacts(newton_.energy(), current_);
+  return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) { return (here.count(key) > 0) == (change.after.count(key) > 0); });
+}
+
 bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   // Not looked for unless asked, or where something floats and may be caught, or where one may explain why the Morse index changes.
   const bool tells = current_.slack || (c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()));
@@ -103,6 +111,12 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   const bool passes = contacts_ && !current_.slack && stop_where_contact_passes(segment, c);
   segment.b = c.parameter;
   std::optional<ContactChange> change = locate_contact(newton_, segment, closed_, current_, c.e);
+  while (change && change->found && !current_.slack && changes_before(*change)) {        // what is as it was at the end of the step
+    segment.b = change->at_parameter;
+    std::optional<ContactChange> earlier = locate_contact(newton_, segment, closed_, current_, change->at);
+    if (!earlier || !(std::abs(earlier->at_parameter - segment.a) < std::abs(segment.b - segment.a))) break;
+    change = std::move(earlier);
+  }
   if (!change && !passes) return true;
   if (!change || !change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;

@@ -74,6 +74,7 @@ class Branch {
   Candidate with_contact(Candidate c, ContactChange change) const;
   void look_behind(Event& contact, double way);
   bool undoes(const ContactChange& change) const;
+  bool changes_before(const ContactChange& change);
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
   [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);

@@ -111,6 +111,23 @@ std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, co
   return {};
 }
 
+// The Morse index a little behind contacts that have just been made, of an equilibrium in the direction that the branch takes if they are stiff; nothing where none
+// is found. load_change: the scale of the load factor.
+std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load_change) {
+  const std::optional<Rates> rates = along_contacts(newton, at, made, load_change);
+  if (!rates) return {};
+  Energy& energy = newton.energy();
+  for (double part = contact_event::onward; part >= contact_event::least_beside; part /= 100) {
+    const double ahead = part * std::abs(load_change);
+    State state = moved_by(energy.kinematics(), at.point.state, ahead * rates->x, ahead * rates->load, 1);
+    const Report report = newton.correct(state, at.zero_modes);
+    const bool closed = std::all_of(made.begin(), made.end(), [&](const ContactKey& key) { return gap(energy, key, state) < 0; });
+    if (!report.converged() || !closed || energy.kinematics().difference(at.point.state, state).norm() > 2 * ahead * rates->x.norm()) continue;
+    return assess(newton, state, report).point.stability.negative;
+  }
+  return {};
+}
+
 // How the branch goes on behind these contacts; negative: the Morse index where the way begins. What particles do to each other begins from nothing. Where
 // they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses zero nearer to the event than rounding lets it be seen: it is
 // taken where they are lost, given where they are made.
@@ -122,7 +139,10 @@ void find_beyond(Newton& newton, ContactChange& change, const std::vector<Contac
   const Equilibrium open = change.at;
   look_both_ways(newton, change, here, way, load_change);
   const bool bodies = std::any_of(here.begin(), here.end(), [](const ContactKey& key) { return key.feature >= 0; });
-  if (change.beyond && !bodies && at == negative && change.beyond->point.stability.negative == at) change.at = open, change.beyond.reset(), change.onward = 0;
+  if (!change.beyond || bodies || at != negative) return;
+  // An overlap as large as the way's may be far beyond those that the branch comes to.
+  const bool stays = change.beyond->point.stability.negative == at || index_behind(newton, open, here, load_change) == at;
+  if (stays) change.at = open, change.beyond.reset(), change.onward = 0;
 }
 
 // Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins; unloaded: what is
