@@ -164,7 +164,7 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
                                   [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
                                   [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
-  if ((!kink && !find_contact(segment, *c, why)) || !find_critical(segment, *c, why) || !find_user_events(segment, *c, why)) return {};
+  if (kink ? !find_critical(segment, *c, why) || !find_user_events(segment, *c, why) : !find_events(segment, *c, why)) return {};
   find_stop(segment, *c);
   return c;
 }

@@ -35,9 +35,7 @@ std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, dou
   if (from.pushed && e.point.stability.negative > negative_) return why = "what was pushed is caught", std::nullopt;
   Candidate c{.parameter = target, .e = std::move(e), .natural = true};
   const Segment segment = beside(segment_of_loads(newton_, current_.point.state.load_factor, target), c);
-  if (!find_contact(segment, c, why)) return {};
-  if (!c.events.empty() && !same_branch(newton_.energy(), current_, c.e)) return why = "the corrector went to another branch", std::nullopt;
-  if (!find_critical(segment, c, why) || !find_user_events(segment, c, why)) return {};
+  if (!find_events(segment, c, why)) return {};
   return c;
 }
 
@@ -104,6 +102,15 @@ bool Branch::changes_before(const ContactChange& change) {
   return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) { return (here.count(key) > 0) == (change.after.count(key) > 0); });
 }
 
+// Contacts that nobody asks for are located only where no limit point and no branch point explains why the Morse index changes.
+bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why) {
+  const bool unasked = !contacts_ && !current_.slack && c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model());
+  Candidate without = c;
+  if (unasked && find_critical(segment, without, why)) c = std::move(without);
+  else if (!find_contact(segment, c, why) || !find_critical(segment, c, why)) return false;
+  return find_user_events(segment, c, why);
+}
+
 bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   // Not looked for unless asked, or where something floats and may be caught, or where one may explain why the Morse index changes.
   const bool tells = current_.slack || (c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()));
@@ -114,7 +121,7 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   while (change && change->found && !current_.slack && changes_before(*change)) {        // what is as it was at the end of the step
     segment.b = change->at_parameter;
     std::optional<ContactChange> earlier = locate_contact(newton_, segment, closed_, current_, change->at);
-    if (!earlier || !(std::abs(earlier->at_parameter - segment.a) < std::abs(segment.b - segment.a))) break;
+    if (!earlier || !(std::abs(earlier->at_parameter - segment.a) < (1 - contact_event::together_in_step) * std::abs(segment.b - segment.a))) break;
     change = std::move(earlier);
   }
   if (!change && !passes) return true;
@@ -124,6 +131,7 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   const double way = c.e.point.state.load_factor - current_.point.state.load_factor;
   c = with_contact(std::move(c), std::move(*change));
   if (current_.slack) look_behind(c.events.front(), way);
+  if (c.natural && !same_branch(newton_.energy(), current_, c.e)) return why = "the corrector went to another branch", false;
   return true;
 }
 

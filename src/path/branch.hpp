@@ -76,6 +76,8 @@ class Branch {
   bool undoes(const ContactChange& change) const;
   bool changes_before(const ContactChange& change);
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
+  /// What happens on the way to a candidate, which is then where that is.
+  [[nodiscard]] bool find_events(const Segment& segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;

@@ -725,7 +725,7 @@ TEST_CASE("no step goes over a limit point to another branch", "[paths][truss_th
 TEST_CASE("a contact is not lost where it was made", "[paths][two_beams_stiff]") {
   const Run first("two_beams_stiff", {in_steps(40), by_load_steps});
   CHECK_ENDS_AT(first, 1);
-  REQUIRE(first.of("contact").size() == 3);
+  REQUIRE(first.of("contact").size() == 4);
   for (const int n : {3, 4, 17}) {
     INFO(n << " steps");
     const Run run("two_beams_stiff", {in_steps(n), by_load_steps});
@@ -791,4 +791,83 @@ TEST_CASE("a limit point is none of a branch though the load does hardly any wor
     CHECK_ENDS_AT(run, 1);
     same_events(first, run);
   }
+}
+
+TEST_CASE("a limit point beside a branch point is where nothing is held, whatever the steps", "[paths][arch_events_close]") {
+  const Run first("arch_events_close", {in_steps(20), by_arcs, follows});
+  CHECK_ENDS_AT(first, 12.655618977496911);
+  REQUIRE(first.events.size() == 4);
+  for (const int n : {7, 33, 144}) {
+    const Run run("arch_events_close", {in_steps(n), by_arcs, follows});
+    CHECK_ENDS_AT(run, 12.655618977496911);
+    same_events(first, run);
+  }
+}
+
+TEST_CASE("a double branch point of a ring that hardly moves does not depend on the steps", "[paths][ring_hardly_moves]") {
+  const Run first("ring_hardly_moves", {in_steps(60)});
+  REQUIRE(first.of("branch").size() == 1);
+  for (const int n : {5, 9, 14, 37}) same_events(first, Run("ring_hardly_moves", {in_steps(n)}));
+}
+
+TEST_CASE("a contact that the tangent meets on another branch is not gone to", "[paths][column_leaves_limit_ahead]") {
+  const Run first("column_leaves_limit_ahead", {in_steps(60)});
+  CHECK_ENDS_AT(first, 1.8782973757996093);
+  REQUIRE(first.of("limit").size() == 4);
+  for (const int n : {3, 10, 20, 30}) {
+    const Run run("column_leaves_limit_ahead", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1.8782973757996093);
+    same_events(first, run);
+  }
+}
+
+TEST_CASE("contacts that are lost one after the other are two events, however little they overlap", "[paths][two_beams_come_apart]") {
+  const Run first("two_beams_come_apart", {in_steps(119)});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 4);
+  for (const int n : {6, 20}) {
+    const Run run("two_beams_come_apart", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    same_events(first, run);
+  }
+}
+
+TEST_CASE("a contact that is lost and made within a step is told", "[paths][two_beams_part_briefly]") {
+  const Run first("two_beams_part_briefly", {in_steps(80), by_load_steps, snaps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("contact").size() == 3);
+  for (const int n : {5, 10}) {
+    const Run run("two_beams_part_briefly", {in_steps(n), by_load_steps, snaps});
+    CHECK_ENDS_AT(run, 1);
+    same_events(first, run);
+  }
+}
+
+TEST_CASE("no load step goes over a bend that neither end tells", "[paths][two_beams_turn_back]") {
+  const Run first("two_beams_turn_back", {in_steps(80), by_load_steps, snaps});
+  CHECK_ENDS_AT(first, 1);
+  REQUIRE(first.of("limit").size() == 1);
+  const Run run("two_beams_turn_back", {in_steps(3), by_load_steps, snaps});
+  CHECK_ENDS_AT(run, 1);
+  same_events(first, run);
+}
+
+TEST_CASE("a stiff contact gives no stability that the branch behind it does not have", "[paths][column_stopped_stiffly]") {
+  const Run first("column_stopped_stiffly", {in_steps(40)});
+  CHECK_ENDS_AT(first, 0.0070193515083156197);
+  REQUIRE(first.of("contact").size() >= 2);
+  for (const int n : {4, 100}) {
+    const Run run("column_stopped_stiffly", {in_steps(n)});
+    CHECK_ENDS_AT(run, 0.0070193515083156197);
+    same_events(first, run);
+  }
+}
+
+TEST_CASE("contacts that are made and lost while others change are told in their order", "[paths][column_walks_along_stop]") {
+  const Run first("column_walks_along_stop", {in_steps(60), by_arcs, follows});
+  CHECK_ENDS_AT(first, 2.4116775665641983);
+  REQUIRE(first.of("contact").size() == 14);
+  const Run run("column_walks_along_stop", {in_steps(3), by_load_steps, snaps});
+  CHECK_ENDS_AT(run, 2.4116775665641983);
+  same_events(first, run);
 }
