@@ -62,6 +62,7 @@ const char* const description =
     "  elamin import in.lmp           a LAMMPS input script as a problem file; what was taken, ignored, not understood\n"
     "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
     "  elamin plot DIR                a figure of what a run has left in its directory\n"
+    "  elamin prove DIR --at LABEL    that a state is near an equilibrium, and a minimum or not, as a theorem\n"
     "  elamin resume DIR              a run or sweep that was stopped goes on where it was, with the same bits\n"
     "  elamin collect DIR             sweep.csv of a sweep that was run in parts (--part K/N), each on a machine of its own\n"
     "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
@@ -244,6 +245,11 @@ int answer(int argc, char** argv) {
   import_app->add_flag("--include-anywhere", import.include_anywhere, "include files that lie outside of the script's folder, too");
   import_app->add_flag("--force", import.force, "write over files that elamin import has not written, too");
   import_app->add_flag("--quiet", import.quiet, "print nothing but errors");
+  ProveOptions proof;
+  CLI::App* prove_app = app.add_subcommand("prove", "that near a state there is exactly one equilibrium, and whether it is a minimum, as a theorem");
+  prove_app->add_option("directory", proof.directory, "the directory of the results")->type_name("DIR")->required();
+  prove_app->add_option("--at", proof.at, "label of the state: initial, final (default), jump:1, step=40")->type_name("LABEL");
+  prove_app->add_option("--out", proof.file, "file of what proves it (default: DIR/proof.json)")->type_name("FILE");
   CLI::App* schema_app = app.add_subcommand("schema", "print the JSON schema of problem files, for editors");
   bool markdown = false;
   schema_app->add_flag("--markdown", markdown, "print the key reference instead, docs/keys.md");
@@ -265,6 +271,7 @@ int answer(int argc, char** argv) {
     if (*import_app) return import_command(import), exit_done;
     if (*report_app) return report_command(report), exit_done;
     if (*plot_app) return say("written: {}\n", write_figure(figure)), exit_done;
+    if (*prove_app) return prove_command(proof);
     if (*collect_app) return collect(parts).exit_status;
     if (*resume_app) {
       stopped.checkpoint = options.checkpoint;

@@ -1,0 +1,213 @@
+#include "proof/structure.hpp"
+
+#include "core/near_pairs.hpp"
+#include "energy/contact_rules.hpp"
+#include "energy/groups.hpp"
+#include "energy/kinematics.hpp"
+#include "energy/wall_group.hpp"
+#include "laws/cosine_angle.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin::proof {
+
+namespace {
+
+std::string what_is_not_covered(const Model& model) {
+  if (!model.bodies.empty() || !model.rounded.empty()) return "rigid bodies";
+  if (!model.pressures.empty()) return "pressures";
+  if (!model.own.empty()) return "the law \"" + model.own.front().term + "\" of a program's own";
+  for (const PairContact& c : model.contacts) {
+    if (c.law == PairContact::Law::lj) return "cohesion (Lennard-Jones)";
+    if (c.hard) return "hard contacts";
+  }
+  for (const Wall& w : model.walls) {
+    const bool flat = w.region.shape == Shape::plane || (w.region.shape == Shape::block && w.inside && !w.region.any_open());
+    if (w.hard) return "hard walls, as \"" + w.name + "\"";
+    if (!flat && !w.particles.empty()) return "curved walls, blocks from outside and open blocks, as \"" + w.name + "\"";
+  }
+  return "";
+}
+
+// The flat faces of a wall from the side of its particles, each with a unit normal into that side.
+std::vector<std::pair<Vec3, Vec3>> faces(const WallContact& wall) {
+  const Region& region = wall.region;
+  if (region.shape == Shape::plane) return {{wall.inside ? region.normal : Vec3(-region.normal), region.center}};
+  std::vector<std::pair<Vec3, Vec3>> all;
+  for (int c = 0; c < 3; ++c) {
+    if (std::isfinite(region.lo[c])) all.emplace_back(Vec3::Unit(c), region.lo[c] * Vec3::Unit(c));
+    if (std::isfinite(region.hi[c])) all.emplace_back(-Vec3::Unit(c), region.hi[c] * Vec3::Unit(c));
+  }
+  return all;
+}
+
+void add_contacts(const Model& model, const State& state, Structure& s) {
+  const ContactRules rules(model);
+  if (!rules.any()) return;
+  std::vector<double> radii(model.particles(), 0.0);
+  for (int i = 0; i < model.particles(); ++i)
+    if (rules.cutoff_radius(i) > 0) radii[i] = (model.diameter[i] + s.reach) / 2 * (1 + 1e-9);
+  for (const auto& [i, j] : near_pairs(state.position, radii, [&](int a, int b) { return rules.hertz(a, b) >= 0; })) {
+    const HertzContact law = hertz_contact(model, rules.hertz(i, j), i, j);
+    if (law.stiffness > 0) s.contacts.push_back({{law.stiffness, law.contact_distance}, {i, j}});
+  }
+}
+
+// A wall acts on what has its centre on the wall's side; whose centre is near the surface is not told.
+void add_walls(const Model& model, const State& state, Structure& s, std::string& not_covered) {
+  for (const Wall& w : model.walls) {
+    const WallContact wall = wall_at(w, state.load_factor);
+    if (!(wall.effective_modulus > 0)) continue;
+    for (const int p : w.particles) {
+      double nearest = HUGE_VAL;
+      const Vec3 x = state.position.col(p);
+      for (const auto& [n, point] : faces(wall)) nearest = std::min(nearest, n.dot(x - point));
+      if (nearest < -s.reach) continue;
+      if (nearest < s.reach) not_covered = fmt::format("a particle whose centre is at the surface of the wall \"{}\"", w.name);
+      const double r = model.diameter[p] / 2;
+      for (const auto& [n, point] : faces(wall))
+        if (n.dot(x - point) <= r + s.reach) s.planes.push_back({{wall.effective_modulus * 4 / 3 * std::sqrt(r), r, n, point}, {p}});
+    }
+  }
+}
+
+template <class I>
+I at(const State& state, int p, int c) { return I(state.position(c, p)) + I(state.low(c, p)); }
+
+}  // namespace
+
+Structure structure_of(const Model& model, const State& state, std::string& not_covered) {
+  Structure s;
+  not_covered = what_is_not_covered(model);
+  if (!not_covered.empty()) return s;
+  const Kinematics kinematics(model);
+  s.load_factor = state.load_factor, s.dofs = kinematics.dofs();
+  s.size = kinematics.smallest_size(), s.reach = s.size / 10;
+  for (int p = 0; p < model.particles(); ++p) s.dof.push_back({kinematics.dof(p, 0), kinematics.dof(p, 1), kinematics.dof(p, 2)});
+  const std::vector<HarmonicBond> bonds = bond_laws(model, state.load_factor);
+  const std::vector<CosineAngle> angles = angle_laws(model, state.load_factor);
+  for (std::size_t k = 0; k < bonds.size(); ++k) s.bonds.push_back({{bonds[k].K, bonds[k].r0, bonds[k].r0_tail}, model.bonds[k].particles});
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const double rest = model.angle_types[model.angles[k].type].rest;
+    Angle law{angles[k].B, 1, 0, -1};
+    if (rest != pi) law.cosine = std::cos(pi - rest), law.sine = std::sin(pi - rest), law.kept = model.plane_normal.value_or(-1);
+    s.angles.push_back({law, angle_sites(model, model.angles[k])});
+  }
+  add_contacts(model, state, s), add_walls(model, state, s, not_covered);
+  for (const Load& l : model.loads)
+    for (std::size_t k = 0; k < l.particles.size(); ++k) s.loads.push_back({l.particles[k], l.on(k), l.scaling});
+  for (const Gravity& g : model.gravity)
+    for (const int p : g.particles) s.loads.push_back({p, model.mass(p) * g.acceleration, g.scaling});
+  return s;
+}
+
+template <class I>
+Vector3<I> Structure::edge(const State& centre, int i, int j, double radius) const {
+  const I way = I(-radius, radius) * (i < 0 ? I(1) : I(1.4142136));
+  Vector3<I> d;
+  for (int c = 0; c < 3; ++c) {
+    d[c] = i < 0 ? at<I>(centre, j, c) : (I(centre.position(c, j)) - I(centre.position(c, i))) + (I(centre.low(c, j)) - I(centre.low(c, i)));
+    if (radius > 0 && (dof[j][c] >= 0 || (i >= 0 && dof[i][c] >= 0))) d[c] += way;
+  }
+  return d;
+}
+template Vector3<Interval<Quad>> Structure::edge(const State&, int, int, double) const;
+template Vector3<Interval<double>> Structure::edge(const State&, int, int, double) const;
+
+std::vector<Interval<Quad>> Structure::gradient(const State& centre) const {
+  using I = Interval<Quad>;
+  std::vector<I> g(dofs);
+  const auto add = [&](int p, const Vector3<I>& f) {
+    for (int c = 0; c < 3; ++c)
+      if (dof[p][c] >= 0) g[dof[p][c]] += f[c];
+  };
+  const auto add_pairs = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) {
+      const Vector3<I> f = derivatives<I>(law, edge<I>(centre, at[0], at[1], 0), false).gradient;
+      add(at[1], f), add(at[0], -f);
+    }
+  };
+  add_pairs(bonds), add_pairs(contacts);
+  for (const auto& [law, at] : angles) {
+    const OfEdges<I> f = derivatives<I>(law, edge<I>(centre, at[0], at[1], 0), edge<I>(centre, at[1], at[2], 0), false);
+    add(at[0], -f.u), add(at[1], f.u - f.w), add(at[2], f.w);
+  }
+  for (const auto& [law, at] : planes) add(at[0], derivatives<I>(law, edge<I>(centre, -1, at[0], 0), false).gradient);
+  for (const DeadLoad& l : loads) {
+    const I part = I(l.scaling.fixed) + I(l.scaling.rate) * I(load_factor);
+    add(l.particle, -part * Vector3<I>(I(l.force[0]), I(l.force[1]), I(l.force[2])));
+  }
+  return g;
+}
+
+IntervalHessian::IntervalHessian(const Structure& structure) : structure_(structure), pattern_(structure.dofs, structure.dofs) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto couple = [&](const auto& elements) {
+    for (const auto& element : elements)
+      for (const int p : element.particles)
+        for (const int q : element.particles)
+          for (const int i : structure.dof[p])
+            for (const int j : structure.dof[q])
+              if (j >= 0 && i >= j) entries.emplace_back(i, j, 0.0);
+  };
+  couple(structure.bonds), couple(structure.angles), couple(structure.contacts), couple(structure.planes);
+  for (int i = 0; i < structure.dofs; ++i) entries.emplace_back(i, i, 0.0);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+}
+
+template <int n>
+void IntervalHessian::add(const std::array<int, n>& particles, const Eigen::Matrix<I, 3 * n, 3 * n>& h) {
+  for (int r = 0; r < 3 * n; ++r)
+    for (int c = 0; c < 3 * n; ++c) {
+      const int i = structure_.dof[particles[r / 3]][r % 3], j = structure_.dof[particles[c / 3]][c % 3];
+      if (j < 0 || i < j) continue;
+      const int *first = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[j], *last = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[j + 1];
+      value_[std::lower_bound(first, last, i) - pattern_.innerIndexPtr()] += h(r, c);
+    }
+}
+
+void IntervalHessian::evaluate(const State& centre, double radius) {
+  value_.assign(pattern_.nonZeros(), I(0));
+  const auto edge = [&](int i, int j) { return structure_.edge<I>(centre, i, j, radius); };
+  const auto add_pairs = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) {
+      const Matrix3<I> b = derivatives<I>(law, edge(at[0], at[1]), true).hessian;
+      Eigen::Matrix<I, 6, 6> h;
+      h << b, -b, -b, b;
+      add<2>(at, h);
+    }
+  };
+  add_pairs(structure_.bonds), add_pairs(structure_.contacts);
+  for (const auto& [law, at] : structure_.angles) {
+    const OfEdges<I> d = derivatives<I>(law, edge(at[0], at[1]), edge(at[1], at[2]), true);
+    const Matrix3<I> wu = d.uw.transpose(), first = d.uw - d.uu, last = d.uw - d.ww;
+    Eigen::Matrix<I, 9, 9> h;
+    h << d.uu, first, -d.uw, first.transpose(), d.uu + d.ww - d.uw - wu, last, -wu, last.transpose(), d.ww;
+    add<3>(at, h);
+  }
+  for (const auto& [law, at] : structure_.planes) add<1>(at, derivatives<I>(law, edge(-1, at[0]), true).hessian);
+}
+
+SparseMatrix IntervalHessian::middle(const State& centre) {
+  evaluate(centre, 0);
+  SparseMatrix M = pattern_;
+  for (std::size_t k = 0; k < value_.size(); ++k) M.valuePtr()[k] = value_[k].middle();
+  return M;
+}
+
+double IntervalHessian::distance(const SparseMatrix& M, const State& centre, double radius) {
+  evaluate(centre, radius);
+  std::vector<I> sums(structure_.dofs);
+  for (int j = 0; j < pattern_.outerSize(); ++j)
+    for (int k = pattern_.outerIndexPtr()[j]; k < pattern_.outerIndexPtr()[j + 1]; ++k) {
+      const I off((value_[k] - I(M.valuePtr()[k])).mag());
+      const int i = pattern_.innerIndexPtr()[k];
+      sums[j] += off;
+      if (i != j) sums[i] += off;
+    }
+  double most = 0;
+  for (const I& sum : sums) most = std::max(most, sum.hi);      // ∞ where there is no bound
+  return most;
+}
+
+}  // namespace elamin::proof

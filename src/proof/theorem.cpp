@@ -1,0 +1,112 @@
+#include "proof/theorem.hpp"
+
+#include "proof/inertia.hpp"
+
+#include <fmt/format.h>
+
+namespace elamin::proof {
+
+namespace {
+
+using I = Interval<double>;
+
+constexpr double most_contraction = 0.85;        // q: what is left is for who checks the proof with bounds of his own
+
+double norm(const std::vector<Interval<Quad>>& g) {
+  Interval<Quad> sum;
+  for (const Interval<Quad>& x : g) sum += square(x);
+  return I(sqrt(sum)).hi;
+}
+
+double distance(const Structure& s, const State& a, const State& b) {
+  std::vector<Interval<Quad>> d;
+  for (std::size_t p = 0; p < s.dof.size(); ++p)
+    for (int c = 0; c < 3; ++c) {
+      using Q = Interval<Quad>;
+      const int i = static_cast<int>(p);
+      d.push_back((Q(b.position(c, i)) - Q(a.position(c, i))) + (Q(b.low(c, i)) - Q(a.low(c, i))));
+    }
+  return norm(d);
+}
+
+// Steps with the factor of one matrix while the residual falls; returns its bound.
+double refine(const Structure& s, const SparseMatrix& M, State& x) {
+  ShiftedFactor factor(M);
+  std::vector<Interval<Quad>> g = s.gradient(x);
+  double residual = norm(g);
+  if (s.dofs == 0 || !factor.factorize(M, 0)) return residual;
+  for (int k = 0; k < 12; ++k) {
+    Vector b(s.dofs);
+    for (int i = 0; i < s.dofs; ++i) b[i] = static_cast<double>(g[i].middle());
+    const Vector step = factor.solve(b);
+    State next = x;
+    for (std::size_t p = 0; p < s.dof.size(); ++p)
+      for (int c = 0; c < 3; ++c)
+        if (s.dof[p][c] >= 0) {
+          const int i = static_cast<int>(p);
+          const Exact to = Exact{x.position(c, i), x.low(c, i)} + (-step[s.dof[p][c]]);
+          next.position(c, i) = to.hi, next.low(c, i) = to.lo;
+        }
+    std::vector<Interval<Quad>> at = s.gradient(next);
+    const double now = norm(at);
+    if (!(now < residual / 2)) break;
+    x = std::move(next), g = std::move(at), residual = now;
+  }
+  return residual;
+}
+
+void bound_gaps(const Structure& s, Theorem& t) {
+  using Q = Interval<Quad>;
+  const auto sort = [&](const std::array<int, 2>& particles, const Q& gap) {
+    (gap.hi < 0 ? t.closed : gap.lo > 0 ? t.open : t.undecided).push_back({particles, I(gap)});
+  };
+  for (const auto& [law, at] : s.contacts) sort(at, length(s.edge<Q>(t.centre, at[0], at[1], t.error)) - Q(law.distance));
+  for (const auto& [law, at] : s.planes) {
+    const Vector3<Q> x = s.edge<Q>(t.centre, -1, at[0], t.error);
+    Q d(-law.radius);
+    for (int c = 0; c < 3; ++c) d += Q(law.normal[c]) * (x[c] - Q(law.point[c]));
+    sort({at[0], -1}, d);
+  }
+}
+
+}  // namespace
+
+Theorem prove(const Structure& s, const State& state) {
+  Theorem t;
+  t.centre = state;
+  const auto refuse = [&](std::string why) { return t.why_not = std::move(why), t; };
+  if (s.dofs == 0) return refuse("nothing is free to move");
+  IntervalHessian hessian(s);
+  const SparseMatrix M = hessian.middle(state);
+  t.stored_residual = norm(s.gradient(state));
+  t.residual = refine(s, M, t.centre);
+  t.moved = distance(s, state, t.centre);
+  const Spectrum spectrum = spectrum_near_zero(M);
+  t.negative = spectrum.negative, t.shift = spectrum.shift, t.estimate = spectrum.estimate;
+  if (!(spectrum.least > 0))
+    return refuse(fmt::format("the Hessian may be singular: its eigenvalue next to zero, about {:.2g}, is not told from zero, as rounding may change the eigenvalues of a factor by {:.2g}",
+                              spectrum.estimate, spectrum.error));
+  if (!(t.moved < s.reach / 8)) return refuse("no equilibrium is near: Newton's method moves away from the state");
+  t.inverse = (I(1) / I(spectrum.least)).hi;
+  const double least = (I(t.inverse) * I(t.residual)).hi;      // no ball can be smaller
+  double ball = s.reach / 8;
+  for (int k = 0; k < 60; ++k) {
+    t.radius = ball, t.change = hessian.distance(M, t.centre, ball);
+    const I q = I(t.inverse) * I(t.change);
+    if (q.hi <= most_contraction && (I(t.inverse) * (I(t.residual) + I(t.change) * I(ball))).hi <= ball) {
+      t.error = (I(least) / (I(1) - q)).hi;
+      t.holds = (I(t.moved) + I(t.error)).hi <= ball;
+      break;
+    }
+    ball = q.hi < 1e6 ? ball * std::min(0.9, 0.8 / q.hi) : ball / 1000;
+    if (ball < least)
+      return refuse(fmt::format("no ball around the state is small enough for the Hessian to keep the sign of its eigenvalues (the one next to zero is about {:.2g}) and large "
+                                "enough for the residual", spectrum.estimate));
+  }
+  if (!t.holds)
+    return refuse(fmt::format("the state is up to {:.2g} away from the equilibrium that is there, outside of the ball of radius {:.2g} in which it is the only one", t.moved, t.radius));
+  bound_gaps(s, t);
+  return t;
+}
+
+}  // namespace elamin::proof
