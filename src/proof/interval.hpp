@@ -11,17 +11,17 @@ namespace elamin {
 /// A floating-point number of 113 bits (IEEE binary128), in software.
 using Quad = __float128;
 
-/// Bounds of one rounding to nearest, z → x: |z − x| ≤ u |x| + η, u half the spacing at 1, η of underflow. Widening by 4u |x| and a number
-/// far above η covers it together with the roundings of the widening itself.
+/// Bounds of one rounding to nearest, z → x: |z − x| ≤ u |x| + η, u half the spacing at 1, η of underflow, where tiny results may count as
+/// zero. Widening by 4u |x| and a number above η covers it together with the roundings of the widening itself.
 template <class T> struct Rounding;
-template <> struct Rounding<double> { static constexpr double widening = 0x1p-51, least = 0x1p-1070; };
+template <> struct Rounding<double> { static constexpr double widening = 0x1p-51, least = 0x1p-1021; };
 template <> struct Rounding<Quad> {
-  static constexpr Quad widening = 0x1p-111, small = Quad(0x1p-1000) * Quad(0x1p-1000), least = small * small * small * small * small * small * small * small;
+  static constexpr Quad small = 0x1p-1000, widening = 0x1p-111, least = small * small * small * small * small * small * small * small;
 };
 
-/// [lo, hi], both included. Results contain the exact ones for all numbers in the operands; where there is no bound, as of a quotient by an
-/// interval with 0 in it or after an overflow, the result is (−∞, ∞). Nothing is assumed but rounding to nearest, so that the rounding mode is
-/// left alone; a fused multiply-add rounds once instead of twice, and is covered. T: double or Quad.
+/// [lo, hi], both included. Results contain the exact ones for all numbers in the operands; where there is no bound, as of a quotient by
+/// an interval with 0 in it or after an overflow, the result is (−∞, ∞). Nothing is assumed but rounding to nearest, so that the rounding
+/// mode is left alone; a fused multiply-add rounds once instead of twice, and is covered. T: double or Quad.
 /// Source: Moore, Kearfott, Cloud 2009, Introduction to Interval Analysis, chapters 2 and 3.
 template <class T>
 struct Interval {
@@ -41,8 +41,8 @@ struct Interval {
 
   static Interval all() { return {-T(HUGE_VAL), T(HUGE_VAL)}; }
   static Interval outward(T from, T to) {
-    const T below = from < 0 ? -from : from, above = to < 0 ? -to : to;
-    const Interval r{from - (below * Rounding<T>::widening + Rounding<T>::least), to + (above * Rounding<T>::widening + Rounding<T>::least)};
+    const auto more = [](T x) { return (x < 0 ? -x : x) * Rounding<T>::widening + Rounding<T>::least; };
+    const Interval r{from - more(from), to + more(to)};
     return r.bounded() ? r : all();
   }
 
@@ -72,8 +72,8 @@ struct Interval {
   }
   /// max(x, 0).
   friend Interval positive(const Interval& a) { return {std::max(a.lo, T(0)), std::max(a.hi, T(0))}; }
-  /// √x of what is not negative in it. A bound is a root s in double precision after two steps of Heron's, widened, and is taken only if s² is on
-  /// its side of x, else 0 or ∞; none above is less than 2⁻⁵⁰⁰, where a root in doubles may be 0.
+  /// √x of what is not negative in it. A bound is a root s in double precision after two steps of Heron's, widened, and is taken only if
+  /// s² is on its side of x, else 0 or ∞; none above is less than 2⁻⁵⁰⁰, where a root in doubles may be 0.
   friend Interval sqrt(const Interval& a) {
     if (!a.bounded() || a.hi < 0) return all();
     const auto near = [](T x) {

@@ -9,9 +9,34 @@ namespace elamin::proof {
 
 /// The numbers of each law, as they are taken: the theorem is about these doubles.
 struct Bond { double K, r0, r0_tail; };                       // U = K (r − r₀)², r₀ = r0 + r0_tail
-struct Angle { double B, cosine, sine; int kept; };           // U = B (1 − cos φ cos φ₀ − sin φ sin φ₀); kept: the coordinate of a plane, or −1
-struct Contact { double k, distance; };                       // U = 2/5 k δ^{5/2}, δ = distance − r
-struct Plane { double k, radius; Vec3 normal, point; };       // the same with δ = radius − n·(x − p)
+struct Angle { double B, cosine, sine; int kept; };           // U = B (1 − cos φ cos φ₀ − sin φ sin φ₀); kept: coordinate of a plane, or −1
+/// Hertz's: U = 2/5 k δ^{5/2}, δ = −gap > 0, with the gap r − distance of two spheres, and of a sphere
+struct Contact { double k, distance; };
+struct Plane { double k, radius; Vec3 normal, point; };       // … at a plane: n·(x − p) − radius,
+/// … at a sphere (axis −1) or a cylinder without ends: ±(|y| − wall_radius) − radius, + outside, − inside, y = x − center across the axis.
+struct Round { double k, radius, wall_radius; Vec3 center; int axis; bool inside; };
+
+template <class I> Vector3<I> from(const Vector3<I>& x, const Vec3& p) { return x - Vector3<I>(I(p[0]), I(p[1]), I(p[2])); }
+
+template <class I>
+Vector3<I> across(const Round& law, const Vector3<I>& x) {
+  Vector3<I> y = from(x, law.center);
+  if (law.axis >= 0) y[law.axis] = I(0);
+  return y;
+}
+
+/// The distance of the surfaces; negative: overlap. d: x₁ − x₀, of a wall x.
+template <class I> I gap(const Contact& law, const Vector3<I>& d) { return length(d) - I(law.distance); }
+template <class I>
+I gap(const Plane& law, const Vector3<I>& x) {
+  const Vector3<I> y = from(x, law.point);
+  return I(law.normal[0]) * y[0] + I(law.normal[1]) * y[1] + I(law.normal[2]) * y[2] - I(law.radius);
+}
+template <class I>
+I gap(const Round& law, const Vector3<I>& x) {
+  const I outward = length(across(law, x)) - I(law.wall_radius);
+  return (law.inside ? -outward : outward) - I(law.radius);
+}
 
 /// Of a law of one edge d = x₁ − x₀ (of a wall d = x):  ∇₁U, and ∇₁∇₁U where it is asked for.
 template <class I>
@@ -41,16 +66,25 @@ OfEdge<I> derivatives(const Bond& law, const Vector3<I>& d, bool with_hessian) {
 /// Where δ ≤ 0 all is zero; where the box holds both, the hull of both.
 template <class I>
 OfEdge<I> derivatives(const Contact& law, const Vector3<I>& d, bool with_hessian) {
-  const I r = length(d), overlap = positive(I(law.distance) - r), k(law.k);
-  return radial<I>(d, r, -HertzContact::push(overlap, k), I(1.5) * k * sqrt(overlap), with_hessian);
+  const I overlap = positive(-gap(law, d)), k(law.k);
+  return radial<I>(d, length(d), -HertzContact::push(overlap, k), I(1.5) * k * sqrt(overlap), with_hessian);
 }
 
 template <class I>
 OfEdge<I> derivatives(const Plane& law, const Vector3<I>& x, bool with_hessian) {
-  const Vector3<I> n(I(law.normal[0]), I(law.normal[1]), I(law.normal[2])), p(I(law.point[0]), I(law.point[1]), I(law.point[2]));
-  const I overlap = positive(I(law.radius) - n.dot(x - p)), k(law.k);
+  const Vector3<I> n(I(law.normal[0]), I(law.normal[1]), I(law.normal[2]));
+  const I overlap = positive(-gap(law, x)), k(law.k);
   OfEdge<I> u{-HertzContact::push(overlap, k) * n, {}};
   if (with_hessian) u.hessian = I(1.5) * k * sqrt(overlap) * (n * n.transpose()).eval();
+  return u;
+}
+
+template <class I>
+OfEdge<I> derivatives(const Round& law, const Vector3<I>& x, bool with_hessian) {
+  const Vector3<I> y = across(law, x);
+  const I overlap = positive(-gap(law, x)), k(law.k), push = HertzContact::push(overlap, k);
+  OfEdge<I> u = radial<I>(y, length(y), law.inside ? push : -push, I(1.5) * k * sqrt(overlap), with_hessian);
+  if (law.axis >= 0) u.hessian(law.axis, law.axis) = I(0);
   return u;
 }
 
@@ -61,9 +95,9 @@ struct OfEdges {
   Matrix3<I> uu, uw, ww;
 };
 
-/// With a = u/|u|, b = w/|w|, e the axis about which φ grows (of a plane the unit vector of the coordinate that is kept, else a × b/|a × b|)
-/// and M = cos φ₀ I − sin φ₀ [e]×:  U = B (1 − a·M b), and at a fixed e
-///   ∂U/∂u = −B/|u| (I − a aᵀ) M b,   ∂²U/∂u∂u = B/|u|² [ (a·m)(I − a aᵀ) + a m⊥ᵀ + m⊥ aᵀ ],   m = M b,   m⊥ = (I − a aᵀ) m
+/// With a = u/|u|, b = w/|w|, e the axis about which φ grows (of a plane the unit vector of the coordinate that is kept, else
+/// a × b/|a × b|) and M = cos φ₀ I − sin φ₀ [e]×:  U = B (1 − a·M b), and at a fixed e
+///   ∂U/∂u = −B/|u| m⊥,   m = M b,   m⊥ = (I − a aᵀ) m,   ∂²U/∂u∂u = B/|u|² [ (a·m)(I − a aᵀ) + a m⊥ᵀ + m⊥ aᵀ ]
 ///   ∂²U/∂u∂w = −B/(|u||w|) (I − a aᵀ) M (I − b bᵀ)
 /// of w the same with b and Mᵀ a. In space e turns with the angle, which adds, with s = |a × b|,
 ///   −B sin φ₀/(|u|² s) e eᵀ,   −B sin φ₀/(|w|² s) e eᵀ   and   B sin φ₀ (a·b)/(|u||w| s) e eᵀ.

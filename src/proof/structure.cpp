@@ -22,23 +22,30 @@ std::string what_is_not_covered(const Model& model) {
     if (c.hard) return "hard contacts";
   }
   for (const Wall& w : model.walls) {
-    const bool flat = w.region.shape == Shape::plane || (w.region.shape == Shape::block && w.inside && !w.region.any_open());
-    if (w.hard) return "hard walls, as \"" + w.name + "\"";
-    if (!flat && !w.particles.empty()) return "curved walls, blocks from outside and open blocks, as \"" + w.name + "\"";
+    const Region& r = w.region;
+    const bool endless = r.axial_lo == -HUGE_VAL && r.axial_hi == HUGE_VAL;
+    const bool smooth = r.shape == Shape::plane || r.shape == Shape::sphere || (r.shape == Shape::cylinder && endless);
+    const bool covered = !r.any_open() && (smooth || (r.shape == Shape::block && w.inside));
+    if (w.hard) return "hard walls, as \"" + w.name + "\",";
+    if (!covered && !w.particles.empty()) return "walls with rims, edges or open faces, as \"" + w.name + "\",";
   }
   return "";
 }
 
-// The flat faces of a wall from the side of its particles, each with a unit normal into that side.
-std::vector<std::pair<Vec3, Vec3>> faces(const WallContact& wall) {
+// The faces of a wall as laws for a particle of radius r; effective radii as in wall_gap.hpp.
+void add_faces(const WallContact& wall, double r, std::vector<Plane>& planes, std::vector<Round>& rounds) {
   const Region& region = wall.region;
-  if (region.shape == Shape::plane) return {{wall.inside ? region.normal : Vec3(-region.normal), region.center}};
-  std::vector<std::pair<Vec3, Vec3>> all;
-  for (int c = 0; c < 3; ++c) {
-    if (std::isfinite(region.lo[c])) all.emplace_back(Vec3::Unit(c), region.lo[c] * Vec3::Unit(c));
-    if (std::isfinite(region.hi[c])) all.emplace_back(-Vec3::Unit(c), region.hi[c] * Vec3::Unit(c));
+  const auto stiffness = [&](double effective) { return wall.effective_modulus * 4 / 3 * std::sqrt(effective); };
+  const auto plane = [&](const Vec3& normal, const Vec3& point) { planes.push_back({stiffness(r), r, normal, point}); };
+  if (region.shape == Shape::plane) return plane(wall.inside ? region.normal : Vec3(-region.normal), region.center);
+  for (int c = 0; c < 3 && region.shape == Shape::block; ++c) {
+    if (std::isfinite(region.lo[c])) plane(Vec3::Unit(c), region.lo[c] * Vec3::Unit(c));
+    if (std::isfinite(region.hi[c])) plane(-Vec3::Unit(c), region.hi[c] * Vec3::Unit(c));
   }
-  return all;
+  if (region.shape == Shape::block) return;
+  const bool cylinder = region.shape == Shape::cylinder;
+  const double m = (cylinder ? 2 : 1) * region.radius, effective = wall.curved ? r * (m / (wall.inside ? m - r : m + r)) : r;
+  rounds.push_back({stiffness(effective), r, region.radius, region.center, cylinder ? region.axis : -1, wall.inside});
 }
 
 void add_contacts(const Model& model, const State& state, Structure& s) {
@@ -59,20 +66,24 @@ void add_walls(const Model& model, const State& state, Structure& s, std::string
     const WallContact wall = wall_at(w, state.load_factor);
     if (!(wall.effective_modulus > 0)) continue;
     for (const int p : w.particles) {
-      double nearest = HUGE_VAL;
-      const Vec3 x = state.position.col(p);
-      for (const auto& [n, point] : faces(wall)) nearest = std::min(nearest, n.dot(x - point));
-      if (nearest < -s.reach) continue;
-      if (nearest < s.reach) not_covered = fmt::format("a particle whose centre is at the surface of the wall \"{}\"", w.name);
       const double r = model.diameter[p] / 2;
-      for (const auto& [n, point] : faces(wall))
-        if (n.dot(x - point) <= r + s.reach) s.planes.push_back({{wall.effective_modulus * 4 / 3 * std::sqrt(r), r, n, point}, {p}});
+      const Vector3<Interval<double>> x = s.edge<Interval<double>>(state, -1, p, 0);
+      std::vector<Plane> planes;
+      std::vector<Round> rounds;
+      add_faces(wall, r, planes, rounds);
+      double nearest = HUGE_VAL;                                // of the centre to a face
+      const auto look = [&](const auto& faces) { for (const auto& face : faces) nearest = std::min(nearest, gap(face, x).lo + r); };
+      look(planes), look(rounds);
+      if (nearest < -s.reach) continue;
+      if (nearest < s.reach) not_covered = fmt::format("particles whose centre is at the surface of a wall, as of \"{}\",", w.name);
+      const auto take = [&](const auto& faces, auto& elements) {
+        for (const auto& face : faces)
+          if (gap(face, x).lo <= s.reach) elements.push_back({face, {p}});
+      };
+      take(planes, s.planes), take(rounds, s.rounds);
     }
   }
 }
-
-template <class I>
-I at(const State& state, int p, int c) { return I(state.position(c, p)) + I(state.low(c, p)); }
 
 }  // namespace
 
@@ -82,7 +93,7 @@ Structure structure_of(const Model& model, const State& state, std::string& not_
   if (!not_covered.empty()) return s;
   const Kinematics kinematics(model);
   s.load_factor = state.load_factor, s.dofs = kinematics.dofs();
-  s.size = kinematics.smallest_size(), s.reach = s.size / 10;
+  s.reach = kinematics.smallest_size() / 10;
   for (int p = 0; p < model.particles(); ++p) s.dof.push_back({kinematics.dof(p, 0), kinematics.dof(p, 1), kinematics.dof(p, 2)});
   const std::vector<HarmonicBond> bonds = bond_laws(model, state.load_factor);
   const std::vector<CosineAngle> angles = angle_laws(model, state.load_factor);
@@ -106,7 +117,8 @@ Vector3<I> Structure::edge(const State& centre, int i, int j, double radius) con
   const I way = I(-radius, radius) * (i < 0 ? I(1) : I(1.4142136));
   Vector3<I> d;
   for (int c = 0; c < 3; ++c) {
-    d[c] = i < 0 ? at<I>(centre, j, c) : (I(centre.position(c, j)) - I(centre.position(c, i))) + (I(centre.low(c, j)) - I(centre.low(c, i)));
+    if (i < 0) d[c] = I(centre.position(c, j)) + I(centre.low(c, j));
+    else d[c] = (I(centre.position(c, j)) - I(centre.position(c, i))) + (I(centre.low(c, j)) - I(centre.low(c, i)));
     if (radius > 0 && (dof[j][c] >= 0 || (i >= 0 && dof[i][c] >= 0))) d[c] += way;
   }
   return d;
@@ -132,7 +144,10 @@ std::vector<Interval<Quad>> Structure::gradient(const State& centre) const {
     const OfEdges<I> f = derivatives<I>(law, edge<I>(centre, at[0], at[1], 0), edge<I>(centre, at[1], at[2], 0), false);
     add(at[0], -f.u), add(at[1], f.u - f.w), add(at[2], f.w);
   }
-  for (const auto& [law, at] : planes) add(at[0], derivatives<I>(law, edge<I>(centre, -1, at[0], 0), false).gradient);
+  const auto add_walls = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) add(at[0], derivatives<I>(law, edge<I>(centre, -1, at[0], 0), false).gradient);
+  };
+  add_walls(planes), add_walls(rounds);
   for (const DeadLoad& l : loads) {
     const I part = I(l.scaling.fixed) + I(l.scaling.rate) * I(load_factor);
     add(l.particle, -part * Vector3<I>(I(l.force[0]), I(l.force[1]), I(l.force[2])));
@@ -150,7 +165,7 @@ IntervalHessian::IntervalHessian(const Structure& structure) : structure_(struct
             for (const int j : structure.dof[q])
               if (j >= 0 && i >= j) entries.emplace_back(i, j, 0.0);
   };
-  couple(structure.bonds), couple(structure.angles), couple(structure.contacts), couple(structure.planes);
+  couple(structure.bonds), couple(structure.angles), couple(structure.contacts);
   for (int i = 0; i < structure.dofs; ++i) entries.emplace_back(i, i, 0.0);
   pattern_.setFromTriplets(entries.begin(), entries.end());
 }
@@ -161,8 +176,8 @@ void IntervalHessian::add(const std::array<int, n>& particles, const Eigen::Matr
     for (int c = 0; c < 3 * n; ++c) {
       const int i = structure_.dof[particles[r / 3]][r % 3], j = structure_.dof[particles[c / 3]][c % 3];
       if (j < 0 || i < j) continue;
-      const int *first = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[j], *last = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[j + 1];
-      value_[std::lower_bound(first, last, i) - pattern_.innerIndexPtr()] += h(r, c);
+      const int *rows = pattern_.innerIndexPtr(), *start = pattern_.outerIndexPtr();
+      value_[std::lower_bound(rows + start[j], rows + start[j + 1], i) - rows] += h(r, c);
     }
 }
 
@@ -185,7 +200,10 @@ void IntervalHessian::evaluate(const State& centre, double radius) {
     h << d.uu, first, -d.uw, first.transpose(), d.uu + d.ww - d.uw - wu, last, -wu, last.transpose(), d.ww;
     add<3>(at, h);
   }
-  for (const auto& [law, at] : structure_.planes) add<1>(at, derivatives<I>(law, edge(-1, at[0]), true).hessian);
+  const auto add_walls = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) add<1>(at, derivatives<I>(law, edge(-1, at[0]), true).hessian);
+  };
+  add_walls(structure_.planes), add_walls(structure_.rounds);
 }
 
 SparseMatrix IntervalHessian::middle(const State& centre) {

@@ -19,28 +19,29 @@ struct Element {
 /// A force on a particle, of which fixed + rate λ acts.
 struct DeadLoad { int particle; Vec3 force; Scaling scaling; };
 
-/// E(q) = Σ bonds + Σ angles + Σ contacts + Σ plane walls − Σ F·x. Prescribed coordinates stand where the state has them.
+/// E(q) = Σ bonds + Σ angles + Σ contacts + Σ walls − Σ F·x. Prescribed coordinates stand where the state has them.
 struct Structure {
   std::vector<Element<Bond, 2>> bonds;
   std::vector<Element<Angle, 3>> angles;
   std::vector<Element<Contact, 2>> contacts;   // all whose surfaces are within `reach`
-  std::vector<Element<Plane, 1>> planes;
+  std::vector<Element<Plane, 1>> planes;       // faces of walls, the same
+  std::vector<Element<Round, 1>> rounds;
   std::vector<DeadLoad> loads;
   double load_factor = 0;
   std::vector<std::array<int, 3>> dof;         // of each particle's coordinates, −1: prescribed
   int dofs = 0;
-  double size = 0, reach = 0;                  // smallest diameter; how far what may touch was looked for [length]
+  double reach = 0;                            // how far what may touch was looked for [length]
 
   /// ∂E/∂q (dofs) at the centre, which is taken to its last digit; every particle's forces are summed in 113 bits.
   std::vector<Interval<Quad>> gradient(const State& centre) const;
-  /// x_j − x_i of all points within `radius` of the centre (in the space of all dofs: a point moves along a coordinate it is free in, and the
-  /// difference of two changes by √2 times the radius at most); i = −1: x_j itself.
+  /// x_j − x_i of all points within `radius` of the centre (in the space of all dofs: a point moves along a coordinate that it is free
+  /// in, and the difference of two changes by √2 times the radius at most); i = −1: x_j itself.
   template <class I>
   Vector3<I> edge(const State& centre, int i, int j, double radius) const;
 };
 
-/// The structure at the state's load factor, or in `not_covered` what of the model no theorem here is about, in a sentence. Contacts and walls
-/// within a tenth of the smallest diameter are taken in.
+/// The structure at the state's load factor, or in `not_covered` what of the model no theorem here is about. Contacts and walls within a
+/// tenth of the smallest diameter are taken in.
 Structure structure_of(const Model& model, const State& state, std::string& not_covered);
 
 /// H over balls around a centre, in intervals.
@@ -49,7 +50,7 @@ class IntervalHessian {
   explicit IntervalHessian(const Structure& structure);
   /// A matrix of doubles in it, at the centre itself: lower triangle with full diagonal.
   SparseMatrix middle(const State& centre);
-  /// A bound of ‖H(x) − M‖₂ for all x within `radius` of the centre: the largest sum of a row (of a symmetric matrix ‖·‖₂ ≤ ‖·‖_∞).
+  /// A bound of ‖H(x) − M‖ for all x within `radius` of the centre: the largest sum of a row (of a symmetric matrix ‖·‖₂ ≤ ‖·‖_∞).
   double distance(const SparseMatrix& M, const State& centre, double radius);
 
  private:

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cfenv>
+
 namespace elamin::proof {
 
 namespace {
@@ -60,13 +62,11 @@ void bound_gaps(const Structure& s, Theorem& t) {
   const auto sort = [&](const std::array<int, 2>& particles, const Q& gap) {
     (gap.hi < 0 ? t.closed : gap.lo > 0 ? t.open : t.undecided).push_back({particles, I(gap)});
   };
-  for (const auto& [law, at] : s.contacts) sort(at, length(s.edge<Q>(t.centre, at[0], at[1], t.error)) - Q(law.distance));
-  for (const auto& [law, at] : s.planes) {
-    const Vector3<Q> x = s.edge<Q>(t.centre, -1, at[0], t.error);
-    Q d(-law.radius);
-    for (int c = 0; c < 3; ++c) d += Q(law.normal[c]) * (x[c] - Q(law.point[c]));
-    sort({at[0], -1}, d);
-  }
+  for (const auto& [law, at] : s.contacts) sort(at, gap(law, s.edge<Q>(t.centre, at[0], at[1], t.error)));
+  const auto sort_walls = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) sort({at[0], -1}, gap(law, s.edge<Q>(t.centre, -1, at[0], t.error)));
+  };
+  sort_walls(s.planes), sort_walls(s.rounds);
 }
 
 }  // namespace
@@ -76,35 +76,37 @@ Theorem prove(const Structure& s, const State& state) {
   t.centre = state;
   const auto refuse = [&](std::string why) { return t.why_not = std::move(why), t; };
   if (s.dofs == 0) return refuse("nothing is free to move");
+  if (std::fegetround() != FE_TONEAREST) return refuse("the processor does not round to nearest");
   IntervalHessian hessian(s);
   const SparseMatrix M = hessian.middle(state);
-  t.stored_residual = norm(s.gradient(state));
   t.residual = refine(s, M, t.centre);
   t.moved = distance(s, state, t.centre);
   const Spectrum spectrum = spectrum_near_zero(M);
-  t.negative = spectrum.negative, t.shift = spectrum.shift, t.estimate = spectrum.estimate;
+  t.negative = spectrum.negative, t.shift = spectrum.shift;
+  if (spectrum.estimate == 0) return refuse("the Hessian may be singular: a pivot of its factor is zero");
   if (!(spectrum.least > 0))
-    return refuse(fmt::format("the Hessian may be singular: its eigenvalue next to zero, about {:.2g}, is not told from zero, as rounding may change the eigenvalues of a factor by {:.2g}",
-                              spectrum.estimate, spectrum.error));
+    return refuse(fmt::format("the Hessian may be singular: its eigenvalue next to zero, about {:.2g}, is not told from zero, as rounding may "
+                              "change the eigenvalues of a factor by {:.2g}", spectrum.estimate, spectrum.error));
   if (!(t.moved < s.reach / 8)) return refuse("no equilibrium is near: Newton's method moves away from the state");
   t.inverse = (I(1) / I(spectrum.least)).hi;
-  const double least = (I(t.inverse) * I(t.residual)).hi;      // no ball can be smaller
+  const double smallest = (I(t.inverse) * I(t.residual)).hi;   // no ball can be smaller
   double ball = s.reach / 8;
   for (int k = 0; k < 60; ++k) {
     t.radius = ball, t.change = hessian.distance(M, t.centre, ball);
     const I q = I(t.inverse) * I(t.change);
     if (q.hi <= most_contraction && (I(t.inverse) * (I(t.residual) + I(t.change) * I(ball))).hi <= ball) {
-      t.error = (I(least) / (I(1) - q)).hi;
-      t.holds = (I(t.moved) + I(t.error)).hi <= ball;
+      t.error = (I(smallest) / (I(1) - q)).hi;
+      t.holds = (I(2) * I(t.moved) + I(t.error)).hi <= ball;
       break;
     }
     ball = q.hi < 1e6 ? ball * std::min(0.9, 0.8 / q.hi) : ball / 1000;
-    if (ball < least)
-      return refuse(fmt::format("no ball around the state is small enough for the Hessian to keep the sign of its eigenvalues (the one next to zero is about {:.2g}) and large "
-                                "enough for the residual", spectrum.estimate));
+    if (ball < smallest)
+      return refuse(fmt::format("no ball around the state is small enough for the Hessian to keep the sign of its eigenvalues (the one next to "
+                                "zero is about {:.2g}) and large enough for the residual", spectrum.estimate));
   }
   if (!t.holds)
-    return refuse(fmt::format("the state is up to {:.2g} away from the equilibrium that is there, outside of the ball of radius {:.2g} in which it is the only one", t.moved, t.radius));
+    return refuse(fmt::format("the state is {:.2g} away from an equilibrium that is the only one in a ball of radius {:.2g}, not near its middle",
+                              t.moved, t.radius));
   bound_gaps(s, t);
   return t;
 }

@@ -56,9 +56,9 @@ struct ExportOptions {
 };
 void export_command(const ExportOptions& options);
 
-/// `elamin prove`: of a state that a run has stored, that near it there is exactly one equilibrium and how many negative eigenvalues its Hessian
-/// has, as a theorem (see proof/theorem.hpp). Prints the bounds and writes DIR/proof.json, from which examples/check_proof.cpp proves it again. 0, or 2
-/// with a sentence where it is not proven. Throws InputError if there is no such run or state.
+/// `elamin prove`: of a state that a run has stored, that near it there is exactly one equilibrium and how many negative eigenvalues its
+/// Hessian has, as a theorem (see proof/theorem.hpp). Prints the bounds and writes DIR/proof.json, from which examples/check_proof.cpp
+/// proves it again. 0, or 2 with a sentence where it is not proven. Throws InputError if there is no such run or state.
 struct ProveOptions {
   std::string directory, at = "final";
   std::string file;                        // "": DIR/proof.json

@@ -9,7 +9,7 @@
 #include "proof/theorem.hpp"
 #include "results/json.hpp"
 #include "results/results_directory.hpp"
-#include "results/stored_run.hpp"
+#include "results/run_stages.hpp"
 #include "results/summary.hpp"
 #include "study/commands.hpp"
 #include "study/imperfection.hpp"
@@ -35,12 +35,14 @@ const StoredState& stored_at(const StoredRun& run, const std::string& at) {
       known.back() = "step=" + csv_text(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(column)]);
     if (known.back() == at) return s;
   }
-  throw InputError(fmt::format("{}: has no state {}; there are: {}{}", run.directory, in_quotes(at), listed(known), did_you_mean(at, known)));
+  const std::string meant = did_you_mean(at, known);
+  throw InputError(fmt::format("{}: has no state {}; there are: {}{}", run.directory, in_quotes(at), listed(known), meant));
 }
 
 State with_tails(const StoredState& stored, const Model& model) {
   State state = read_state(stored, model);
-  if (const auto supplement = read_supplement(stored.file); supplement && supplement->low.cols() == state.position.cols()) state.low = supplement->low;
+  const auto supplement = read_supplement(stored.file);
+  if (supplement && supplement->low.cols() == state.position.cols()) state.low = supplement->low;
   return state;
 }
 
@@ -82,7 +84,7 @@ Json json_of(const proof::Structure& s, const proof::Theorem& t, const State& st
   j["bounds"] = {{"shift", t.shift}, {"inverse", t.inverse}, {"residual", t.residual}, {"change", t.change}};
   j["gaps"] = {{"closed", gaps_json(t.closed)}, {"open", gaps_json(t.open)}, {"undecided", gaps_json(t.undecided)}};
   Json loads = Json::array();
-  for (const proof::DeadLoad& l : s.loads) loads.push_back({l.particle, l.force[0], l.force[1], l.force[2], l.scaling.fixed, l.scaling.rate});
+  for (const auto& [p, force, part] : s.loads) loads.push_back({p, force[0], force[1], force[2], part.fixed, part.rate});
   j["structure"] = {
       {"load_factor", s.load_factor},
       {"bonds", elements_json(s.bonds, [](const proof::Bond& l) { return std::vector{l.K, l.r0, l.r0_tail}; })},
@@ -91,23 +93,29 @@ Json json_of(const proof::Structure& s, const proof::Theorem& t, const State& st
       {"planes", elements_json(s.planes, [](const proof::Plane& l) {
          return std::vector{l.k, l.radius, l.normal[0], l.normal[1], l.normal[2], l.point[0], l.point[1], l.point[2]};
        })},
+      {"rounds", elements_json(s.rounds, [](const proof::Round& l) {
+         return std::vector{l.k, l.radius, l.wall_radius, l.center[0], l.center[1], l.center[2], double(l.axis), double(l.inside)};
+       })},
       {"loads", std::move(loads)},
       {"dofs", s.dof}};
   j["state"] = places_json(state), j["centre"] = places_json(t.centre);
   return j;
 }
 
-std::string told(const proof::Theorem& t) {
+// Two digits are rounded by less than 5 %.
+void tell(const Model& model, const proof::Theorem& t) {
   const std::string signs = t.negative == 0 ? "is positive definite: a minimum"
                             : fmt::format("has exactly {} negative eigenvalue{}: a saddle, unstable", t.negative, t.negative > 1 ? "s" : "");
-  return fmt::format("proven: within {:.2g} of the state there is exactly one equilibrium; it is at most {:.2g} away, and its Hessian {}", t.radius, t.moved + t.error, signs);
-}
-
-void tell_gaps(const Model& model, const proof::Theorem& t) {
+  say("proven: within {:.2g} of the state there is exactly one equilibrium; it is at most {:.2g} away, and its Hessian {}\n",
+      0.95 * (t.radius - t.moved), 1.06 * (t.moved + t.error), signs);
+  say("bounds: of the inverse of the Hessian {:.2g}, of its change in a ball of radius {:.2g} {:.2g}, of the residual {:.2g}\n",
+      1.06 * t.inverse, 0.95 * t.radius, 1.06 * t.change, 1.06 * t.residual);
   if (t.closed.empty() && t.open.empty() && t.undecided.empty()) return;
-  say("contacts that are near: {} closed, {} open{}\n", t.closed.size(), t.open.size(), t.undecided.empty() ? "" : fmt::format(", {} not decided:", t.undecided.size()));
-  for (const proof::GapBound& g : t.undecided)
-    say("  {} and {}: gap between {:.2g} and {:.2g}\n", called(model, g.particles[0]), g.particles[1] < 0 ? "a wall" : called(model, g.particles[1]), g.gap.lo, g.gap.hi);
+  say("contacts that are near: {} closed, {} open, {} not decided\n", t.closed.size(), t.open.size(), t.undecided.size());
+  for (const auto& [particles, gap] : t.undecided) {
+    const std::string other = particles[1] < 0 ? "a wall" : called(model, particles[1]);
+    say("  {} and {}: gap between {:.2g} and {:.2g}\n", called(model, particles[0]), other, gap.lo, gap.hi);
+  }
 }
 
 }  // namespace
@@ -116,9 +124,10 @@ int prove_command(const ProveOptions& options) {
   const StoredRun run = read_run(options.directory);
   const StoredState& stored = stored_at(run, options.at);
   const Problem problem = read_problem((std::filesystem::path(options.directory) / "resolved.toml").string(), {});
-  const Model model = model_of(problem);
+  Model all = model_of(problem);
+  const std::vector<RunStage> stages = stages_of(run, problem, all);
+  const Model& model = stage_of(stages, run, stored).model;
   const auto refuse = [&](const std::string& why) { return complain("not proven: {}\n", why), exit_not_converged; };
-  if (!problem.stages.empty()) return refuse("a path in stages is not covered");
   State state = with_tails(stored, model);
   Energy energy(model);
   energy.kinematics().prescribe(state, state.load_factor);
@@ -128,13 +137,16 @@ int prove_command(const ProveOptions& options) {
   energy.evaluate(state, false);
   const double residual = energy.relative(energy.gradient()), tolerance = solver_options(problem).tolerance;
   if (!(residual <= tolerance))
-    return refuse(fmt::format("the state is no equilibrium to the tolerance of its run: its residual is {:.2g} of the largest internal force, the tolerance {:.2g}", residual, tolerance));
-  say("{}, {}: load factor {:.10g}, {} particles, {} free coordinates\n", options.directory, options.at, state.load_factor, model.particles(), structure.dofs);
+    return refuse(fmt::format("the state is no equilibrium to the tolerance of its run: its residual is {:.2g} of the largest internal force, "
+                              "the tolerance {:.2g}", residual, tolerance));
+  say("{}, {}: load factor {:.10g}, {} particles, {} free coordinates\n", options.directory, options.at, state.load_factor,
+      model.particles(), structure.dofs);
   const proof::Theorem t = proof::prove(structure, state);
-  if (!t.holds) return refuse(t.why_not);
-  say("{}\n", told(t));
-  say("bounds: of |H⁻¹| {:.3g}, of the residual {:.2g}, of how H changes in the ball {:.3g}\n", t.inverse, t.residual, t.change);
-  tell_gaps(model, t);
+  if (!t.holds) {
+    const bool known = options.at == "final" && run.summary && !run.summary->zero_modes.empty();
+    return refuse(t.why_not + (known ? " (free is, as the run has found: " + listed(run.summary->zero_modes) + ")" : ""));
+  }
+  tell(model, t);
   Json json{{"program", "elamin " + version()}, {"run", options.directory}, {"at", options.at}};
   json.update(json_of(structure, t, state));
   const bool own = options.file.empty();
