@@ -1,6 +1,6 @@
 // Proves again what `elamin prove` has written into a proof.json: that there is exactly one equilibrium in the ball, how near the stored
-// state is to it, how many negative eigenvalues its Hessian has and which contacts are closed. All that is taken from elamin are the laws in
-// intervals, src/proof/laws.hpp; of the file it takes the structure, the centre and the claim, not the bounds. See docs/proofs.md.
+// state is to it, how many negative eigenvalues its Hessian has and which contacts are closed. All that is taken from elamin are the laws
+// in intervals, src/proof/laws.hpp; of the file it takes the structure, the centre and the claim, not the bounds. See docs/proofs.md.
 //   check_proof PROOF.json
 #include "proof/laws.hpp"
 
@@ -125,7 +125,8 @@ Rows hessian(const Proof& p, double ball) {
       [&](const proof::Angle& law, const std::array<int, 3>& at) {
         const auto d = derivatives<D>(law, p.edge<D>(at[0], at[1], ball), p.edge<D>(at[1], at[2], ball), true);
         const Matrix3<D> wu = d.uw.transpose();
-        const Matrix3<D> blocks[3][3] = {{d.uu, d.uw - d.uu, -d.uw}, {wu - d.uu, d.uu - d.uw - wu + d.ww, d.uw - d.ww}, {-wu, wu - d.ww, d.ww}};
+        const Matrix3<D> middle = d.uu - d.uw - wu + d.ww;
+        const Matrix3<D> blocks[3][3] = {{d.uu, d.uw - d.uu, -d.uw}, {wu - d.uu, middle, d.uw - d.ww}, {-wu, wu - d.ww, d.ww}};
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) add(at[r], at[c], blocks[r][c]);
       },

@@ -85,8 +85,8 @@ Theorem prove(const Structure& s, const State& state) {
   t.negative = spectrum.negative, t.shift = spectrum.shift;
   if (spectrum.estimate == 0) return refuse("the Hessian may be singular: a pivot of its factor is zero");
   if (!(spectrum.least > 0))
-    return refuse(fmt::format("the Hessian may be singular: its eigenvalue next to zero, about {:.2g}, is not told from zero, as rounding may "
-                              "change the eigenvalues of a factor by {:.2g}", spectrum.estimate, spectrum.error));
+    return refuse(fmt::format("the Hessian may be singular: its eigenvalue next to zero, about {:.2g}, is not told from zero, "
+                              "as rounding may change the eigenvalues of a factor by {:.2g}", spectrum.estimate, spectrum.error));
   if (!(t.moved < s.reach / 8)) return refuse("no equilibrium is near: Newton's method moves away from the state");
   t.inverse = (I(1) / I(spectrum.least)).hi;
   const double smallest = (I(t.inverse) * I(t.residual)).hi;   // no ball can be smaller
@@ -101,12 +101,12 @@ Theorem prove(const Structure& s, const State& state) {
     }
     ball = q.hi < 1e6 ? ball * std::min(0.9, 0.8 / q.hi) : ball / 1000;
     if (ball < smallest)
-      return refuse(fmt::format("no ball around the state is small enough for the Hessian to keep the sign of its eigenvalues (the one next to "
-                                "zero is about {:.2g}) and large enough for the residual", spectrum.estimate));
+      return refuse(fmt::format("no ball around the state is small enough for the Hessian to keep the sign of its eigenvalues "
+                                "(the one next to zero is about {:.2g}) and large enough for the residual", spectrum.estimate));
   }
   if (!t.holds)
-    return refuse(fmt::format("the state is {:.2g} away from an equilibrium that is the only one in a ball of radius {:.2g}, not near its middle",
-                              t.moved, t.radius));
+    return refuse(fmt::format("the state is {:.2g} away from an equilibrium that is the only one in a ball of radius {:.2g}, "
+                              "and not near its middle", t.moved, t.radius));
   bound_gaps(s, t);
   return t;
 }

@@ -25,8 +25,8 @@ struct Theorem {
   std::vector<GapBound> closed, open, undecided;   // of all that are within Structure::reach
 };
 
-/// Looks for the largest ball that the bounds allow. It does not hold where the equilibrium may be farther from the state than the state is from
-/// the rim of the ball: with 2 |x̄ − state| + r ≤ ρ it is the only one within ρ − |x̄ − state| of the state.
+/// Looks for the largest ball that the bounds allow. With 2 |x̄ − state| + r ≤ ρ the equilibrium is the only one within ρ − |x̄ − state| of
+/// the state; else it is told not to hold, too.
 Theorem prove(const Structure& structure, const State& state);
 
 }  // namespace elamin::proof

@@ -49,8 +49,8 @@ std::vector<RunStage> stages_of(const StoredRun& run, const Problem& problem, Mo
     stages.leave(stage.path.to);
     const std::vector<StoredState> own = states_of(run, stage.name);
     if (own.empty()) continue;                                   // of a run that was taken up behind it, or did not come to it
-    if (const auto supplement = read_supplement(own.front().file); supplement && supplement->stage && supplement->stage->scaling.size() == stage.scaling.size())
-      stage.scaling = supplement->stage->scaling;
+    const auto supplement = read_supplement(own.front().file);
+    if (supplement && supplement->stage && supplement->stage->scaling.size() == stage.scaling.size()) stage.scaling = supplement->stage->scaling;
     std::ignore = connect_in(problem, k, all, now);
     Model model = model_in(problem, stage, all, now);
     std::vector<int> bonds = bonds_left(model, all);

@@ -104,8 +104,9 @@ Json json_of(const proof::Structure& s, const proof::Theorem& t, const State& st
 
 // Two digits are rounded by less than 5 %.
 void tell(const Model& model, const proof::Theorem& t) {
-  const std::string signs = t.negative == 0 ? "is positive definite: a minimum"
-                            : fmt::format("has exactly {} negative eigenvalue{}: a saddle, unstable", t.negative, t.negative > 1 ? "s" : "");
+  const std::string signs =
+      t.negative == 0 ? "is positive definite: a minimum"
+                      : fmt::format("has exactly {} negative eigenvalue{}: a saddle, unstable", t.negative, t.negative > 1 ? "s" : "");
   say("proven: within {:.2g} of the state there is exactly one equilibrium; it is at most {:.2g} away, and its Hessian {}\n",
       0.95 * (t.radius - t.moved), 1.06 * (t.moved + t.error), signs);
   say("bounds: of the inverse of the Hessian {:.2g}, of its change in a ball of radius {:.2g} {:.2g}, of the residual {:.2g}\n",
@@ -137,8 +138,8 @@ int prove_command(const ProveOptions& options) {
   energy.evaluate(state, false);
   const double residual = energy.relative(energy.gradient()), tolerance = solver_options(problem).tolerance;
   if (!(residual <= tolerance))
-    return refuse(fmt::format("the state is no equilibrium to the tolerance of its run: its residual is {:.2g} of the largest internal force, "
-                              "the tolerance {:.2g}", residual, tolerance));
+    return refuse(fmt::format("the state is no equilibrium to the tolerance of its run: its residual is {:.2g} of the largest internal "
+                              "force, the tolerance {:.2g}", residual, tolerance));
   say("{}, {}: load factor {:.10g}, {} particles, {} free coordinates\n", options.directory, options.at, state.load_factor,
       model.particles(), structure.dofs);
   const proof::Theorem t = proof::prove(structure, state);

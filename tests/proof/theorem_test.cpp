@@ -142,3 +142,21 @@ TEST_CASE("a state a little away is proven to be that near", "[proof]") {
   CHECK(t.moved == Approx(by).epsilon(1e-6));                      // |x̄ − state| is `by` but for the square of it
   CHECK(t.error < 1e-20);
 }
+
+TEST_CASE("contacts are proven closed or open, and one that just touches is not decided", "[proof]") {
+  for (const double by : {-1e-12, 0.0, 1e-12}) {                   // between the particles, of radius 1/2, and a wall beside the chain
+    Hinged chain(Hinged::critical(1, 0.5));
+    Wall wall;
+    wall.name = "beside", wall.particles = numbers(Hinged::N + 1), wall.effective_modulus = 1e-3;
+    wall.region.normal = Vec3::UnitX(), wall.region.center = Vec3(-0.5 - by, 0, 0);
+    chain.model.walls = {wall};
+    const proof::Theorem t = chain.proof();
+    INFO(by << ": " << t.why_not);
+    REQUIRE(t.holds);                                              // the stiffness of Hertz's contact begins with 0: H is continuous
+    CHECK(t.negative == 0);
+    const auto all = static_cast<std::size_t>(Hinged::N + 1);
+    CHECK(t.closed.size() == (by < 0 ? all : 0));
+    CHECK(t.undecided.size() == (by == 0 ? all : 0));
+    CHECK(t.open.size() == (by > 0 ? all : 0));
+  }
+}
