@@ -20,6 +20,7 @@ column_square . --x lambda --y deflection --shapes initial,branch:1+mode,final
 buckling_strain_cylindrical .
 buckling_strain_square .
 hencky_hinged . --shapes branch:1+mode,branch:2+mode,branch:3+mode
+column_curve .
 hencky_clamped . --shapes branch:1+mode,branch:2+mode,branch:3+mode,branch:4+mode
 elastica 1 --x force --y distance --shapes initial,final
 cantilever_tip_load 1 --x lambda --y w --shapes final
@@ -30,6 +31,7 @@ column_imperfect 1 --x deflection --y lambda --shapes final
 beam_in_tube . --y tube_force --shapes initial,final
 truss_low . --x height --y lambda --shapes initial,limit:1,final
 truss_tall . --x height --y lambda --shapes initial,branch:1+mode,final
+truss_curve . --shapes initial,branch:1+mode
 truss_spring 1 --x height --y force --shapes initial,final
 truss_three_bars . --no-diagram --shapes final
 chain_hanging . --no-diagram --shapes final
@@ -39,6 +41,7 @@ lee_frame 1 --x v --y lambda --shapes initial,limit:1,limit:2,final
 williams_toggle 1 --x w --y lambda --shapes initial,limit:1,final
 arch_low . --x w --y lambda --shapes initial,limit:1,final
 arch_sine 2 --x height --y lambda --shapes initial,branch:1+mode,final
+arch_curve .
 arch_deep 1 --x v --y lambda --shapes initial,limit:1,final
 arch_buckled . --y height --shapes initial,compression,limit:1,final
 arch_flipped . --y height --shapes initial,compression,branch:1+mode,final

@@ -200,6 +200,20 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
   return d;
 }
 
+Diagram curve_diagram(const Table& table, const Axes& asked, const std::string& file) {
+  Columns at{};
+  Diagram d = begun(table, {first_of({asked.x, "second"}), first_of({asked.y, "lambda"})}, file, at);
+  const int label = column_index(table.columns, "label");
+  d.curves.emplace_back();
+  for (const Row& row : table.rows) {
+    const auto here = at.at(row);
+    if (!here) continue;
+    d.curves.front().points.push_back(*here);
+    if (const std::string name = text_in(row, label); is_event(name)) d.marks.push_back({name.substr(0, name.find(':')), *here});
+  }
+  return d;
+}
+
 Diagram motion_diagram(const Table& trajectory, const Axes& asked, const std::string& file) {
   const int balance = column_index(trajectory.columns, "balance");
   std::string observed;

@@ -71,6 +71,8 @@ struct Axes {
 /// Of path.csv: a curve is stable or not, a snap leads from one to another, branches or stages have a colour each. Default axes: the load
 /// factor, and the first column observed that changes.
 Diagram path_diagram(const Table& path, const Axes& axes, const std::string& file);
+/// Of curve.csv: the load factor of a threshold against the second parameter, and what happens on the way.
+Diagram curve_diagram(const Table& curve, const Axes& axes, const std::string& file);
 /// Of trajectory.csv: time, and the first column observed that changes, or the kinetic energy.
 Diagram motion_diagram(const Table& trajectory, const Axes& axes, const std::string& file);
 /// Of modes.csv: eigenvalues by number.

@@ -23,7 +23,8 @@ constexpr double page = 85 / 25.4 * 72, height = 135, margin = 3;       // 85 mm
 std::optional<Diagram> diagram_in(const FigureOptions& options) {
   using Read = Diagram (*)(const Table&, const Axes&, const std::string&);
   const std::pair<const char*, Read> tables[] = {
-      {"sweep.csv", sweep_diagram}, {"modes.csv", modes_diagram}, {"trajectory.csv", motion_diagram}, {"path.csv", path_diagram}};
+      {"sweep.csv", sweep_diagram}, {"modes.csv", modes_diagram}, {"trajectory.csv", motion_diagram},
+      {"curve.csv", curve_diagram}, {"path.csv", path_diagram}};
   for (const auto& [name, read] : tables) {
     const std::string file = (std::filesystem::path(options.directory) / name).string();
     if (!std::filesystem::exists(file)) continue;

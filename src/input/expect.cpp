@@ -15,7 +15,8 @@ namespace elamin {
 void describe(Keys& keys, ExpectTable& t) {
   keys.about("What the results are held against by `elamin verify`.");
   keys.must("observable", t.observable, "a column of path.csv");
-  keys.may("at", t.at, "its row: final, initial, an event such as branch:1, a stage, lambda=0.5, in dynamics step=100, or sweep");
+  keys.may("at", t.at, "its row: final, initial, an event such as branch:1, a stage, lambda=0.5, in dynamics step=100, sweep, or on a curve second=0.5, "
+           "curve.end, curve.cusp:1");
   keys.must("value", t.value, "what it should be");
   keys.may("rtol", t.rtol, "how far off it may be, relative to the value", range::not_negative);
   keys.may("atol", t.atol, "… and besides", range::not_negative);
@@ -88,6 +89,7 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
   if (at == at_sweep) return observable == "threshold" ? "" : "must be \"threshold\" at = \"sweep\", is " + in_quotes(observable);
   const bool event = at.find(':') != std::string::npos;
   std::vector<std::string> columns;
+  if (is_of_curve(at)) columns = {"second", "multiplicity", "asymmetry"};
   for (const std::string& c : columns_of(p))
     if (!is_in(no_numbers, c) && (event || !is_in(of_events, c))) columns.push_back(c);
   for (const ObserveTable& o : p.observe)
@@ -97,6 +99,7 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
 }
 
 std::string wrong_at(const Problem& p, const std::string& at) {
+  if (is_of_curve(at)) return wrong_at_curve(p, at);
   if (at == at_sweep || at == "final" || (at == "initial" && p.study == StudyType::path)) return "";
   if (p.in_time()) {
     if (const auto step = step_of(at); step && *step > p.dynamics.steps)

@@ -30,6 +30,9 @@ void check_motion(Problem& problem, Names& names, Mistakes& mistakes);
 void check_solver(Problem& problem, Mistakes& mistakes);
 /// The path, its stages and the events that are looked for on it.
 void check_path(Problem& problem, Mistakes& mistakes);
+/// The curve that is asked for; why no row of it is meant by `at`, or "".
+void check_curve(Problem& problem, Mistakes& mistakes);
+std::string wrong_at_curve(const Problem& problem, const std::string& at);
 /// Connections, bonds, angles, and what is removed.
 void check_connections(Problem& problem, Names& names, Mistakes& mistakes);
 void check_contacts(Problem& problem, Names& names, Mistakes& mistakes);

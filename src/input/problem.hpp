@@ -5,6 +5,7 @@
 #include "input/connect.hpp"
 #include "input/constants.hpp"
 #include "input/contact.hpp"
+#include "input/curve.hpp"
 #include "input/grains.hpp"
 #include "input/group.hpp"
 #include "input/imperfection.hpp"
@@ -55,6 +56,7 @@ struct Problem {
   StudyType study = StudyType::path;
   TablePlace study_place;                       // of [study], where it is written
   PathTable path;
+  std::optional<CurveTable> curve;
   ModesTable modes;
   SolverTable solver;
   DynamicsTable dynamics;

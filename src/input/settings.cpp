@@ -164,6 +164,15 @@ std::string computed(const Setting& setting, const Document& document, const Con
   return integer ? fmt::format("{:.0f}", *integer) : to_toml(*x);
 }
 
+std::string wrong_number(const std::string& key, const Document& document) {
+  Entries root = document.root;
+  Walk walk(key, root);
+  const Node* node = walk.end();
+  if (!node) return walk.why();
+  if (walk.is_integer()) return in_quotes(key) + " is a whole number; a curve needs a key that may have any value";
+  return !walk.is_number() || std::holds_alternative<List>(node->value) ? in_quotes(key) + " is no number" : "";
+}
+
 bool has_table(const std::string& key) {
   const KeyTree* tree = key_tree().find(key);
   return tree && tree->level != KeyTree::Level::value;

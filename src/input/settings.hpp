@@ -27,6 +27,9 @@ void apply(const Setting& setting, Document& document, Mistakes& mistakes);
 /// The value of a setting as a number, where it is an expression in place of one; else as it is.
 std::string computed(const Setting& setting, const Document& document, const Constants& constants);
 
+/// Why a key is no number that may take any value, as the end of a sentence, or "".
+std::string wrong_number(const std::string& key, const Document& document);
+
 /// Whether a problem file may hold [key] or [[key]].
 bool has_table(const std::string& key);
 

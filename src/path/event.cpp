@@ -2,19 +2,13 @@
 
 namespace elamin {
 
-namespace {
-
-// The part of the span of the zero modes that is orthogonal to the critical modes, orthonormal.
-Eigen::MatrixXd without(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& modes) {
-  if (zero.cols() == 0) return zero;
-  const Eigen::MatrixXd rest = zero - modes * (modes.transpose() * zero);
-  const Singular svd = singular_values(rest);
+Eigen::MatrixXd without_modes(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& modes) {
+  if (zero.cols() == 0 || modes.cols() == 0) return zero;
+  const Singular svd = singular_values(zero - modes * (modes.transpose() * zero));
   Eigen::Index rank = 0;
   while (rank < svd.values.size() && svd.values[rank] > 0.5) ++rank;
   return svd.u.leftCols(rank);
 }
-
-}  // namespace
 
 void store(const ContactSet& closed, Resume& resume) {
   for (const ContactKey& key : closed)
@@ -40,7 +34,7 @@ std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at) 
   event.at = at;
   event.at.point.label = resume.label;
   event.at.point.multiplicity = static_cast<int>(resume.modes.cols());
-  event.at.zero_modes = without(at.zero_modes, resume.modes);
+  event.at.zero_modes = without_modes(at.zero_modes, resume.modes);
   event.at.tangent = resume.tangent;
   event.modes = resume.modes;
   event.before = resume.before, event.after = resume.after;

@@ -23,6 +23,9 @@ struct Event {
   int user_event = -1;                      // which of the options' user_events
 };
 
+/// The part of the span of some modes that is orthogonal to others, which are orthonormal; orthonormal (dofs × count).
+Eigen::MatrixXd without_modes(const Eigen::MatrixXd& zero, const Eigen::MatrixXd& modes);
+
 /// What a path needs to be taken up behind this event; closed: the contacts from there on.
 Resume resume_of(const Event& event, const ContactSet& closed);
 

@@ -196,6 +196,25 @@ constexpr double vanishing = 1e-6;  // of the scale: eigenvalues that vanish wit
 constexpr std::size_t most_told = 4;  // names in one event
 }
 
+/// Thresholds as curves. Lengths are those of the curve's metric, in which all that is asked for is about 1.
+namespace curve {
+constexpr std::size_t kept_variants = 8;  // of the structure, at values of μ that were just looked at
+constexpr int most_iterations = 12, most_settling = 12;  // of the extended system; of the equilibrium with its modes held
+constexpr double longest_correction = 1;  // of one iteration
+constexpr double rounding = 1e-13;  // of a correction; where the conditions' own is larger, …
+constexpr double at_rest = 1e-8;  // … corrections that do not shrink any more: difference quotients leave 1e-5 of one to the next
+constexpr double largest_angle = 0.3, wanted_angle = 0.1;  // between the tangents at both ends of a step [rad]
+constexpr double longest_step = 2, least_step = 1e-6;  // times 1/steps
+constexpr double asymmetric = 1e-4;  // of ∇³E v v v to ∇³E v v: less is the rounding of differences
+constexpr double located = 1e-12, about = 1e-9;  // of a step: where what vanishes is exact, and where it is a difference quotient
+constexpr double as_near = 1e-6;  // … at least, where one cannot be found nearer
+constexpr double no_row = 1e-8;  // of the sizes of its terms: a condition that does not depend on what it is to tell
+constexpr int most_points = 20;  // times `steps`
+constexpr int more_modes = 3;  // beside the critical ones, among which the next one is looked for
+constexpr double orthogonal = 1e-5;  // of the load to a mode
+constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
+}
+
 /// What is said of an end.
 namespace cause {
 constexpr double flat = 1e-3;  // rad: an angle that passes π

@@ -43,11 +43,11 @@ Json input_text(const Summary& summary) {
 
 Json expected_data(const Problem& problem, const StoredRun& run) {
   Json all = Json::array();
-  const std::vector<Verdict> verdicts = check_expectations(problem, run.path, run.events);
+  const std::vector<Verdict> verdicts = check_expectations(problem, run.path, run.events, run.curve);
   for (std::size_t k = 0; k < problem.expect.size(); ++k) {
     const ExpectTable& e = problem.expect[k];
     std::string why;
-    const auto found = value_at(e.observable, e.at, {&run.path, &run.events}, why);
+    const auto found = value_at(e.observable, e.at, {&run.path, &run.events, &run.curve}, why);
     all.push_back({{"column", e.observable}, {"at", e.at}, {"value", found ? Json(*found) : Json(why)}, {"expected", e.value},
                    {"allowed", e.rtol * std::abs(e.value) + e.atol}, {"met", verdicts[k].met}, {"source", e.source}});
   }

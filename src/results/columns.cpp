@@ -54,6 +54,19 @@ std::vector<std::string> run_columns(const Problem& problem, const std::vector<O
   return problem.in_time() ? trajectory_columns(observables) : path_columns(observables, !problem.stages.empty());
 }
 
+std::vector<std::string> curve_columns(const std::vector<std::string>& observables) {
+  std::vector<std::string> columns = with_rest({"second", "label", "lambda"}, observables);
+  append(columns, {"multiplicity", "asymmetry", "what"});
+  return columns;
+}
+
+Row curve_row(double second, double asymmetry, const PathPoint& p, const std::vector<double>& observables) {
+  Row row{second, p.label, p.state.load_factor};
+  append_rest(row, p, observables);
+  row.insert(row.end(), {p.multiplicity, asymmetry, p.what});
+  return row;
+}
+
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged) {
   std::vector<std::string> columns = with_rest({"step", "label", "branch", "lambda"}, observables);
   if (staged) columns.push_back("stage");

@@ -32,6 +32,10 @@ std::vector<std::string> event_columns(const std::vector<std::string>& observabl
 Row event_row(const PathPoint& point, const std::vector<double>& observables,
               const std::optional<std::string>& stage = std::nullopt);
 
+/// second, label, lambda, then the columns of path.csv behind these, multiplicity, asymmetry and what: those of curve.csv.
+std::vector<std::string> curve_columns(const std::vector<std::string>& observables);
+Row curve_row(double second, double asymmetry, const PathPoint& point, const std::vector<double>& observables);
+
 /// An event's label has a colon and a number, as in "branch:1"; "initial" and "final" are no events.
 bool is_event(const std::string& label);
 

@@ -19,19 +19,29 @@ Found labelled(const Table& table, const std::string& label) {
   return {};
 }
 
-Found at_load_factor(const Table& path, double lambda) {
-  const int column = column_index(path.columns, "lambda");
+Found at_value(const Table& table, const char* name, double wanted) {
+  const int column = column_index(table.columns, name);
   Found found;
-  for (const Row& row : path.rows)
-    if (const auto value = as_number(row[column]); value && std::abs(*value - lambda) <= 1e-12 * std::abs(lambda))
-      found = {&path, &row};
+  for (const Row& row : table.rows)
+    if (const auto value = as_number(row[column]); value && std::abs(*value - wanted) <= 1e-12 * std::abs(wanted))
+      found = {&table, &row};
   return found;
 }
 
-std::string event_labels(const Table& events) {
+std::string labels_in(const Table& table) {
+  const int column = column_index(table.columns, "label");
   std::vector<std::string> labels;
-  for (const Row& row : events.rows) labels.push_back(csv_text(row[0]));
+  for (const Row& row : table.rows)
+    if (const std::string label = csv_text(row[column]); !label.empty()) labels.push_back(label);
   return labels.empty() ? "none" : listed(labels);
+}
+
+Found on_curve(const std::string& at, const Table* curve, std::string* why) {
+  if (!curve || curve->rows.empty()) return *why = "the run has no curve", Found{};
+  const std::optional<double> second = second_of(at);
+  const Found found = second ? at_value(*curve, "second", *second) : labelled(*curve, at.substr(at.find('.') + 1));
+  if (!found.row) *why = second ? "the curve does not get there" : "nothing of that is on the curve; there are: " + labels_in(*curve);
+  return found;
 }
 
 /// The row that `at` means; else *why says what there is.
@@ -48,7 +58,7 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
   if (at.starts_with("lambda=")) {
     const auto lambda = load_factor_of(at);
     if (!lambda) return *why = "what follows \"lambda=\" is not a number", Found{};
-    const Found found = at_load_factor(path, *lambda);
+    const Found found = at_value(path, "lambda", *lambda);
     if (!found.row) *why = fmt::format("no equilibrium of the path has this load factor; the last one has {}",
                                        csv_text(path.rows.back()[column_index(path.columns, "lambda")]));
     return found;
@@ -58,7 +68,7 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
   if (const int stage = column_index(path.columns, "stage"); stage >= 0)
     for (auto row = path.rows.rbegin(); row != path.rows.rend(); ++row)
       if ((*row)[stage] == Cell(at)) return {&path, &*row};
-  *why = "there is no such event; there are: " + event_labels(events);
+  *why = "there is no such event; there are: " + labels_in(events);
   return {};
 }
 
@@ -76,7 +86,7 @@ Verdict held(const std::string& what, double value, const ExpectTable& e, const 
 }  // namespace
 
 std::optional<double> value_at(const std::string& name, const std::string& at, const RunTables& run, std::string& why) {
-  const Found found = find(at, *run.path, *run.events, &why);
+  const Found found = is_of_curve(at) ? on_curve(at, run.curve, &why) : find(at, *run.path, *run.events, &why);
   if (!found.row) return std::nullopt;
   const int column = column_index(found.table->columns, name);
   if (column < 0) return why = "there is no such column; there are: " + listed(found.table->columns), std::nullopt;
@@ -110,11 +120,11 @@ Verdict check_threshold(const Problem& problem, const ExpectTable& e, std::optio
   return held(what_of(problem, e), (*threshold)[0] + ((*threshold)[1] - (*threshold)[0]) / 2, e);
 }
 
-std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events) {
+std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events, const Table& curve) {
   std::vector<Verdict> verdicts;
   for (const ExpectTable& e : problem.expect) {
     std::string why;
-    const auto value = value_at(e.observable, e.at, {&path, &events}, why);
+    const auto value = value_at(e.observable, e.at, {&path, &events, &curve}, why);
     verdicts.push_back(value ? held(what_of(problem, e), *value, e) : Verdict{what_of(problem, e) + ": " + why, false});
   }
   return verdicts;

@@ -264,13 +264,21 @@ void RunDirectory::log(const std::string& line) {
   log_.add(fmt::format("{:%Y-%m-%d %H:%M:%S} {}\n", local, line));
 }
 
+void RunDirectory::add_curve(const Row& row) {
+  if (!curve_file_) {
+    curve_.columns = curve_columns(record_.columns());
+    curve_file_.emplace(results_.file("curve.csv"), curve_.columns);
+  }
+  curve_file_->add(row), curve_.rows.push_back(row);
+}
+
 void RunDirectory::finish(const Summary& summary) {
   if (summary.status != status_name(Status::interrupted)) {
     for (const int step : frames_.dropped_at_end()) dropped_.insert(step);
     drop_files(dropped_);
     film_.finish(dropped_);
   }
-  write_summary(results_.file("summary.json"), summary, record_.path(), record_.events());
+  write_summary(results_.file("summary.json"), summary, record_.path(), record_.events(), curve_);
 }
 
 std::string RunDirectory::state_name(const std::string& label) const {

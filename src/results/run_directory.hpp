@@ -84,6 +84,10 @@ class RunDirectory {
   /// moved along the mode so that its largest displacement is a tenth of the smallest diameter. Modes count from 1.
   void add_mode(const Mode& mode, const State& state);
 
+  /// A row of curve.csv, see curve_columns, which the first one makes.
+  void add_curve(const Row& row);
+  const Table& curve() const { return curve_; }
+
   /// A line of log.txt, with the time.
   void log(const std::string& line);
 
@@ -123,7 +127,8 @@ class RunDirectory {
   GrowingFile log_;
   CsvFile path_, contacts_;
   std::optional<CsvFile> events_;                     // of equilibria
-  std::optional<CsvFile> modes_;                      // made with the first mode
+  std::optional<CsvFile> modes_, curve_file_;         // made with the first mode, with the first point of a curve
+  Table curve_;
   FrameChoice frames_;
   Film film_;
   std::set<std::int64_t> dropped_;                    // frames that are no longer wanted and still there

@@ -162,6 +162,7 @@ StoredRun read_run(const std::string& directory) {
   run.in_time = fs::exists(in(directory, "trajectory.csv"));
   run.path = table_if_there(in(directory, run.in_time ? "trajectory.csv" : "path.csv"));
   run.events = table_if_there(in(directory, "events.csv"));
+  run.curve = table_if_there(in(directory, "curve.csv"));
   run.contacts = table_if_there(in(directory, "contacts.csv"));
   run.modes = table_if_there(in(directory, "modes.csv"));
   read_summary(in(directory, "summary.json"), run);

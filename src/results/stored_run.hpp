@@ -24,7 +24,7 @@ struct StoredState {
 struct StoredRun {
   std::string directory;
   bool in_time = false;                // then `path` is trajectory.csv
-  Table path, events, contacts, modes; // empty where the study has none
+  Table path, events, contacts, modes, curve; // empty where the study has none
   std::optional<Summary> summary;      // none: the run did not end
   std::string version;                 // of the program that ran
   std::vector<StoredState> states;     // in the order of their rows; of a study of modes the equilibrium alone

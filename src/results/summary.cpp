@@ -62,7 +62,7 @@ void write_broken_off(const std::string& file, const std::string& title, const s
   write_over(file, unfinished(title, status_name(Status::interrupted), message));
 }
 
-void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events) {
+void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events, const Table& curve) {
   Json all;
   all["title"] = summary.title;
   all["status"] = summary.status;
@@ -71,6 +71,12 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["points"] = path.rows.size();
   all["events"] = Json::array();
   for (const Row& row : events.rows) all["events"].push_back(object(events, row));
+  if (!curve.rows.empty()) {
+    all["curve"] = {{"points", curve.rows.size()}, {"special", Json::array()}};
+    const auto label = static_cast<std::size_t>(column_index(curve.columns, "label"));
+    for (const Row& row : curve.rows)
+      if (row[label] != Cell("")) all["curve"]["special"].push_back(object(curve, row));
+  }
   all["final"] = path.rows.empty() ? Json(nullptr) : object(path, path.rows.back());
   all["zero_modes"] = summary.zero_modes;
   all["times"] = object(summary.times);

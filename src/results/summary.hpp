@@ -45,8 +45,8 @@ void write_broken_off(const std::string& file, const std::string& title, const s
 std::string version();
 
 /// Writes status, message, warnings, points, events (rows as objects), final (all columns of the last row, or null), times,
-/// version, input_sha256, tolerances, and where there is one the imperfection. Numbers that are not finite become null. Throws OutputError if it cannot be
+/// version, input_sha256, tolerances, where there is one the imperfection, and of a curve its points and, as objects, the rows that have a label. Numbers that are not finite become null. Throws OutputError if it cannot be
 /// written.
-void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events);
+void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events, const Table& curve = {});
 
 }  // namespace elamin

@@ -179,6 +179,18 @@ std::string closing_table(const Table& events, const Ink& ink) {
   return text;
 }
 
+std::string closing_curve(const Table& curve, const std::string& second) {
+  std::string text;
+  for (const Row& row : curve.rows) {
+    const Entries e{curve.columns, row};
+    const std::string label = csv_text(e["label"]), what = csv_text(e["what"]);
+    if (!label.empty())
+      text += fmt::format("{}: {} {}, load factor {}{}\n", label, second, shown(e["second"], "{:.10g}"), shown(e["lambda"], "{:.10g}"),
+                          what.empty() ? "" : ": " + what);
+  }
+  return text;
+}
+
 std::string closing_values(const Table& path, const std::vector<std::string>& observables, const Ink& ink) {
   if (path.rows.empty()) return "";
   const Entries last{path.columns, path.rows.back()};

@@ -2,6 +2,7 @@
 
 #include "input/check.hpp"
 #include "input/read.hpp"
+#include "input/stages.hpp"
 #include "study/imperfection.hpp"
 
 #include <fmt/format.h>
@@ -237,7 +238,27 @@ PreparedRun prepare_run(const Document& document, const std::vector<Setting>& se
                         const std::vector<OwnLaw>& own) {
   std::vector<Setting> all = settings;
   all.insert(all.end(), swept.begin(), swept.end());
-  PreparedRun run{swept, read_problem(document, all), {}, {}};
+  PreparedRun run{swept, read_problem(document, all), {}, {}, {}};
+  if (run.problem.curve) {
+    const CurveTable& curve = *run.problem.curve;
+    const Setting second{curve.second, "", curve.place.keys.at("second")};
+    Mistakes mistakes(document.file);
+    if (const std::string wrong = wrong_number(second.key, document); !wrong.empty()) mistakes.add(curve.place, "second", wrong);
+    mistakes.raise();
+    const auto at = [document, all, second](double value) {
+      std::vector<Setting> changed = all;
+      changed.push_back({second.key, to_toml(value), second.place});
+      return read_problem(document, changed);
+    };
+    run.problem = at(curve.from);
+    run.models = [at, own](double value) {
+      const Problem problem = at(value);
+      Model model = model_of(problem, own);
+      std::string unclear;
+      const Stage stage = Stages(problem).enter(unclear);
+      return model_in(problem, stage, model, model.restart.value_or(model.start));
+    };
+  }
   run.together = of_all_runs(run.problem);
   run.model = model_of(run.problem, own);
   return run;

@@ -2,6 +2,7 @@
 // Many runs from one file.
 #include "model/model.hpp"
 #include "study/bisection.hpp"
+#include "study/curve.hpp"
 #include "input/problem.hpp"
 #include "input/settings.hpp"
 
@@ -22,6 +23,7 @@ struct PreparedRun {
   Problem problem;                     // with the expectations about this run alone
   Model model;
   std::vector<ExpectTable> together;   // expectations about all runs together
+  ModelAt models;                      // where the problem asks for a curve
 };
 
 /// One run of a document. Throws InputError.

@@ -27,10 +27,12 @@ std::string default_directory(const std::string& file) {
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 // What was found, what is doubtful of it, and how it ended.
-std::string closing(StudyType study, const SingleResult& result, const Ink& ink) {
+std::string closing(const Problem& problem, const SingleResult& result, const Ink& ink) {
+  const StudyType study = problem.study;
   std::string text = study == StudyType::path    ? closing_table(result.events, ink)
                      : study == StudyType::modes ? closing_modes(result.modes, ink)
                                                  : closing_values(result.path, result.observables, ink);
+  if (problem.curve) text += closing_curve(result.curve, problem.curve->second);
   for (const std::string& name : result.zero_modes) text += fmt::format("free at the end: {}\n", name);
   for (const std::string& warning : result.warnings) text += ink.warning("warning") + ": " + warning + "\n";
   const std::string status = status_name(result.status);
@@ -39,8 +41,8 @@ std::string closing(StudyType study, const SingleResult& result, const Ink& ink)
 
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   const SingleResult result = run_single(run.problem, run.model, {options.directory, options.force, Progress::style_for(stdout, options.quiet), options.record,
-                                                                  options.checkpoint, options.resumes});
-  if (!options.quiet) say("{}written: {}\n", closing(run.problem.study, result, Ink(stdout)), options.directory);
+                                                                  options.checkpoint, options.resumes, run.models});
+  if (!options.quiet) say("{}written: {}\n", closing(run.problem, result, Ink(stdout)), options.directory);
   else if (result.status != Status::converged) complain("{}: {}\n", status_name(result.status), result.why);
   return {exit_status(result), options.directory, result.verdicts};
 }

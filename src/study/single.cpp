@@ -80,6 +80,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   double setup = 0, checking = 0, before = 0;                 // seconds; of the sessions before this one
 
   Summary summary;
+  std::optional<PathPoint> event;                              // that a curve begins at
   StrainWatch strains;
   std::vector<Mode> found;
   std::string of_lowest;                                       // what they carried when the run was stopped
@@ -144,6 +145,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
         setup = total.seconds();
       },
       .point = [&](const PathPoint& point, bool last) {
+        if (problem.curve && point.label == problem.curve->of) event = point;
         add(point, last, lowest ? lowest->at(point.state) : std::vector<double>{});
       },
       .modes = [&](const PathPoint& point, const std::vector<Mode>& modes) {
@@ -166,9 +168,23 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
         if (in_film) results.add_to_film({m.step, moment.label, m.time, energy->model(), m.state, fields, touches, {}, &m});
       },
       .progress = [&](const std::string& line, double step) { teller.moved(line, step); },
-      .checkpoint = [&](const std::function<void(Archive&)>& of_study) { checkpoints.offer([&](Archive& a) { carry(a), of_study(a); }); }};
+      .checkpoint = [&](const std::function<void(Archive&)>& of_study) { checkpoints.offer([&](Archive& a) { carry(a), of_study(a); }); },
+      .enough = [&](const PathPoint& point) { return problem.curve && point.label == problem.curve->of; }};
+  const auto follow_curve = [&]() -> Outcome {
+    if (!event)
+      return {Status::not_converged, "the path has no " + problem.curve->of + " that a curve could begin with: " + outcome.why};
+    return trace_curve(problem, options.models, *event, [&](const Row& row, const CurvePoint& point) {
+      const double second = point.threshold.second, load = point.threshold.at.point.state.load_factor;
+      results.add_curve(row);
+      const std::string line = fmt::format("{} = {:.12g}: {} at load factor {:.12g}{}{}", problem.curve->second, second, problem.curve->of, load,
+                                           point.label.empty() ? "" : ": " + point.label, point.what.empty() ? "" : ": " + point.what);
+      const auto part = (second - problem.curve->from) / (problem.curve->to - problem.curve->from);       // shown as that of the path
+      teller.log(line), teller.moved(line, problem.path.from + part * (problem.path.to - problem.path.from));
+    });
+  };
   try {
     if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
+    if (problem.curve && outcome.status == Status::converged) outcome = follow_curve();
     if (outcome.status == Status::interrupted) checkpoints.stop();
     else if (results.has_film()) checkpoints.end(carry);
     teller.finish();
@@ -196,18 +212,18 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   }
 
   const Record& record = results.record();
-  SingleResult result{outcome.status, outcome.why, record.path(), record.events(), record.columns(), std::move(found), summary.zero_modes,
+  SingleResult result{outcome.status, outcome.why, record.path(), record.events(), results.curve(), record.columns(), std::move(found), summary.zero_modes,
                       summary.warnings, {}};
-  result.verdicts = check_expectations(problem, result.path, result.events);
+  result.verdicts = check_expectations(problem, result.path, result.events, result.curve);
   return result;
 }
 
 SingleResult stored_result(const Problem& problem, const std::string& directory) {
   StoredRun run = read_run(directory);
   const bool done = run.summary->status == status_name(Status::converged);
-  SingleResult result{done ? Status::converged : Status::not_converged, run.summary->message, std::move(run.path), std::move(run.events), {}, {},
+  SingleResult result{done ? Status::converged : Status::not_converged, run.summary->message, std::move(run.path), std::move(run.events), std::move(run.curve), {}, {},
                       run.summary->zero_modes, run.summary->warnings, {}};
-  result.verdicts = check_expectations(problem, result.path, result.events);
+  result.verdicts = check_expectations(problem, result.path, result.events, result.curve);
   return result;
 }
 

@@ -7,13 +7,14 @@
 #include "results/table.hpp"
 #include "solve/report.hpp"
 #include "study/checkpoint.hpp"
+#include "study/curve.hpp"
 
 namespace elamin {
 
 struct [[nodiscard]] SingleResult {
   Status status = Status::converged;
   std::string why;
-  Table path, events;
+  Table path, events, curve;
   std::vector<std::string> observables;    // their columns in path
   std::vector<Mode> modes;                 // of a study of modes
   std::vector<std::string> zero_modes;     // of the last equilibrium, by name
@@ -28,6 +29,7 @@ struct SingleOptions {
   std::optional<RunRecord> record = {};    // none: it cannot be resumed
   double checkpoint = 1;                   // see RunOptions
   bool resumes = false;
+  ModelAt models = {};                     // where the problem asks for a curve
 };
 
 /// Traces the study of a problem and writes everything it leaves to the directory as it goes, or goes on with that. What does not converge is in

@@ -73,7 +73,8 @@ SingleResult run_part(const PreparedRun& run, const std::string& directory, cons
     remove_checkpoint(directory);                               // it may have been killed before it could
     return stored_result(run.problem, directory);
   }
-  SingleOptions single{.directory = directory, .force = options.force, .record = options.record, .checkpoint = options.checkpoint, .resumes = options.resumes};
+  SingleOptions single{.directory = directory, .force = options.force, .record = options.record, .checkpoint = options.checkpoint, .resumes = options.resumes,
+                       .models = run.models};
   if (single.record) single.record->run = number;
   return run_single(run.problem, run.model, single);
 }

@@ -201,7 +201,8 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     Headway headway(run->stage.path);
     const auto carry = [&](Archive& archive) { archive(numbers, held, headway, *run->path, run->energy, run->newton.factors()); };
     if (here) sink.stage(run->stage, run->energy), carry(*stopped);
-    while (std::optional<PathPoint> point = broken.empty() ? run->path->next() : std::nullopt) {
+    const auto enough = [&] { return held && sink.enough && sink.enough(*held); };
+    while (std::optional<PathPoint> point = broken.empty() && !enough() ? run->path->next() : std::nullopt) {
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
         break;
@@ -220,6 +221,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       if (sink.checkpoint && broken.empty() && !interrupted()) sink.checkpoint([&](Archive& archive) { archive(starts), carry(archive); });
     }
     outcome = {run->path->status(), run->path->why()};
+    if (enough()) outcome = {Status::converged, "the path ends at " + held->label};
     if (!broken.empty()) outcome = {Status::not_converged, broken};
     if (!run->stage.name.empty()) outcome.why = run->stage.name + ": " + outcome.why;
     if (!begun) run = std::move(before);               // the last point belongs to the stage before

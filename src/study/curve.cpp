@@ -1,0 +1,101 @@
+#include "study/curve.hpp"
+
+#include "energy/hard_gaps.hpp"
+#include "input/check.hpp"
+#include "results/columns.hpp"
+#include "study/solving.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elamin {
+namespace {
+
+/// Whether two models have the same unknowns and the same elements between them.
+bool same_topology(const Energy& a, const Energy& b) {
+  const Model &m = a.model(), &n = b.model();
+  const auto alike = [](const auto& x, const auto& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const auto& p, const auto& q) { return p.particles == q.particles; });
+  };
+  if (m.particles() != n.particles() || m.bodies.size() != n.bodies.size() || a.dofs() != b.dofs()) return false;
+  for (int d = 0; d < a.dofs(); ++d)
+    if (a.kinematics().site_of(d) != b.kinematics().site_of(d) || a.kinematics().coordinate_of(d) != b.kinematics().coordinate_of(d))
+      return false;
+  return alike(m.bonds, n.bonds) && alike(m.angles, n.angles);
+}
+
+/// The contact whose gap is nearest to zero.
+ContactKey nearest_contact(Energy& energy, const State& state) {
+  ContactKey key{-1, -1, -1};
+  double least = std::numeric_limits<double>::infinity();
+  for (const Touch& t : energy.touches(state, 1e-6 * energy.kinematics().smallest_size()))
+    if (std::abs(t.gap) < least) least = std::abs(t.gap), key = {t.particle, t.other, t.wall, t.feature};
+  return key;
+}
+
+std::vector<double> stops_on(const Problem& problem) {
+  std::vector<double> stops = problem.curve->stops.value_or(std::vector<double>{});
+  for (const ExpectTable& e : problem.expect)
+    if (const auto second = second_of(e.at)) stops.push_back(*second);
+  return stops;
+}
+
+}  // namespace
+
+Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoint& event,
+                    const std::function<void(const Row&, const CurvePoint&)>& found) {
+  const CurveTable& t = *problem.curve;
+  std::string refused;
+  std::shared_ptr<Variant> first;
+  const VariantAt variants = [&](double second) -> std::shared_ptr<Variant> {
+    try {
+      const auto made = std::make_shared<Variant>(models(second), solver_options(problem));
+      if (!first) first = made;
+      if (same_topology(made->energy, first->energy)) return made;
+      refused = fmt::format("at {} = {:.10g} there are other particles, bonds or free coordinates than at {:.10g}, where the curve begins",
+                            t.second, second, t.from);
+    } catch (const InputError& e) {
+      refused = fmt::format("at {} = {:.10g} there is no such structure: {}", t.second, second,
+                            e.mistakes().empty() ? e.what() : e.mistakes().front().what);
+    }
+    return {};
+  };
+  const std::shared_ptr<Variant> here = variants(t.from);
+  if (!here) return {Status::not_converged, refused};
+  if (any_hard(here->model))
+    return {Status::not_converged, "thresholds with hard contacts cannot be followed; give the contacts a stiffness"};
+
+  Threshold start;
+  start.second = t.from;
+  start.at.point = event;
+  start.kind = t.of.starts_with("limit:") ? EventKind::limit : t.of.starts_with("branch:") ? EventKind::branch : EventKind::contact;
+  here->energy.evaluate(event.state);
+  start.at.zero_modes = assess(here->newton, event.state, event.report).zero_modes;
+  if (start.kind == EventKind::contact) {
+    start.contact = nearest_contact(here->energy, event.state);
+    if (start.contact.particle < 0 || start.contact.feature >= 0)
+      return {Status::not_converged, "only contacts of particles, among them or at walls, can be followed"};
+  } else {
+    start.modes = event.modes;
+    start.at.zero_modes = without_modes(start.at.zero_modes, start.modes);
+    if (start.modes.cols() == 0)
+      return {Status::not_converged, "the event has no mode along which the structure gives way: bodies that touch, whose stiffness jumps"};
+  }
+  const CurveOptions options{t.from, t.to, t.steps, stops_on(problem), std::abs(problem.path.to - problem.path.from)};
+  const CurveEnd end = trace_curve(variants, std::move(start), options, [&](const CurvePoint& point) {
+    const std::shared_ptr<Variant> there = variants(point.threshold.second);
+    PathPoint p = point.threshold.at.point;
+    p.label = point.label, p.what = point.what;
+    const Observables observables(problem, there->model);
+    const std::vector<Touch> touches = observed_touches(there->energy, p.state, observables);
+    std::vector<double> values = observables.evaluate(p.state, there->energy.forces(p.state), touches);
+    for (std::size_t k = 0; k < p.energy.own.size(); ++k) values.push_back(p.energy.own[k].second);
+    found(curve_row(point.threshold.second, point.threshold.asymmetry, p, values), point);
+  });
+  const bool told = end.status == Status::not_converged && !refused.empty();
+  return {end.status, told ? end.why + "; " + refused : end.why};
+}
+
+}  // namespace elamin
