@@ -242,7 +242,7 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s) 
   if (!change) return {};
   const double t = arc.position(change->at.point.state);
   if (!(t >= -arc_steps::standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(arc_steps::largest_departure * t, arc_steps::standing * s)) return {};
-  if (!joins(arc, change->at, current_)) return {};
+  if (t > arc_steps::standing * s && !joins(arc, change->at, current_)) return {};
   return with_contact(Candidate{.parameter = t, .e = {}}, std::move(*change));
 }
 
