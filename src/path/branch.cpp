@@ -104,11 +104,12 @@ bool Branch::changes_before(const ContactChange& change) {
 
 // Contacts that nobody asks for are located only where no limit point and no branch point explains why the Morse index changes.
 bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why) {
-  const bool unasked = !contacts_ && !current_.slack && c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model());
-  Candidate without = c;
-  if (unasked && find_critical(segment, without, why)) c = std::move(without);
-  else if (!find_contact(segment, c, why) || !find_critical(segment, c, why)) return false;
-  return find_user_events(segment, c, why);
+  bool explained = false;
+  if (!contacts_ && !current_.slack && c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model())) {
+    Candidate critical = c;
+    if ((explained = find_critical(segment, critical, why))) c = std::move(critical);
+  }
+  return (explained || (find_contact(segment, c, why) && find_critical(segment, c, why))) && find_user_events(segment, c, why);
 }
 
 bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {

@@ -1,21 +1,12 @@
 #pragma once
 // Where between two equilibria a contact is made or lost.
+#include "path/contact_gap.hpp"
 #include "path/segment.hpp"
 
 #include <optional>
-#include <set>
 #include <string>
 
 namespace elamin {
-
-/// Two entities (wall −1), or one at a wall (other −1); of bodies each place where they may touch, see TouchKey.
-struct ContactKey {
-  int particle, other, wall;
-  int feature = -1;
-  bool within_cutoff = false;                  // bodies that attract each other: within the cutoff, whether they overlap or not
-  auto operator<=>(const ContactKey&) const = default;
-};
-using ContactSet = std::set<ContactKey>;
 
 /// Contacts that are in one of two sets, but not in both.
 ContactSet difference(const ContactSet& a, const ContactSet& b);

@@ -1,0 +1,30 @@
+#pragma once
+// The gap of one contact as a function of the state and the load factor.
+#include "energy/energy.hpp"
+
+#include <compare>
+#include <set>
+
+namespace elamin {
+
+/// Two entities (wall −1), or one at a wall (other −1); of bodies each place where they may touch, see TouchKey.
+struct ContactKey {
+  int particle, other, wall;
+  int feature = -1;
+  bool within_cutoff = false;                  // bodies that attract each other: within the cutoff, whether they overlap or not
+  auto operator<=>(const ContactKey&) const = default;
+};
+using ContactSet = std::set<ContactKey>;
+
+inline TouchKey touch_key(const ContactKey& key) { return {key.particle, key.other, key.wall, key.feature}; }
+
+/// The gap at a state, below zero where surfaces overlap [length]; of an attraction the distance beyond its cutoff. Infinite where bodies have no such place.
+double gap(const Energy& energy, const ContactKey& key, const State& state);
+
+/// ∇gap (dofs) and ∂gap/∂λ of prescribed coordinates and moving walls; load_change: over which the walls move. False where there is none.
+[[nodiscard]] bool slope(const Energy& energy, const ContactKey& key, const State& state, double load_change, Vector& row, double& by_load);
+
+/// A state moved by a part of a way (dofs), prescribed coordinates by their part of the change of the load factor.
+State moved_by(const Kinematics& kinematics, const State& from, const Vector& way, double load_change, double part);
+
+}  // namespace elamin
