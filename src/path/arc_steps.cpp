@@ -195,9 +195,10 @@ bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, s
   const double off_load = load - part * mean_load;
   if (std::sqrt(metric_.dot(off, off_load, off, off_load)) > arc_steps::largest_defect * std::sqrt(metric_.dot(x, load, x, load)))
     return why = "the branch bends too sharply, or there is another one beside it", false;
-  // Where positions make up the step, the load factor alone tells whether its rates at both ends lead from the one to the other.
+  // Where positions make up the step, the load factor alone tells whether its rates at both ends lead from the one to the other. Asked of unstable branches: of
+  // stable ones the energy tells (lower_already).
   const double rate = std::max(std::abs(d.load), std::abs(start.load)), rounding = arc_steps::load_rounding * std::abs(e.point.state.load_factor);
-  if (!singular_ && !at_contact_ && std::abs(off_load) > 2 * part * arc_steps::largest_defect * rate + rounding)
+  if (negative_ > 0 && !singular_ && !at_contact_ && std::abs(off_load) > 2 * part * arc_steps::largest_defect * rate + rounding)
     return why = "the load factor does not change as its rates tell: the branch bends too sharply, or there is another one beside it", false;
   return true;
 }
