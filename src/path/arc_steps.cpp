@@ -197,8 +197,8 @@ bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, s
     return why = "the branch bends too sharply, or there is another one beside it", false;
   // Where positions make up the step, the load factor alone tells whether its rates at both ends lead from the one to the other. Asked of unstable branches: of
   // stable ones the energy tells (lower_already).
-  const double rate = std::max(std::abs(d.load), std::abs(start.load)), rounding = arc_steps::load_rounding * std::abs(e.point.state.load_factor);
-  if (negative_ > 0 && !singular_ && !at_contact_ && std::abs(off_load) > 2 * part * arc_steps::largest_defect * rate + rounding)
+  const double bound = std::max(2 * part * arc_steps::largest_defect * std::max(std::abs(d.load), std::abs(start.load)), arc_steps::told_by_load * options_.load_step);
+  if (negative_ > 0 && !singular_ && !at_contact_ && std::abs(off_load) > bound)
     return why = "the load factor does not change as its rates tell: the branch bends too sharply, or there is another one beside it", false;
   return true;
 }

@@ -54,6 +54,7 @@ constexpr double wanted_angle = 0.25;  // … that is aimed at [rad]
 constexpr int wanted_iterations = 4;  // of the corrector: quadratic convergence from a tenth to rounding
 constexpr double largest_departure = 0.5;  // of the corrector, in parts of the step
 constexpr double largest_defect = 0.2;  // of the chord from the sum of the tangents, in parts of the chord
+constexpr double told_by_load = 0.1;  // of a load step: what is less may be rounding, where hardly anything changes the load factor
 constexpr double least_part = 1e-12;  // of the first step: shorter ones are given up
 constexpr double just_beyond = 0.125;  // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;  // of the way: an event leads there
