@@ -39,6 +39,7 @@ double critical_value(Newton& newton, Equilibrium& e, int index) {
   Eigen::MatrixXd start = e.lowest.vectors;
   if (e.zero_modes.cols() > 0) start -= e.zero_modes * (e.zero_modes.transpose() * start);
   e.lowest = newton.factors().nearest_zero(start, e.zero_modes);
+  newton.factors().refine(e.lowest);
   const Vector& values = e.lowest.values;
   Eigen::Index least = 0;
   if (values.cwiseAbs().minCoeff(&least) <= 4 * newton.factors().zero_level()) return values[least];

@@ -135,14 +135,12 @@ EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::Matr
     values.cwiseAbs().minCoeff(&least);
     if (k + 1 >= limits::least_rounds && std::abs(values[least] - before[least]) <= 1e-12 * std::abs(values[least]) + zero_level() / 256) break;
   }
-  refine(x);
   for (Eigen::Index j = 0; j < block; ++j) values[j] = energy_.quadratic_form(x.col(j));
   return {values, x};
 }
 
-// What the rounding of a factor, E ~ ε‖H‖, leaves of other soft modes in the Ritz vectors X is E/μ of a mode of stiffness μ, and E²/μ of its energy in their
-// forms. R = HX − XS has none of it, and X − H⊥⁻¹R but (E/μ)²: iterative refinement (see inertia.cpp).
-void Factors::refine(Eigen::MatrixXd& x) {
+void Factors::refine(EigenPairs& pairs) {
+  Eigen::MatrixXd& x = pairs.vectors;
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < limits::eigenvector_refinements; ++k) {
     Eigen::MatrixXd r(x.rows(), x.cols()), w(x.rows(), x.cols());
@@ -151,11 +149,12 @@ void Factors::refine(Eigen::MatrixXd& x) {
     for (Eigen::Index j = 0; j < x.cols(); ++j) w.col(j) = solve_holding(r.col(j));
     w -= x * (x.transpose() * w);
     const double second = (r.transpose() * w).diagonal().cwiseAbs().sum();
-    if (!(second < before / 2)) return;
+    if (!(second < before / 2)) break;
     before = second;
     x = orthonormal(x - w);
     rotate_to_ritz(energy_, x);
   }
+  for (Eigen::Index j = 0; j < x.cols(); ++j) pairs.values[j] = energy_.quadratic_form(x.col(j));
 }
 
 EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen::MatrixXd& start) {

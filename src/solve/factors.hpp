@@ -49,6 +49,9 @@ class Factors {
   /// The eigenpairs nearest to zero in the space orthogonal to `held`, as many as `start` has columns, by block inverse
   /// iteration with the factor of the Hessian itself: where eigenvalues all but vanish a step or two give all digits.
   EigenPairs nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held);
+  /// Takes out of such pairs what the rounding of the factor, E ~ ε‖H‖, has put in of other soft modes, E/μ of a mode of stiffness μ and E²/μ of its energy:
+  /// R = HX − XS has none of it, and X − H⊥⁻¹R but (E/μ)², by iterative refinement (see inertia.cpp); right after nearest_zero.
+  void refine(EigenPairs& pairs);
 
   /// Factorises the Hessian as it is, definite or not, for solutions of
   ///   H p + Z μ = b,   Zᵀ p = 0
@@ -99,7 +102,6 @@ class Factors {
   [[nodiscard]] std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
   Vector solve_resolved(const Vector& b);
   Vector solve_shifted(const Vector& b);
-  void refine(Eigen::MatrixXd& x);
   double smallest();
   Energy& energy_;
   double stiffest_ = 0;                          // bond with a free end [force/length]
