@@ -102,10 +102,12 @@ bool Branch::changes_before(const ContactChange& change) {
   return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) { return (here.count(key) > 0) == (change.after.count(key) > 0); });
 }
 
+bool Branch::contact_may_explain(const Candidate& c) const { return c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()); }
+
 // Contacts that nobody asks for are located only where no limit point and no branch point explains why the Morse index changes.
 bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why) {
   bool explained = false;
-  if (!contacts_ && !current_.slack && c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model())) {
+  if (!contacts_ && !current_.slack && contact_may_explain(c)) {
     Candidate critical = c;
     if ((explained = find_critical(segment, critical, why))) c = std::move(critical);
   }
@@ -114,8 +116,7 @@ bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why)
 
 bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   // Not looked for unless asked, or where something floats and may be caught, or where one may explain why the Morse index changes.
-  const bool tells = current_.slack || (c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()));
-  if (!contacts_ && !tells) return true;
+  if (!contacts_ && !current_.slack && !contact_may_explain(c)) return true;
   const bool passes = contacts_ && !current_.slack && stop_where_contact_passes(segment, c);
   segment.b = c.parameter;
   std::optional<ContactChange> change = locate_contact(newton_, segment, closed_, current_, c.e);

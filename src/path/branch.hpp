@@ -75,6 +75,7 @@ class Branch {
   void look_behind(Event& contact, double way);
   bool undoes(const ContactChange& change) const;
   bool changes_before(const ContactChange& change);
+  bool contact_may_explain(const Candidate& c) const;
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
   /// What happens on the way to a candidate, which is then where that is.
   [[nodiscard]] bool find_events(const Segment& segment, Candidate& c, std::string& why);

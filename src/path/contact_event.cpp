@@ -410,9 +410,11 @@ std::optional<double> where_contact_may_pass(Energy& energy, const Segment& segm
     const ContactKey key{t.particle, t.other, t.wall, t.feature};
     const double ga = gap(energy, key, a.point.state), gb = gap(energy, key, b.point.state);
     if (but.count(key) || !std::isfinite(gb) || (ga < 0) != (gb < 0)) continue;
-    const double ra = rate(key, a), rb = rate(key, b), sign = ga < 0 ? -1 : 1;
     // g' = ra + 2u (3(gb − ga) − 2ra − rb) + 3u² (ra + rb − 2(gb − ga)); on the way to the other side at one end, on the way back at the other.
-    if (!(sign * ra < 0 && sign * rb > 0)) continue;
+    const double sign = ga < 0 ? -1 : 1, ra = rate(key, a);
+    if (!(sign * ra < 0)) continue;
+    const double rb = rate(key, b);
+    if (!(sign * rb > 0)) continue;
     const double c = ra + rb - 2 * (gb - ga), h = 3 * (gb - ga) - 2 * ra - rb;
     const double root = std::sqrt(std::max(0.0, h * h - 3 * c * ra)), u = ra / (-h - std::copysign(root, h)), v = (-h - std::copysign(root, h)) / (3 * c);
     for (const double x : {u, v}) {
