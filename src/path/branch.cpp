@@ -17,7 +17,7 @@ Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEv
       at_contact_(from.at_contact), closed_(std::move(from.closed)), changed_(std::move(from.changed)), contacts_(contacts),
       user_events_(std::move(user_events)), side_(std::move(from.sides)) {
   for (std::size_t k = side_.size(); k < user_events_.size(); ++k) side_.push_back(user_events_[k].side(current_.point.state));
-  newton_.factors().expect(negative_ > 0);
+  newton_.factors().expect(negative_ > 0, current_.soft);
 }
 
 void Branch::carry(Archive& archive) {
@@ -221,7 +221,8 @@ void Branch::take(const Candidate& c) {
   current_.point.label.clear();
   if (c.events.empty()) return;
   current_.point.stability.negative = negative_;
-  current_.lowest = {}, newton_.factors().expect(negative_ > 0);         // as where a path is taken up
+  if (singular_ && current_.soft.cols() > 0) current_.soft = event->modes;
+  current_.lowest = {}, newton_.factors().expect(negative_ > 0, current_.soft);         // as where a path is taken up
   if (event) current_.point.stability.critical = 0;             // what is singular here has been told
 }
 

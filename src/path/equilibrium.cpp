@@ -206,6 +206,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     return e;
   }
   Inertia inertia = newton.factors().inertia();
+  e.soft = newton.factors().soft();
   const bool slack = energy.slack() && may_touch(energy.model()) && !attracts(energy.model());
   if (slack) inertia.zero += inertia.negative, inertia.negative = 0;            // what forces that are none make of it
   s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.null_dofs().size());

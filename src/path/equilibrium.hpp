@@ -12,6 +12,7 @@ struct Equilibrium {
   Vector tangent;                      // dx/dλ at fixed zero modes (dofs) [length]
   Eigen::MatrixXd zero_modes;          // orthonormal, dofs × count: rigid motions and symmetries that cost nothing
   std::vector<RigidMotion> motions = {};   // the rigid ones that they have been told to be
+  Eigen::MatrixXd soft = {};           // modes that the inertia had to resolve (dofs × count), where it had to
   EigenPairs lowest;                   // eigenpairs as far as they were asked for: where the search at a neighbour begins
   /// Nothing bears a force, and something may touch: what floats is pushed as far as it must, and what touches it may as well not.
   bool slack = false;

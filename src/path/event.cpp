@@ -36,6 +36,7 @@ std::optional<Event> resumed_event(const Resume& resume, const Equilibrium& at) 
   event.at.point.multiplicity = static_cast<int>(resume.modes.cols());
   event.at.zero_modes = without_modes(at.zero_modes, resume.modes);
   event.at.tangent = resume.tangent;
+  if (at.soft.cols() > 0) event.at.soft = resume.modes;
   event.modes = resume.modes;
   event.before = resume.before, event.after = resume.after;
   return event;

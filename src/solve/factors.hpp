@@ -31,8 +31,10 @@ class Factors {
   /// no eigenvalue is zero. Where there is no factor at all (see why_none), all dofs count as zero.
   Inertia inertia();
   /// Which of the two comes first depends on the last inertia, and with it the rounding of what follows: what has been told of it elsewhere.
-  void expect(bool indefinite) { indefinite_ = indefinite; }
-  void carry(Archive& archive) { archive(indefinite_); }
+  /// `soft`: the modes that it had to resolve, for factorize_resolving().
+  void expect(bool indefinite, const Eigen::MatrixXd& soft) { indefinite_ = indefinite, soft_ = soft; }
+  const Eigen::MatrixXd& soft() const { return soft_; }
+  void carry(Archive& archive) { archive(indefinite_, soft_); }
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
   /// it positive definite; returns τ.  The factor is then in cholesky(). None where there is no such thing: see why_none().
   [[nodiscard]] std::optional<double> make_positive(double guess);
