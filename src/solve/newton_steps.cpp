@@ -77,9 +77,10 @@ bool Newton::take_long(const State& from, const Step& step, double alpha, State&
 }
 
 // Downhill the energy itself must fall; simplified Newton corrections across the step bend it back that stretched the structure, until
-// hardly anything of that is left, which would stiffen the next Hessian. Leaves the best state in `to`, and the energy evaluated there.
+// hardly anything of that is left, which would stiffen the next Hessian. The first of them bends for stretches that it also takes away, which the second
+// must undo: a correction is held against the last but one. Leaves the best state in `to`, and the energy evaluated there.
 bool Newton::take_downhill(const State& from, const Step& step, double alpha, State& to) {
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity(), before_last = last;
   const double enough = limits::relaxed * alpha * step.p.norm();
   std::optional<State> fallen;
   for (int k = 0;; ++k) {
@@ -94,10 +95,10 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
     if (on) {
       correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
       correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
-      on = correction.norm() <= limits::contraction * last && !(fallen && correction.norm() <= enough);
+      on = correction.norm() <= limits::contraction * before_last && !(fallen && correction.norm() <= enough);
     }
     if (!on) break;
-    last = correction.norm();
+    before_last = std::exchange(last, correction.norm());
     energy_.kinematics().retract(to, correction);
   }
   if (!fallen) return false;
@@ -134,9 +135,9 @@ std::optional<double> Newton::without_compression(const State& state, const Vect
 std::optional<double> Newton::make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left) {
   const bool stays = std::exchange(descent.left, false) || descent.pace == Pace::stationary;
   left = descent.eased = false;
-  if (factors_.try_cholesky(0)) return 0;
   const double sigma = factors_.zero_level();
-  if (factors_.try_cholesky(sigma)) return factors_.make_positive_from(limits::hold_zero_modes * sigma);   // rounding would fill the step with a zero mode
+  if (!settled && factors_.try_cholesky(0)) return 0;                   // where it is settled forms have told of a negative eigenvalue
+  if (!settled && factors_.try_cholesky(sigma)) return factors_.make_positive_from(limits::hold_zero_modes * sigma);   // rounding would fill the step with a zero mode
   if (!settled && !std::exchange(descent.refused, false))
     if (const std::optional<double> shift = without_compression(state, g, descent)) return descent.eased = true, shift;
   const std::optional<double> positive = factors_.make_positive_from(std::max(descent.shift / 4, 16 * sigma), 32);
