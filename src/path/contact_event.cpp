@@ -109,12 +109,26 @@ std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std
   return {};
 }
 
+// The Morse index where these contacts change; where all are lost, with them open by more than rounding: an overlap of rounding is stiff already.
+int index_open(Newton& newton, const ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change) {
+  Energy& energy = newton.energy();
+  const State& state = change.at.point.state;
+  double part = 0;
+  for (const ContactKey& key : changed) {
+    if (key.feature >= 0 || change.after.count(key)) return change.at.point.stability.negative;
+    const double gone = gap(energy, key, moved_by(energy.kinematics(), state, way, load_change, contact_event::little)) - gap(energy, key, state);
+    part = std::max(part, contact_event::little * contact_event::rounding * size_of(energy.model(), key.particle) / gone);
+  }
+  if (!(part > 0 && part <= contact_event::most_beside)) return change.at.point.stability.negative;
+  return assess(newton, moved_by(energy.kinematics(), state, way, load_change, part), change.at.point.report).point.stability.negative;
+}
+
 // How the branch goes on behind these contacts; negative: the Morse index where the way begins. What particles do to each other begins from nothing. Where
 // they are so stiff that it takes, or gives, stability all the same, the eigenvalue crosses zero nearer to the event than rounding lets it be seen: it is
 // taken where they are lost, given where they are made.
 void find_beyond(Newton& newton, ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
   std::vector<ContactKey> here = changed;
-  const int at = change.at.point.stability.negative;
+  const int at = index_open(newton, change, changed, way, load_change);
   if (at == negative) std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (negative == 0 || !change.after.count(key)); });
   if (here.empty() || change.at.slack) return;
   const Equilibrium open = change.at;

@@ -66,22 +66,24 @@ bool Newton::comes_nearer(const Step& step, double alpha) {
   return (convex ? *convex : factors_.cholesky().solve(g)).norm() <= (1 - alpha / 2) * step.p.norm();
 }
 
-// A long step is good if the energy falls but for what was not predicted of it.
+// A long step is good if the energy falls but for what was not predicted of it; where rounding hides that, along a direction of negative curvature if it slopes
+// down to the end.
 bool Newton::take_long(const State& from, const Step& step, double alpha, State& to) {
   energy_.evaluate(to, false);
   const double change = energy_.last_terms().total() - step.energy;
   if (!std::isfinite(change)) return false;
-  if (step.hidden(alpha)) return comes_nearer(step, alpha);
+  if (step.hidden(alpha)) return (step.curvature < 0 && energy_.gradient().dot(step.p) < 0) || comes_nearer(step, alpha);
   const double wanted = limits::armijo * step.predicted(alpha);
   return change <= wanted || change - energy_.residual_energy(to, from) <= wanted;
 }
 
 // Downhill the energy itself must fall; simplified Newton corrections across the step bend it back that stretched the structure, until
 // hardly anything of that is left, which would stiffen the next Hessian. The first of them bends for stretches that it also takes away, which the second
-// must undo: a correction is held against the last but one. Leaves the best state in `to`, and the energy evaluated there.
+// must undo: a correction is held against the last but one; against the last where something may touch, which longer steps lead past. Leaves the best state in `to`, and the energy evaluated there.
 bool Newton::take_downhill(const State& from, const Step& step, double alpha, State& to) {
   double last = std::numeric_limits<double>::infinity(), before_last = last;
   const double enough = limits::relaxed * alpha * step.p.norm();
+  const bool touching = may_touch(energy_.model());
   std::optional<State> fallen;
   for (int k = 0;; ++k) {
     energy_.evaluate(to, false);
@@ -95,7 +97,7 @@ bool Newton::take_downhill(const State& from, const Step& step, double alpha, St
     if (on) {
       correction = -factors_.cholesky().solve(Vector(energy_.gradient() - step.g - alpha * step.hp));
       correction -= step.p * (step.p.dot(correction) / step.p.squaredNorm());
-      on = correction.norm() <= limits::contraction * before_last && !(fallen && correction.norm() <= enough);
+      on = correction.norm() <= limits::contraction * (touching ? last : before_last) && !(fallen && correction.norm() <= enough);
     }
     if (!on) break;
     before_last = std::exchange(last, correction.norm());

@@ -853,3 +853,8 @@ TEST_CASE("contacts that are made and lost while others change are told in their
 TEST_CASE("a stiff slender column leaves its saddle, whatever the steps", "[paths][column_leaves_saddle]") {
   same_in_steps("column_leaves_saddle", 0.013726239498445919, "jump", 1, {15, 6, 40});
 }
+
+// Contacts that overlap by rounding are stiff already: the index behind them is that without them. The heap itself begins at a saddle between two contacts that bear next to nothing.
+TEST_CASE("grains that leave a stiff lid where the branch turns back do so at one limit point, whatever the steps", "[paths][heap_leaves_lid]") {
+  same_in_steps("heap_leaves_lid", 1, "limit", 1, {57, 31});
+}
