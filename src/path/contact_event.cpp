@@ -109,7 +109,8 @@ std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std
   return {};
 }
 
-// The Morse index where these contacts change; where all are lost, with them open by more than rounding: an overlap of rounding is stiff already.
+// The Morse index at the place where these contacts change. Where all of them are lost they are opened by more than rounding first: a stiff contact
+// that overlaps by rounding alone may have more stiffness than the structure.
 int index_open(Newton& newton, const ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change) {
   Energy& energy = newton.energy();
   const State& state = change.at.point.state;

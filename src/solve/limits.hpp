@@ -45,7 +45,8 @@ constexpr double least_pressed = 1e-6;
 constexpr double largest_rotation = 0.3;
 /// Part of the predicted decrease that must come true (Nocedal & Wright 2006, §3.1, with room for what contacts add).
 constexpr double armijo = 0.1;
-/// Simplified Newton corrections that bend one step back; each must shrink to this part of the one before, or of the last but one, or the step is too long.
+/// Simplified Newton corrections that bend one step back; each must shrink to this part of the last one, or of the last but one (take_downhill), or
+/// the step is too long.
 constexpr int most_corrections = 6;
 constexpr double contraction = 0.7;
 /// … and where they are this part of the step there is nothing left to bend back.

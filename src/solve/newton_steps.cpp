@@ -66,8 +66,8 @@ bool Newton::comes_nearer(const Step& step, double alpha) {
   return (convex ? *convex : factors_.cholesky().solve(g)).norm() <= (1 - alpha / 2) * step.p.norm();
 }
 
-// A long step is good if the energy falls but for what was not predicted of it; where rounding hides that, along a direction of negative curvature if it slopes
-// down to the end.
+// A long step is good if the energy falls but for what was not predicted of it. Where rounding hides that, and the curvature along the step is
+// negative, a slope that is negative at its end, too, tells it.
 bool Newton::take_long(const State& from, const Step& step, double alpha, State& to) {
   energy_.evaluate(to, false);
   const double change = energy_.last_terms().total() - step.energy;
@@ -78,8 +78,9 @@ bool Newton::take_long(const State& from, const Step& step, double alpha, State&
 }
 
 // Downhill the energy itself must fall; simplified Newton corrections across the step bend it back that stretched the structure, until
-// hardly anything of that is left, which would stiffen the next Hessian. The first of them bends for stretches that it also takes away, which the second
-// must undo: a correction is held against the last but one; against the last where something may touch, which longer steps lead past. Leaves the best state in `to`, and the energy evaluated there.
+// hardly anything of that is left, which would stiffen the next Hessian. The first correction takes the stretch away, and also bends the structure
+// under the force of that stretch; the second takes this bending back, and may be as long. So each is compared with the last but one, or,
+// where something may touch and longer steps could go past it, with the last. Leaves the best state in `to`, and the energy evaluated there.
 bool Newton::take_downhill(const State& from, const Step& step, double alpha, State& to) {
   double last = std::numeric_limits<double>::infinity(), before_last = last;
   const double enough = limits::relaxed * alpha * step.p.norm();
@@ -138,7 +139,7 @@ std::optional<double> Newton::make_convex(State& state, const Vector& g, Descent
   const bool stays = std::exchange(descent.left, false) || descent.pace == Pace::stationary;
   left = descent.eased = false;
   const double sigma = factors_.zero_level();
-  if (!settled && factors_.try_cholesky(0)) return 0;                   // where it is settled forms have told of a negative eigenvalue
+  if (!settled && factors_.try_cholesky(0)) return 0;       // a settled state has a negative eigenvalue, whatever a rounded factor tells
   if (!settled && factors_.try_cholesky(sigma)) return factors_.make_positive_from(limits::hold_zero_modes * sigma);   // rounding would fill the step with a zero mode
   if (!settled && !std::exchange(descent.refused, false))
     if (const std::optional<double> shift = without_compression(state, g, descent)) return descent.eased = true, shift;

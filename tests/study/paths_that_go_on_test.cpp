@@ -849,12 +849,13 @@ TEST_CASE("contacts that are made and lost while others change are told in their
   same_in_steps("column_walks_along_stop", 2.4116775665641983, "contact", 14, {3, 20}, {by_load_steps, snaps});
 }
 
-// EA L²/EI = 4e8: the first correction across a step off the saddle bends for stretches that it takes away as well.
+// EA L²/EI = 5e8: a step off the saddle stretches the column; its first correction bends it too far, its second bends it back.
 TEST_CASE("a stiff slender column leaves its saddle, whatever the steps", "[paths][column_leaves_saddle]") {
   same_in_steps("column_leaves_saddle", 0.013726239498445919, "jump", 1, {15, 6, 40});
 }
 
-// Contacts that overlap by rounding are stiff already: the index behind them is that without them. The heap itself begins at a saddle between two contacts that bear next to nothing.
+// A contact that overlaps by rounding alone is stiffer than the heap, so the Morse index behind the event is that without it. The path begins beside
+// a saddle between two contacts that bear next to nothing.
 TEST_CASE("grains that leave a stiff lid where the branch turns back do so at one limit point, whatever the steps", "[paths][heap_leaves_lid]") {
   same_in_steps("heap_leaves_lid", 1, "limit", 1, {57, 31});
 }
