@@ -165,7 +165,7 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
                                   [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
   if (kink ? !find_critical(segment, *c, why) || !find_user_events(segment, *c, why) : !find_events(segment, *c, why)) return {};
-  find_stop(segment, *c);
+  if (!find_stop(segment, *c, why)) return {};
   return c;
 }
 
@@ -278,8 +278,8 @@ bool ArcSteps::stands_at(const Equilibrium& e, double stop) const {
   return std::abs(here - stop) <= arc_steps::load_rounding * std::max({std::abs(here), std::abs(stop), options_.load_step});
 }
 
-// The first of the load factors to stop at, exactly there.
-void ArcSteps::find_stop(Segment segment, Candidate& c) {
+// The first of the load factors to stop at, exactly there; false if it is passed, but not found.
+bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
   const double from = current_.point.state.load_factor, to = c.e.point.state.load_factor;
   std::optional<double> first;
   for (const double stop : options_.stops) {
@@ -288,14 +288,17 @@ void ArcSteps::find_stop(Segment segment, Candidate& c) {
     if (!crosses && !stands_at(current_, stop) && !(c.events.empty() && stands_at(c.e, stop))) continue;
     if (!first || std::abs(stop - from) < std::abs(*first - from)) first = stop;
   }
-  if (!first) return;
+  if (!first) return true;
   segment.b = c.parameter;
   const std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& e) { return e.point.state.load_factor - *first; });
   Equilibrium e = at_load(near ? near->at : c.e, *first);
-  if (!e.point.report.converged()) return;
-  const double s = segment.parameter(e.point.state);
-  if (s < -arc_steps::standing * c.parameter || s > c.parameter * (1 + arc_steps::standing)) return;
+  const double s = e.point.report.converged() ? segment.parameter(e.point.state) : -c.parameter;
+  if (s < -arc_steps::standing * c.parameter || s > c.parameter * (1 + arc_steps::standing)) {
+    why = fmt::format("no equilibrium was found at load factor {:.10g}, which the step passes", *first);
+    return (from - *first) * (to - *first) >= 0;
+  }
   c.parameter = std::max(s, 0.0), c.e = std::move(e), c.events.clear(), c.stop = first;
+  return true;
 }
 
 // The equilibrium at a load factor, from one that is near: as load steps find it, with what is neutral in its phase, or, where no step of the load

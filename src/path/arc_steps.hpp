@@ -61,7 +61,7 @@ class ArcSteps final : public Branch {
   bool joins(const Arc& arc, const Equilibrium& start, const Equilibrium& end) const;
   double next_load(double part) const;
   bool stands_at(const Equilibrium& e, double stop) const;
-  void find_stop(Segment segment, Candidate& c);
+  [[nodiscard]] bool find_stop(Segment segment, Candidate& c, std::string& why);
   Equilibrium at_load(const Equilibrium& from, double load_factor);
   Waypoint accept(Candidate c);
   void rotate(const Candidate& c);

@@ -3,6 +3,7 @@
 #include "path/carry.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
+#include "path/root.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,40 @@ bool Branch::stop_where_contact_passes(const Segment& segment, Candidate& c) {
   return true;
 }
 
+namespace {
+
+// Where between two samples of dλ/dt the load factor changes least, if that is little beside both ends' rates, of Hermite's cubic; its rate by theirs.
+//   λ' = ra + 2u (3Δλ − 2ra − rb) + 3u² (ra + rb − 2Δλ)
+struct Slowest { double t, by; };
+std::optional<Slowest> slowest(const Sample& a, const Sample& b) {
+  const double width = b.t - a.t, ra = width * a.f, rb = width * b.f, change = b.e.point.state.load_factor - a.e.point.state.load_factor;
+  const double h = 3 * change - 2 * ra - rb, k = ra + rb - 2 * change, u = -h / (3 * k);
+  const double by = (ra + u * h) / (ra < 0 || rb < 0 ? std::max(ra, rb) : std::min(ra, rb));      // where the rate is least u h + 3u²k = 0
+  if (!(u > 0 && u < 1 && by < branch::slowed)) return {};
+  return Slowest{a.t + u * width, by};
+}
+
+}  // namespace
+
+// The candidate is where the load factor goes back, which goes on at both ends of the step: two limit points lie between. They are looked for where it changes
+// least. False where the load factor went back as a whole, which proves two limit points, and none of them is seen.
+bool Branch::stop_where_load_goes_back(const Segment& segment, Candidate& c) {
+  Sample a{segment.a, singular_ ? 0.0 : segment.load_rate(current_), current_}, b{segment.b, segment.load_rate(c.e), c.e};
+  const double change = c.e.point.state.load_factor - current_.point.state.load_factor;
+  std::optional<Slowest> where = slowest(a, b);
+  for (int k = 0; where && k < branch::most_looks; ++k) {
+    Sample e{where->t, 0, segment.at(where->t, a.e)};
+    if (!e.e.point.report.converged()) break;
+    e.f = segment.load_rate(e.e);
+    if (e.f * sign_ < 0) return c.parameter = e.t, c.e = std::move(e.e), c.events.clear(), true;
+    const std::optional<Slowest> before = slowest(a, e), behind = slowest(e, b);
+    const bool first = before && (!behind || before->by <= behind->by);
+    where = first ? before : behind;
+    (first ? b : a) = std::move(e);
+  }
+  return -sign_ * change <= branch::load_rounding * std::abs(current_.point.state.load_factor);
+}
+
 // Whether contacts are closed, or open, at a change that is none of theirs, and were not where the step begins.
 bool Branch::changes_before(const ContactChange& change) {
   ContactSet others = difference(closed_contacts(newton_.energy(), change.at), change.after);
@@ -151,8 +186,11 @@ void Branch::look_behind(Event& contact, double way) {
 // Branch points and limit points: where the Morse index changes, and where the load factor turns though it does not.
 bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
-  const int after = c.e.point.stability.negative;
   const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
+  if (!c.natural && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_load_goes_back(segment, c))
+    return why = "the load factor goes back between two states at which it goes on", false;
+  segment.b = c.parameter;
+  const int after = c.e.point.stability.negative;
   const bool stays_stable = !c.events.empty() && negative_ == 0 && after == 0;      // up to a contact, behind which the tangent may be any other one
   const bool turns = !c.natural && !stays_stable && rises(c.e) != sign_;
   if (after == negative_ && !turns) {
@@ -213,7 +251,7 @@ void Branch::take(const Candidate& c) {
   negative_ = event ? event->after : c.e.point.stability.negative;
   const bool told = event && (event->beyond || event->kind == EventKind::contact);
   ContactSet closed = told ? event->closed : closed_contacts(newton_.energy(), c.e);
-  changed_ = at_contact_ ? difference(closed, closed_) : ContactSet{};
+  changed_ = told ? difference(closed, closed_) : ContactSet{};
   if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
   closed_ = std::move(closed);
   pass_user_events(user_events_, c.events, c.e.point.state, side_);

@@ -77,6 +77,7 @@ class Branch {
   bool changes_before(const ContactChange& change);
   bool contact_may_explain(const Candidate& c) const;
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
+  bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
   /// What happens on the way to a candidate, which is then where that is.
   [[nodiscard]] bool find_events(const Segment& segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);

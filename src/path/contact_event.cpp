@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -31,6 +32,25 @@ std::string told(const Model& model, const ContactKey& key, bool made) {
   return one + verb + (key.wall >= 0 ? "wall " + model.walls[key.wall].name : called(model, key.other));
 }
 
+// What a contact bears at an equilibrium, in parts of the largest force there; less than 0 where it is open.
+double borne(Energy& energy, const ContactKey& key, const State& state) {
+  for (const Touch& t : energy.touches(state))
+    if (t.key() == touch_key(key)) return t.gap < 0 ? t.force.norm() / std::max(energy.force_scale(), std::numeric_limits<double>::min()) : -1.0;
+  return -1;
+}
+
+// How far before a place where a contact is lost it bears no more than rounding: a critical point that is nearer cannot be told from the contact's.
+// most: the farthest; before: the state that much before.
+double where_it_fades(Energy& energy, const ContactKey& key, const std::function<State(double)>& before, double most) {
+  double by = most;
+  for (int k = 0; k < contact_event::most_closing; ++k) {
+    const double part = borne(energy, key, before(by));
+    if (!(part > 2 * contact_event::unloaded)) break;
+    by *= std::pow(contact_event::unloaded / part, 2.0 / 3);    // Hertz: F ∝ overlap^(3/2)
+  }
+  return by;
+}
+
 // What two entities do to each other jumps there in its stiffness, so that the branch has a kink: `at` gets what is true
 // just before it, `beyond` what is true behind. way, load_change: to the kink.
 void look_both_ways(Newton& newton, ContactChange& change, const std::vector<ContactKey>& keys, const Vector& way, double load_change) {
@@ -44,7 +64,11 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   for (const ContactKey& key : keys) {
     const double size = size_of(energy.model(), key.particle), moved = std::abs(rate(key, way, load_change, 1e-4));
     if (!(contact_event::most_beside * moved > contact_event::least_beside * size)) return;
-    part = std::max(part, std::min(contact_event::beside * size / moved, contact_event::most_beside));     // stiff bodies overlap by hardly more than that in all
+    // Stiff bodies overlap by hardly more than that in all.
+    double beside = std::min(contact_event::beside * size / moved, contact_event::most_beside);
+    if (key.feature < 0 && !change.after.count(key))
+      beside = where_it_fades(energy, key, [&](double by) { return moved_by(kinematics, state, way, load_change, -by); }, beside);
+    part = std::max(part, beside);
   }
   const auto side = [&](double where) {
     Equilibrium e = assess(newton, moved_by(kinematics, state, way, load_change, where), change.at.point.report);
@@ -218,18 +242,30 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   return report;
 }
 
-// Whether a gap vanishes at a state, to rounding; of a contact that was closed before, whose overlap may be next to nothing everywhere, little is left.
-bool vanishes(const Energy& energy, const ContactKey& key, double before, const State& there) {
+bool bears_nothing(Energy& energy, const ContactKey& key, const State& state) {
+  return key.feature >= 0 || borne(energy, key, state) <= contact_event::unloaded;
+}
+
+// Whether a gap vanishes at an equilibrium, to rounding; of a contact that was closed before, whose overlap may be next to nothing everywhere, little is left, and
+// what particles bear there tells it of stiff ones.
+bool vanishes(Energy& energy, const ContactKey& key, double before, const State& there) {
   const double size = size_of(energy.model(), key.particle), none = contact_event::together * size;
   const double left = std::max(contact_event::faded * std::abs(before), contact_event::exact_rounding * size);
-  return std::abs(gap(energy, key, there)) <= (before < 0 && key.feature < 0 ? std::min(none, left) : none);
+  return std::abs(gap(energy, key, there)) <= (before < 0 && key.feature < 0 ? std::min(none, left) : none) && bears_nothing(energy, key, there);
 }
 
 // Whether a contact is closed at an equilibrium by no more of a force than is left there.
 bool rounding_bears(Newton& newton, const ContactKey& key, const State& state) {
-  for (const Touch& t : newton.energy().touches(state))
-    if (t.key() == touch_key(key)) return t.gap < 0 && t.force.norm() <= newton.tolerance() * newton.energy().force_scale();
-  return false;
+  const double part = borne(newton.energy(), key, state);
+  return part >= 0 && part <= newton.tolerance();
+}
+
+// d gap/dt along a branch; not a number where the gap has no slope. load_change: over which walls move.
+double gap_rate(Energy& energy, const Segment& segment, const ContactKey& key, const Equilibrium& e, double load_change) {
+  Vector row;
+  double by_load = 0;
+  if (!slope(energy, key, e.point.state, load_change, row, by_load)) return std::numeric_limits<double>::quiet_NaN();
+  return segment.load_rate(e) * (row.dot(e.tangent) + by_load);
 }
 
 // Where on the way from one equilibrium towards another its tangent closes a gap; nothing if it does not.
@@ -349,7 +385,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   const auto near = [&](const ContactKey& key, const State& state) {
     const double ga = gap(key, a.point.state);                  // an overlap may be next to nothing beside what opens behind it
     const double moves = ga < 0 && key.feature < 0 ? 0.0 : std::abs(gap(key, b.point.state) - ga);
-    return vanishes(energy, key, ga, state) || std::abs(gap(key, state)) <= contact_event::together_in_step * moves;
+    return vanishes(energy, key, ga, state) || (std::abs(gap(key, state)) <= contact_event::together_in_step * moves && bears_nothing(energy, key, state));
   };
   for (std::size_t round = 0; round <= changed.size(); ++round) {
     // The one that changes first, as far as straight lines tell, of those that change before.
@@ -366,6 +402,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     // From `a` the branch goes where its tangent points: what lies behind is where a stiff contact was made, not where it is lost, unless it bears rounding.
     const double ga = gap(*first, a.point.state);
     const bool just_made = ga < 0 && first->feature < 0 && -ga <= contact_event::exact_rounding * size_of(energy.model(), first->particle);
+    const bool makes = ga > 0;
     const double after = !just_made && rounding_bears(newton, *first, a.point.state) ? -contact_event::along_chord
                        : (just_made ? 1 : -1) * contact_event::together_in_step;
     double t = segment.a;
@@ -376,11 +413,13 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       const double part = (t - segment.a) / (change.at_parameter - segment.a);
       if (!(part > after && part < 1 + contact_event::along_chord && beside_chord(kinematics, a.point.state, found, state) &&
             energy.collision_free_step(a.point.state, state) == 1)) return false;
+      // Beyond the end, where it is closed already, may be the place where it is lost again.
+      if (makes && first->feature < 0 && part > 1 + contact_event::together_in_step &&
+          !((segment.b - segment.a) * gap_rate(energy, segment, *first, assess(newton, state, report), load_change) < 0)) return false;
       found = std::move(state), t = segment.b > segment.a ? std::max(t, segment.a) : std::min(t, segment.a);
       return true;
     };
     // From the side where the contact is open its tangent tells the place, however stiff it is; else the chord.
-    const bool makes = ga > 0;
     const std::optional<State> ahead = where_tangent_closes(energy, *first, makes ? a : b, makes ? b : a);
     if ((ahead && closed_from(*ahead)) || closed_from(moved_by(kinematics, a.point.state, way, load_change, least))) {
       change.at_parameter = t, at.reset();
@@ -413,12 +452,6 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
 std::optional<double> where_contact_may_pass(Energy& energy, const Segment& segment, const Equilibrium& a, const Equilibrium& b, const ContactSet& but) {
   const double width = segment.b - segment.a, load_change = b.point.state.load_factor - a.point.state.load_factor;
   const double reach = farthest(energy, energy.kinematics().difference(a.point.state, b.point.state), load_change);
-  Vector row;
-  const auto rate = [&](const ContactKey& key, const Equilibrium& e) {
-    double by_load = 0;
-    if (!slope(energy, key, e.point.state, load_change, row, by_load)) return std::numeric_limits<double>::quiet_NaN();
-    return width * segment.load_rate(e) * (row.dot(e.tangent) + by_load);
-  };
   std::optional<double> where;
   double most = 0;
   for (const Touch& t : energy.touches(a.point.state, reach)) {
@@ -426,9 +459,9 @@ std::optional<double> where_contact_may_pass(Energy& energy, const Segment& segm
     const double ga = gap(energy, key, a.point.state), gb = gap(energy, key, b.point.state);
     if (but.count(key) || !std::isfinite(gb) || (ga < 0) != (gb < 0)) continue;
     // g' = ra + 2u (3(gb − ga) − 2ra − rb) + 3u² (ra + rb − 2(gb − ga)); on the way to the other side at one end, on the way back at the other.
-    const double sign = ga < 0 ? -1 : 1, ra = rate(key, a);
+    const double sign = ga < 0 ? -1 : 1, ra = width * gap_rate(energy, segment, key, a, load_change);
     if (!(sign * ra < 0)) continue;
-    const double rb = rate(key, b);
+    const double rb = width * gap_rate(energy, segment, key, b, load_change);
     if (!(sign * rb > 0)) continue;
     const double c = ra + rb - 2 * (gb - ga), h = 3 * (gb - ga) - 2 * ra - rb;
     const double root = std::sqrt(std::max(0.0, h * h - 3 * c * ra)), u = ra / (-h - std::copysign(root, h)), v = (-h - std::copysign(root, h)) / (3 * c);

@@ -44,6 +44,9 @@ constexpr double least_cosine = 0.1;  // between the directions at two samples o
 /// A step and what happens on it.
 namespace branch {
 constexpr double coincide = 1e-10;  // of a segment: events that are at one place
+constexpr double slowed = 0.3;  // of the rates of the load factor at both ends of a step: less between, as far as a cubic tells, may be none
+constexpr int most_looks = 4;  // … how often that is looked at
+constexpr double load_rounding = 1e-10;  // of the load factor: where hardly anything changes it
 constexpr double first_past = 1e-5, least_past = 1e-7;  // of the way over which the other side of a contact is looked for
 }
 
@@ -117,6 +120,7 @@ constexpr double rounding = 1e-13;  // of the size: of a gap …
 constexpr double exact_rounding = 1e-18;  // … where nothing rounds it: what is as stiff as a contact bears a force at 1e-13 already
 constexpr double same_load = 1e-12;  // of the load factor: where a contact that has just changed cannot change back
 constexpr double just_open = 2e-13;  // of the size: a gap that is as good as none, and bears no force
+constexpr double unloaded = 1e-11;  // of the largest force: what a stiff contact bears at most where its gap vanishes
 constexpr double faded = 1e-3;  // of the overlap at the beginning of a step: what is left of it where a contact is lost
 constexpr double together_in_step = 1e-9;  // … or of its change over the step; and of the step, by how much rounding sets an event behind its beginning
 constexpr double beside = 1e-9;  // of the size: where one side of a kink is looked at, …
