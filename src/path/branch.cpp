@@ -187,7 +187,8 @@ void Branch::look_behind(Event& contact, double way) {
 bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
   const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
-  if (!c.natural && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_load_goes_back(segment, c))
+  const bool kink = !c.events.empty() && c.events.front().beyond;               // it may be where the branch stands
+  if (!c.natural && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_load_goes_back(segment, c))
     return why = "the load factor goes back between two states at which it goes on", false;
   segment.b = c.parameter;
   const int after = c.e.point.stability.negative;

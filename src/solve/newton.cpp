@@ -263,6 +263,14 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     if (plane) kinematics.prescribe(to, to.load_factor + part * step.delta);
     kinematics.retract(to, step.p, part);
   };
+  // The load factor changes by whole spacings, and half of one stretches what is driven by more than rounding: p for the change δ that it takes,  H p = −g − c δ.
+  const auto finest = [&](const State& at) {
+    const Factors::Bordered step = correction();
+    if (!plane) return step;
+    const double taken = (at.load_factor + step.delta) - at.load_factor;
+    const Vector p = -factors_.solve_holding(factors_.gradient() + taken * column);
+    return distortion(energy_, at, p - step.p) <= limits::unbent ? Factors::Bordered{p, taken} : step;
+  };
   State previous;
   std::vector<double> sizes;                                    // of every correction
   for (double moved = 0; ; ++report.iterations) {
@@ -281,7 +289,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     if (plane) column = energy_.load_derivative();
     if (settled) {
       const double before = report.residual;
-      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, correction(), 1); });
+      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, finest(next), 1); });
       // Of contacts, whose stiffness changes with every step, what is left is rounding.
       if (guided || touches(energy_.last_terms()) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
