@@ -92,15 +92,19 @@ std::optional<Newton::Halt> Newton::no_factor() const {
 
 Newton::Halt Newton::without_factor() const { return no_factor().value_or(Halt{Status::not_converged, "no shift makes a factor of the Hessian"}); }
 
-// The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual.
-void Newton::polish(State& state, Report& report, const std::function<void(State&)>& step) {
-  for (int k = 0; k < limits::most_polishing && report.residual > 4 * epsilon; ++k) {
+// The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual, or, where it is rounding, themselves: what is
+// soft moves by more than the residual tells. step: makes one, and gives its size [length].
+void Newton::polish(State& state, Report& report, const std::function<double(State&)>& step) {
+  const bool meets = may_touch(energy_.model());
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < limits::most_polishing; ++k) {
     State next = state;
-    step(next);
+    const double size = step(next);
     energy_.evaluate(next, false);
     ++report.evaluations;
-    if (!(residual() <= report.residual / 2)) break;
-    state = next;
+    const bool finest = !meets && report.residual <= limits::finest && residual() <= limits::finest;
+    if (!(residual() <= report.residual / 2) && !(finest && size <= last / 2)) break;
+    state = next, last = size;
     report.residual = residual();
   }
 }
@@ -156,12 +160,14 @@ void Newton::look(const State& state, Descent& descent) {
 bool Newton::is_minimum(State& state, Descent& descent) {
   if (descent.linearised) energy_.evaluate(state);
   Inertia inertia = factors_.inertia();
+  const auto by_factor = [&](State& next) {
+    const Vector p = factors_.cholesky().solve(energy_.gradient());
+    return energy_.kinematics().retract(next, p, -1), infinity_norm(p);
+  };
   if (inertia.negative > 0 && factors_.make_positive(0)) {
     // The forces that are left may tilt a motion that costs nothing: what remains without them counts.
     const double before = descent.report.residual;
-    polish(state, descent.report, [&](State& next) {
-      energy_.kinematics().retract(next, factors_.cholesky().solve(energy_.gradient()), -1);
-    });
+    polish(state, descent.report, by_factor);
     energy_.evaluate(state);
     if (descent.report.residual < before) inertia = factors_.inertia();
   }
@@ -169,9 +175,7 @@ bool Newton::is_minimum(State& state, Descent& descent) {
   if (inertia.negative > 0) return false;
   // With a zero mode the exact factor would fill the steps with its rounding.
   if (factors_.make_positive_from(inertia.zero > 0 ? limits::hold_zero_modes * factors_.zero_level() : 0.0))
-    polish(state, descent.report, [&](State& next) {
-      energy_.kinematics().retract(next, factors_.cholesky().solve(energy_.gradient()), -1);
-    });
+    polish(state, descent.report, by_factor);
   return true;
 }
 
@@ -264,9 +268,10 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     kinematics.retract(to, step.p, part);
   };
   // The load factor changes by whole spacings, and half of one stretches what is driven by more than rounding: p for the change δ that it takes,  H p = −g − c δ.
+  const bool meets = may_touch(energy_.model());
   const auto finest = [&](const State& at) {
     const Factors::Bordered step = correction();
-    if (!plane) return step;
+    if (!plane || meets) return step;
     const double taken = (at.load_factor + step.delta) - at.load_factor;
     const Vector p = -factors_.solve_holding(factors_.gradient() + taken * column);
     return distortion(energy_, at, p - step.p) <= limits::unbent ? Factors::Bordered{p, taken} : step;
@@ -289,7 +294,12 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     if (plane) column = energy_.load_derivative();
     if (settled) {
       const double before = report.residual;
-      if (!guided) polish(state, report, [&](State& next) { see(next), move(next, finest(next), 1); });
+      if (!guided)
+        polish(state, report, [&](State& next) {
+          see(next);
+          const Factors::Bordered step = finest(next);
+          return move(next, step, 1), infinity_norm(step.p);
+        });
       // Of contacts, whose stiffness changes with every step, what is left is rounding.
       if (guided || touches(energy_.last_terms()) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
@@ -299,7 +309,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
       // does: then on, as long as that halves it.
       energy_.evaluate(state, false), see(state);
       const Factors::Bordered left = correction();
-      if (!may_touch(energy_.model()) && distortion(energy_, state, left.p, left.delta) <= limits::unbent)
+      if (!meets && distortion(energy_, state, left.p, left.delta) <= limits::unbent)
         return end(Status::converged, below(options_.tolerance));
       settled_at = state, least = report.residual;
       if (least < before) continue;

@@ -136,7 +136,7 @@ class Newton {
   [[nodiscard]] bool take_long(const State& from, const Step& step, double alpha, State& to);
   [[nodiscard]] std::optional<double> without_compression(const State& state, const Vector& g, Descent& descent);
   [[nodiscard]] std::optional<double> make_convex(State& state, const Vector& g, Descent& descent, bool settled, bool& left);
-  void polish(State& state, Report& report, const std::function<void(State&)>& step);
+  void polish(State& state, Report& report, const std::function<double(State&)>& step);
 
   Energy& energy_;
   NewtonOptions options_;
