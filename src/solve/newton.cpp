@@ -97,7 +97,7 @@ Newton::Halt Newton::without_factor() const { return no_factor().value_or(Halt{S
 void Newton::polish(State& state, Report& report, const std::function<double(State&)>& step) {
   const bool meets = may_touch(energy_.model());
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < limits::most_polishing; ++k) {
+  for (int k = 0; k < limits::most_polishing && !(meets && report.residual <= 4 * epsilon); ++k) {
     State next = state;
     const double size = step(next);
     energy_.evaluate(next, false);
