@@ -208,6 +208,11 @@ double farthest(const Energy& energy, const Vector& way, double load_change) {
   return most;
 }
 
+// By how much the gap of a wall may be wrong, which stands where coordinates are rounded [length]; those of particles are exact.
+double coordinate_rounding(const ContactKey& key, const State& state) {
+  return key.wall < 0 || key.feature >= 0 ? 0.0 : 4 * epsilon * state.at(key.particle).hi.norm();
+}
+
 // The equilibrium at which a gap vanishes, from a state that is near:  g(x, λ) = 0, gap(x, λ) = 0. way, load_change: the scales of
 // what may move. The state is moved along the way first, to where the gap vanishes to first order.
 Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from, const Vector& way, double load_change, State& state) {
@@ -227,7 +232,7 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   const State guess = state;
   const double size = size_of(energy.model(), key.particle);
   const double left = contact_event::faded * std::abs(gap(energy, key, from.point.state));
-  const double exact = key.wall < 0 || key.feature >= 0 ? contact_event::exact_rounding * size : 4 * epsilon * guess.at(key.particle).hi.norm();
+  const double exact = std::max(contact_event::exact_rounding * size, coordinate_rounding(key, guess));
   // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
   for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
     aim = beside * size, plane.close = close * size;
@@ -291,7 +296,7 @@ bool closes_further(const Energy& energy, const ContactKey& key, const Equilibri
 // method finds where that begins. beyond: a load factor at which it has closed; guess: where it may close.
 std::optional<Equilibrium> pushed_until(Newton& newton, const ContactKey& key, const Equilibrium& from, double beyond, double guess) {
   const Energy& energy = newton.energy();
-  const double wanted = contact_event::next_to_none * size_of(energy.model(), key.particle);
+  const double wanted = std::max(contact_event::next_to_none * size_of(energy.model(), key.particle), coordinate_rounding(key, from.point.state));
   double open = from.point.state.load_factor, left = gap(energy, key, from.point.state), rate = left / (guess - open);
   for (int k = 0; k < contact_event::most_closing; ++k) {
     double load = open + (left - wanted) / rate;
@@ -494,7 +499,8 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
       // What is closed may overlap by no more than that everywhere: it changes here if it bears nothing.
       const bool bears = closed && here < 0 && key.feature < 0 && !rounding_bears(newton, key, from);
       const bool at = !bears && std::abs(here) <= contact_event::together * size_of(model, key.particle);
-      const bool stays = (there < 0) == closed || std::abs(there) <= contact_event::rounding * size_of(model, key.particle);
+      const bool stays = (there < 0) == closed ||
+                         std::abs(there) <= std::max(contact_event::rounding * size_of(model, key.particle), coordinate_rounding(key, from));
       if (at ? stays : (here < 0) != closed) continue;
       const double part = at ? 0 : 1e-3 * here / (here - there);
       if (part >= 0 && part <= 1.5 && part < least) least = part, first = key;
