@@ -305,8 +305,9 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
           const Factors::Bordered step = finest(next);
           return move(next, step, 1), infinity_norm(step.p);
         });
-      // Of contacts, whose stiffness changes with every step, what is left is rounding.
-      if (guided || touches(energy_.last_terms()) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
+      // Of contacts, whose stiffness changes with every step, what is left is rounding; not where one is to be located.
+      const bool locates = plane && plane->condition;
+      if (guided || (touches(energy_.last_terms()) && !locates) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
         return end(Status::converged, below(options_.tolerance));
       }
