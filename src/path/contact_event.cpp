@@ -234,14 +234,23 @@ Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from,
   const double left = contact_event::faded * std::abs(gap(energy, key, from.point.state));
   const double exact = std::max(contact_event::exact_rounding * size, coordinate_rounding(key, guess));
   // Gaps of particles are exact; of a wall it is rounding where it stands; and where no other force is there, the least overlap bears too much of one.
-  for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
-    aim = beside * size, plane.close = close * size;
+  const auto settle = [&](State& at, double close) {
+    plane.close = close * size;
     // What is closed with less of an overlap than that has not lost it there.
     if (key.feature < 0) plane.close = std::min(plane.close, std::max(exact, left));
+    return correct_across(newton, at, from.zero_modes, nullptr, contact_event::most_closing, plane,
+                          [&](const State& x) { return std::abs(gap(energy, key, x) - aim) <= plane.close; });
+  };
+  for (const auto& [close, beside] : {std::pair(contact_event::exact_rounding, 0.0), std::pair(contact_event::rounding, 0.0), std::pair(contact_event::rounding, contact_event::just_open)}) {
+    aim = beside * size;
     state = aim > 0 ? moved_by(energy.kinematics(), guess, way, load_change, 2 * aim / rate) : guess;
-    report = correct_across(newton, state, from.zero_modes, nullptr, contact_event::most_closing, plane,
-                            [&](const State& at) { return std::abs(gap(energy, key, at) - aim) <= plane.close; });
-    if (report.converged() || report.status == Status::interrupted) break;
+    report = settle(state, close);
+    if (report.status == Status::interrupted) break;
+    if (!report.converged()) continue;
+    State finer = state;                                        // from nearer by it may come out exactly
+    if (const Report exactly = close > contact_event::exact_rounding && beside == 0 ? settle(finer, contact_event::exact_rounding) : Report{}; exactly.converged())
+      state = std::move(finer), report = exactly;
+    break;
   }
   if (!defined) report.status = Status::not_converged;
   return report;
