@@ -859,3 +859,49 @@ TEST_CASE("a stiff slender column leaves its saddle, whatever the steps", "[path
 TEST_CASE("grains that leave a stiff lid where the branch turns back do so at one limit point, whatever the steps", "[paths][heap_leaves_lid]") {
   same_in_steps("heap_leaves_lid", 1, "limit", 1, {57, 31});
 }
+
+TEST_CASE("two limit points within a step are found, whatever the steps", "[paths][column_limits_in_a_step]") {
+  same_in_steps("column_limits_in_a_step", 2.7977616279845514, "limit", 14, {57, 127});
+}
+
+TEST_CASE("a stiff contact that is made before another one is lost is an event of its own", "[paths][column_stop_made_before]") {
+  same_in_steps("column_stop_made_before", 16.492892312274357, "contact", 63, {5, 23});
+}
+
+TEST_CASE("a branch does not go back where it turns at a contact", "[paths][column_turns_at_contact]") {
+  same_in_steps("column_turns_at_contact", 7.8222381028621824, "limit", 8, {8, 5});
+}
+
+TEST_CASE("a path ends at its end, also where that is hard to locate", "[paths][column_stops_at_end]") {
+  same_in_steps("column_stops_at_end", 5.3261656316246464, "contact", 66, {153, 14});
+}
+
+TEST_CASE("what is lost beside a limit point takes stability, however long the step is", "[paths][column_lost_beside_limit]") {
+  same_in_steps("column_lost_beside_limit", 9.8091167207940089, "jump", 3, {113, 20});
+}
+
+TEST_CASE("contacts that are lost in pairs are located exactly", "[paths][column_leaves_in_pairs]") {
+  same_in_steps("column_leaves_in_pairs", 3.1095117198668447, "contact", 14, {10, 23});
+}
+
+TEST_CASE("a limit point is told apart from a contact that is lost behind it by the force that is left", "[paths][heap_limit_beside_contact]") {
+  const Run by_arc("heap_limit_beside_contact", {by_arcs, snaps, in_steps(81)}), by_load("heap_limit_beside_contact", {by_load_steps, snaps, in_steps(9)});
+  CHECK_ENDS_AT(by_arc, 1);
+  CHECK(by_arc.of("limit").size() == 1);
+  same_events(by_arc, by_load);
+}
+
+// The wall is 10¹⁰ times as stiff as the ring: an overlap shrinks to a third an iteration, and stays the whole residual.
+TEST_CASE("what bears nothing meets a stiff wall, near and far from the origin", "[paths][ring_meets_stiff_plate]") {
+  for (const std::string name : {"ring_meets_stiff_plate", "ring_meets_far_plate"}) {
+    const Run by_arc(name, {by_arcs, follows, in_steps(8)}), by_load(name, {by_load_steps, snaps, in_steps(6)});
+    CHECK_ENDS_AT(by_arc, 1);
+    CHECK(by_arc.of("contact").size() == 1);
+    same_events(by_arc, by_load);
+  }
+}
+
+// EA L²/EI = 10⁹: half a spacing of the load factor stretches the driven bond by more than the rounding of forces.
+TEST_CASE("user events of a slender column do not depend on the method", "[paths][column_events_softly]") {
+  same_events(Run("column_events_softly", {by_arcs, follows, in_steps(4)}), Run("column_events_softly", {by_load_steps, snaps, in_steps(6)}));
+}
