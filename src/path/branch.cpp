@@ -103,7 +103,7 @@ struct Slowest { double t, by; };
 std::optional<Slowest> slowest(const Sample& a, const Sample& b) {
   const double width = b.t - a.t, ra = width * a.f, rb = width * b.f, change = b.e.point.state.load_factor - a.e.point.state.load_factor;
   const double h = 3 * change - 2 * ra - rb, k = ra + rb - 2 * change, u = -h / (3 * k);
-  const double by = (ra + u * h) / (ra < 0 || rb < 0 ? std::max(ra, rb) : std::min(ra, rb));      // where the rate is least u h + 3u²k = 0
+  const double by = std::copysign(1.0, rb) * (ra + u * h) / std::min(std::abs(ra), std::abs(rb));      // where the rate is least h + 3uk = 0
   if (!(u > 0 && u < 1 && by < branch::slowed)) return {};
   return Slowest{a.t + u * width, by};
 }
