@@ -1,10 +1,9 @@
 #pragma once
 // Where between two equilibria a contact is made or lost.
-#include "path/contact_gap.hpp"
+#include "path/beside_contact.hpp"
 #include "path/segment.hpp"
 
 #include <optional>
-#include <string>
 
 namespace elamin {
 
@@ -15,18 +14,6 @@ ContactSet difference(const ContactSet& a, const ContactSet& b);
 ContactSet closed_contacts(Energy& energy, const State& state, double within = 0);
 /// The same of an equilibrium; of a slack one those that just touch as well.
 ContactSet closed_contacts(Energy& energy, const Equilibrium& e);
-
-struct ContactChange {
-  bool found = false;                  // else: something changes, but an equilibrium between could not be computed
-  double at_parameter = 0;
-  Equilibrium at;
-  ContactSet after;                    // what is closed beyond
-  std::string what;                    // who touches or leaves whom
-  // Of bodies, whose stiffness jumps there: `at` has tangent, zero modes and stability of just before, `beyond` those behind;
-  // and the sign of dλ with which the branch goes on, 0: it could not be told.
-  std::optional<Equilibrium> beyond = {};
-  int onward = 0;
-};
 
 /// The first change of the closed contacts on a segment from `a` to `b`, located at the zero of the gap that changes sign,
 /// to rounding. `before`: what is closed from `a` on, which at an event differs from what overlaps at `a` itself.
@@ -45,13 +32,5 @@ struct ContactChange {
 
 /// Those of the closed contacts whose gap is none: made where the state is, or next to rigid.
 std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed);
-
-/// How a branch goes on behind an equilibrium at which these contacts have just been made, as if they were rigid: the rates of what is free (dofs) and of the
-/// load factor, ±1, at which the gaps n_i stay closed and the contact forces F grow from nothing,
-///   H x' + ∂g/∂λ λ' = Σ n_i F_i',   n_i·x' + ∂gap_i/∂λ λ' = 0,   F_i' > 0.
-/// Where nᵀH⁻¹n < 0, as on an unstable branch, the load factor turns. Nothing where some contacts would open again.
-/// `load`: the scale of the load factor. Behind contacts much stiffer than what they press on the branch takes this direction after an overlap that is next to nothing.
-struct Rates { Vector x; double load; };
-[[nodiscard]] std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load);
 
 }  // namespace elamin

@@ -83,4 +83,10 @@ bool slope(const Energy& energy, const ContactKey& key, const State& state, doub
   return row.allFinite() && std::isfinite(by_load);
 }
 
+double borne(Energy& energy, const ContactKey& key, const State& state) {
+  for (const Touch& t : energy.touches(state))
+    if (t.key() == touch_key(key)) return t.gap < 0 ? t.force.norm() / std::max(energy.force_scale(), std::numeric_limits<double>::min()) : -1.0;
+  return -1;
+}
+
 }  // namespace elamin

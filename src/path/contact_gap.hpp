@@ -24,6 +24,9 @@ double gap(const Energy& energy, const ContactKey& key, const State& state);
 /// ∇gap (dofs) and ∂gap/∂λ of prescribed coordinates and moving walls; load_change: over which the walls move. False where there is none.
 [[nodiscard]] bool slope(const Energy& energy, const ContactKey& key, const State& state, double load_change, Vector& row, double& by_load);
 
+/// What a contact bears at an equilibrium, in parts of the largest force there; less than 0 where it is open.
+double borne(Energy& energy, const ContactKey& key, const State& state);
+
 /// A state moved by a part of a way (dofs), prescribed coordinates by their part of the change of the load factor.
 State moved_by(const Kinematics& kinematics, const State& from, const Vector& way, double load_change, double part);
 

@@ -1,0 +1,159 @@
+#include "path/beside_contact.hpp"
+
+#include "core/dense.hpp"
+#include "model/entities.hpp"
+#include "path/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace elamin {
+
+using namespace limits;
+
+namespace {
+
+// How far before a place where a contact is lost it bears no more than rounding: a critical point that is nearer cannot be told from the contact's.
+// most: the farthest; before: the state that much before.
+double where_it_fades(Energy& energy, const ContactKey& key, const std::function<State(double)>& before, double most) {
+  double by = most;
+  for (int k = 0; k < contact_event::most_closing; ++k) {
+    const double part = borne(energy, key, before(by));
+    if (!(part > 2 * contact_event::unloaded)) break;
+    by *= std::pow(contact_event::unloaded / part, 2.0 / 3);    // Hertz: F ∝ overlap^(3/2)
+  }
+  return by;
+}
+
+// What two entities do to each other jumps there in its stiffness, so that the branch has a kink: `at` gets what is true
+// just before it, `beyond` what is true behind. way, load_change: to the kink.
+void look_both_ways(Newton& newton, ContactChange& change, const std::vector<ContactKey>& keys, const Vector& way, double load_change) {
+  Energy& energy = newton.energy();
+  const Kinematics& kinematics = energy.kinematics();
+  const State& state = change.at.point.state;
+  const auto rate = [&](const ContactKey& key, const Vector& x, double load, double part) {
+    return (gap(energy, key, moved_by(kinematics, state, x, load, part)) - gap(energy, key, moved_by(kinematics, state, x, load, -part))) / (2 * part);
+  };
+  double part = 0;
+  for (const ContactKey& key : keys) {
+    const double size = size_of(energy.model(), key.particle), moved = std::abs(rate(key, way, load_change, 1e-4));
+    if (!(contact_event::most_beside * moved > contact_event::least_beside * size)) return;
+    // Stiff bodies overlap by hardly more than that in all.
+    double beside = std::min(contact_event::beside * size / moved, contact_event::most_beside);
+    if (key.feature < 0 && !change.after.count(key))
+      beside = where_it_fades(energy, key, [&](double by) { return moved_by(kinematics, state, way, load_change, -by); }, beside);
+    part = std::max(part, beside);
+  }
+  const auto side = [&](double where) {
+    Equilibrium e = assess(newton, moved_by(kinematics, state, way, load_change, where), change.at.point.report);
+    e.point.state = state, e.point.energy = change.at.point.energy;
+    return e;
+  };
+  change.at = side(-part);
+  change.beyond = side(part);
+  const Vector& tangent = change.beyond->tangent;
+  // Over as long a way; where nothing moves beyond, over as large a change of the load factor.
+  const bool moves = tangent.norm() * std::abs(load_change) > epsilon * way.norm();
+  const double small = part * std::max(moves || load_change == 0 ? way.norm() / std::max(tangent.norm(), 1e-300) : 0.0, std::abs(load_change));
+  int ahead = 0, back = 0;
+  for (const ContactKey& key : keys) {
+    const double r = rate(key, tangent, 1, small) * (change.after.count(key) ? -1 : 1);       // > 0: to the side beyond
+    ++(r > 0 ? ahead : back);
+  }
+  // What floats only beyond has no tangent there to tell.
+  const bool free = change.beyond->point.stability.zero > change.at.point.stability.zero;
+  if (ahead == 0 || back == 0) change.onward = free ? (load_change < 0 ? -1 : 1) : back == 0 ? 1 : -1;
+}
+
+// The Morse index a little behind contacts that have just been made, of an equilibrium in the direction that the branch takes if they are stiff; nothing where none
+// is found. load_change: the scale of the load factor.
+std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load_change) {
+  const std::optional<Rates> rates = along_contacts(newton, at, made, load_change);
+  if (!rates) return {};
+  Energy& energy = newton.energy();
+  for (double part = contact_event::onward; part >= contact_event::least_beside; part /= 100) {
+    const double ahead = part * std::abs(load_change);
+    State state = moved_by(energy.kinematics(), at.point.state, ahead * rates->x, ahead * rates->load, 1);
+    const Report report = newton.correct(state, at.zero_modes);
+    const bool closed = std::all_of(made.begin(), made.end(), [&](const ContactKey& key) { return gap(energy, key, state) < 0; });
+    if (!report.converged() || !closed || energy.kinematics().difference(at.point.state, state).norm() > 2 * ahead * rates->x.norm()) continue;
+    return assess(newton, state, report).point.stability.negative;
+  }
+  return {};
+}
+
+// The Morse index at the place where these contacts change. Where all of them are lost they are opened by more than rounding first: a stiff contact
+// that overlaps by rounding alone may have more stiffness than the structure.
+int index_open(Newton& newton, const ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change) {
+  Energy& energy = newton.energy();
+  const State& state = change.at.point.state;
+  double part = 0;
+  for (const ContactKey& key : changed) {
+    if (key.feature >= 0 || change.after.count(key)) return change.at.point.stability.negative;
+    const double gone = gap(energy, key, moved_by(energy.kinematics(), state, way, load_change, contact_event::little)) - gap(energy, key, state);
+    part = std::max(part, contact_event::little * contact_event::rounding * size_of(energy.model(), key.particle) / gone);
+  }
+  if (!(part > 0 && part <= contact_event::most_beside)) return change.at.point.stability.negative;
+  return assess(newton, moved_by(energy.kinematics(), state, way, load_change, part), change.at.point.report).point.stability.negative;
+}
+
+}  // namespace
+
+void find_beyond(Newton& newton, ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
+  std::vector<ContactKey> here = changed;
+  const int at = index_open(newton, change, changed, way, load_change);
+  if (at == negative) std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (negative == 0 || !change.after.count(key)); });
+  if (here.empty() || change.at.slack) return;
+  const Equilibrium open = change.at;
+  look_both_ways(newton, change, here, way, load_change);
+  const bool bodies = std::any_of(here.begin(), here.end(), [](const ContactKey& key) { return key.feature >= 0; });
+  if (!change.beyond || bodies || at != negative) return;
+  // An overlap as large as the way's may be far beyond those that the branch comes to.
+  const bool stays = change.beyond->point.stability.negative == at || index_behind(newton, open, here, load_change) == at;
+  if (stays) change.at = open, change.beyond.reset(), change.onward = 0;
+}
+
+std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& here, const ContactSet& before, double ahead,
+                                       int negative) {
+  if (at.slack) return {};
+  Energy& energy = newton.energy();
+  const Kinematics& kinematics = energy.kinematics();
+  const std::optional<Rates> rates = along_contacts(newton, at, here, ahead);
+  const Vector tangent = rates ? Vector(rates->x / rates->load) : at.tangent;
+  for (const double part : {contact_event::onward, contact_event::onward / 100}) {
+    const double change = part * ahead;
+    State state = moved_by(kinematics, at.point.state, change * tangent, change, 1);
+    const Report report = newton.correct(state, at.zero_modes);
+    if (!report.converged() || energy.collision_free_step(at.point.state, state) < 1) continue;
+    Equilibrium e = assess(newton, state, report);
+    const double reach = std::max({tangent.norm(), at.tangent.norm(), e.tangent.norm()}) * std::abs(change);
+    if (e.point.stability.negative != negative || kinematics.difference(at.point.state, state).norm() > 2 * reach) continue;
+    const auto closed = [&](const ContactKey& key) { return gap(energy, key, state) < 0; };
+    const auto changed = [&](const ContactKey& key) { return closed(key) != (before.count(key) > 0); };
+    if (std::any_of(here.begin(), here.end(), closed) && std::any_of(here.begin(), here.end(), changed)) return e;
+  }
+  return {};
+}
+
+std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load) {
+  Energy& energy = newton.energy();
+  Factors& factors = newton.factors();
+  const Eigen::Index m = static_cast<Eigen::Index>(made.size());
+  Eigen::MatrixXd normals(at.tangent.size(), m), yields(at.tangent.size(), m);
+  Vector closing(m), row;
+  energy.evaluate(at.point.state);
+  if (!factors.factorize_holding(at.zero_modes)) return {};
+  for (Eigen::Index k = 0; k < m; ++k) {
+    double by_load = 0;
+    if (!slope(energy, made[static_cast<std::size_t>(k)], at.point.state, load, row, by_load)) return {};
+    normals.col(k) = row, yields.col(k) = factors.solve_holding(row);
+    closing[k] = -(row.dot(at.tangent) + by_load);
+  }
+  const Vector force = solved(normals.transpose() * yields, closing);      // per λ' = 1
+  if (!force.allFinite() || force.minCoeff() * force.maxCoeff() <= 0) return {};
+  const double sense = force[0] > 0 ? 1 : -1;
+  return Rates{sense * (at.tangent + yields * force), sense};
+}
+
+}  // namespace elamin
