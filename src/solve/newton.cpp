@@ -19,17 +19,14 @@ namespace elamin {
 
 namespace {
 
-// Whether the residual of a search that is to stay on its branch has halved lately, or its steps have: where the overlap of a stiff contact is all that bears a force,
-// it stays the whole residual. One that has left its branch falls, and what it finds is of no use.
+// Whether the residual of a search that is to stay on its branch has halved lately, or every step was at most half of the one before: where the overlap of a stiff
+// contact is all that bears a force, it shrinks, and stays the whole residual. A search that has left its branch falls, and what it finds is of no use.
 bool contracts(const std::vector<Iteration>& history) {
   if (static_cast<int>(history.size()) <= limits::patience_on_branch) return true;
   const auto lately = history.end() - limits::patience_on_branch;
-  const auto halves = [&](double Iteration::*measure) {
-    const auto by_measure = [&](const Iteration& a, const Iteration& b) { return a.*measure < b.*measure; };
-    const auto first = std::find_if(history.begin(), lately, [&](const Iteration& i) { return i.*measure > 0; });      // no step led to the first
-    return first == lately || (*std::min_element(lately, history.end(), by_measure)).*measure <= (*std::min_element(first, lately, by_measure)).*measure / 2;
-  };
-  return halves(&Iteration::residual) || halves(&Iteration::step);
+  const auto by_residual = [](const Iteration& a, const Iteration& b) { return a.residual < b.residual; };
+  if (std::min_element(lately, history.end(), by_residual)->residual <= std::min_element(history.begin(), lately, by_residual)->residual / 2) return true;
+  return std::adjacent_find(lately, history.end(), [](const Iteration& a, const Iteration& b) { return b.step > a.step / 2; }) == history.end();
 }
 
 // Whether contacts bear forces.
