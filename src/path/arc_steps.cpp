@@ -330,8 +330,10 @@ Waypoint ArcSteps::accept(Candidate c) {
   if (neutral_.cols() > 0) name_neutral(c.e.point.stability);
   last_stop_ = c.stop, taken_ = c.natural ? 0 : c.parameter;
   const bool kink = event && event->beyond;
+  // Nothing may have moved before a contact.
+  if (const Equilibrium& e = kink ? *event->beyond : c.e; c.natural && (kink ? current_.slack : at_contact_ && !is_critical(event)))
+    metric_.length = std::max(metric_.length, metric_.load * e.tangent.norm());
   if (c.natural && !kink && !is_critical(event)) {
-    if (at_contact_) metric_.length = std::max(metric_.length, metric_.load * c.e.tangent.norm());      // nothing may have moved before it
     direction_ = direction_of(c.e, metric_, {Vector::Zero(c.e.tangent.size()), sign_ * metric_.load});
   } else {
     rotate(c);
