@@ -64,6 +64,8 @@ constexpr double least_part = 1e-12;
 constexpr int most_polishing = 4;
 /// A residual that is as small as the sum of a particle's forces lets it be; what is soft may move by more than that tells.
 constexpr double finest = 16 * epsilon;
+/// A residual, by ε, that no rounding has made: of a symmetric state, which a correction would leave.
+constexpr double exact = 1.0 / 16;
 /// A residual that is rounding: a few hundred ε. And a rotation of bonds that is, of a chain of 10³ links [rad]: what is left of the forces makes
 /// 10⁻¹² there, and 10⁻² or more where it is all that tells one branch of an unfolded pitchfork from the other.
 constexpr double sharp = 1e-13, unbent = 1e-10;

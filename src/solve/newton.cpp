@@ -99,12 +99,12 @@ Newton::Halt Newton::without_factor() const { return no_factor().value_or(Halt{S
 void Newton::polish(State& state, Report& report, const std::function<double(State&)>& step) {
   const bool meets = may_touch(energy_.model());
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < limits::most_polishing && report.residual > 4 * epsilon; ++k) {
+  for (int k = 0; k < limits::most_polishing && report.residual > (meets ? 4 : limits::exact) * epsilon; ++k) {
     State next = state;
     const double size = step(next);
     energy_.evaluate(next, false);
     ++report.evaluations;
-    const bool finest = !meets && report.residual <= limits::finest && residual() <= report.residual;
+    const bool finest = !meets && report.residual <= limits::finest && residual() <= limits::finest;
     if (!(residual() <= report.residual / 2) && !(finest && size <= last / 2)) break;
     state = next, last = size;
     report.residual = residual();
