@@ -23,6 +23,7 @@ hencky_hinged . --shapes branch:1+mode,branch:2+mode,branch:3+mode
 column_curve .
 hencky_clamped . --shapes branch:1+mode,branch:2+mode,branch:3+mode,branch:4+mode
 elastica 1 --x force --y distance --shapes initial,final
+elastica_touches 3 --y force --shapes initial,contact:1
 cantilever_tip_load 1 --x lambda --y w --shapes final
 greenhill_mast 1 --no-diagram --shapes initial,branch:1+mode
 column_self_contact . --x deflection --y force --shapes initial,final

@@ -24,6 +24,8 @@ void describe(Keys& keys, ExpectTable& t) {
   keys.may("extrapolate", t.extrapolate,
            "over the runs of a sweep, each with half the spacing of the one before, errors in powers of the spacing: 1: all of them, 2: even ones",
            Range{1, 2});
+  keys.may("continuum", t.continuum, "of [refine]: the value without particles, which must be as far from this one as its error bar, rtol and atol allow …");
+  keys.may("bar", t.bar, "… and how wide its error bar may be, relative to the value; of 0 as it is", range::positive);
 }
 
 namespace {
@@ -68,6 +70,7 @@ std::vector<std::string> columns_of(const Problem& p) {
   std::vector<std::string> columns = p.in_time() ? trajectory_standing_columns() : standing_columns();
   const std::vector<std::string> eigenvalues = eigenvalue_columns(p);
   columns.insert(columns.end(), eigenvalues.begin(), eigenvalues.end());
+  if (p.event_errors()) columns.push_back("lambda_error");
   return columns;
 }
 
@@ -85,7 +88,7 @@ std::optional<int> step_of(const std::string& at) {
 
 std::string wrong_observable(const Problem& p, const std::string& observable, const std::string& at) {
   const std::vector<std::string> no_numbers{"label", "status", "parent", "what", "stage"},
-      of_events{"multiplicity", "negative_before", "negative_after"};
+      of_events{"multiplicity", "negative_before", "negative_after", "lambda_error"};
   if (at == at_sweep) return observable == "threshold" ? "" : "must be \"threshold\" at = \"sweep\", is " + in_quotes(observable);
   const bool event = at.find(':') != std::string::npos;
   std::vector<std::string> columns;
@@ -146,6 +149,10 @@ void check_expectations(Problem& problem, Mistakes& mistakes) {
       if (const std::string wrong = wrong_observable(problem, e.observable, e.at); !wrong.empty())
         mistakes.add(e.place, "observable", wrong);
     if (const std::string wrong = wrong_at(problem, e.at); !wrong.empty()) mistakes.add(e.place, "at", wrong);
+    if (e.continuum && !problem.refine) mistakes.add(e.place, "continuum", "is of the value without particles, which [refine] finds; there is none");
+    if (e.continuum && e.extrapolate) mistakes.add(e.place, "extrapolate", "is of a [[sweep]], continuum of [refine]; leave one of them out");
+    if (e.continuum && !e.bar) mistakes.add(e.place, "bar", "is missing; how wide the error bar may be, relative to the value");
+    if (e.bar && !e.continuum) mistakes.add(e.place, "bar", "is of the value without particles; write continuum = true, too");
   }
 }
 

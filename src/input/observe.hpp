@@ -39,6 +39,8 @@ struct ExpectTable {
   double rtol = 1e-8, atol = 0;
   std::string source;
   std::optional<int> extrapolate;
+  bool continuum = false;                       // of [refine]: the value without particles …
+  std::optional<double> bar;                    // … and how wide its error may be
   bool operator==(const ExpectTable&) const = default;
 };
 

@@ -33,6 +33,8 @@ void check_path(Problem& problem, Mistakes& mistakes);
 /// The curve that is asked for; why no row of it is meant by `at`, or "".
 void check_curve(Problem& problem, Mistakes& mistakes);
 std::string wrong_at_curve(const Problem& problem, const std::string& at);
+/// What cannot be refined.
+void check_refine(Problem& problem, Mistakes& mistakes);
 /// Connections, bonds, angles, and what is removed.
 void check_connections(Problem& problem, Names& names, Mistakes& mistakes);
 void check_contacts(Problem& problem, Names& names, Mistakes& mistakes);

@@ -29,6 +29,7 @@ struct PathTable {
   std::optional<WhenUnstable> when_unstable;
   int branches = 0, eigenvalues = 0;
   std::vector<std::string> locate{"limit", "branch", "contact"};
+  bool event_errors = false;
   std::optional<std::vector<double>> stops;
   std::optional<double> lowest, highest;
   std::optional<int> points;

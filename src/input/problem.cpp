@@ -36,6 +36,7 @@ void describe(Keys& keys, ProblemFile& file) {
   p.study = study.type, p.study_place = study.place;
   keys.table("path", p.path);
   keys.table("curve", p.curve);
+  keys.table("refine", p.refine);
   keys.table("modes", p.modes);
   keys.table("solver", p.solver);
   keys.table("dynamics", p.dynamics);

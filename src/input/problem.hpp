@@ -15,6 +15,7 @@
 #include "input/motion.hpp"
 #include "input/observe.hpp"
 #include "input/path_table.hpp"
+#include "input/refine.hpp"
 #include "input/sheet.hpp"
 #include "input/solver.hpp"
 #include "input/support.hpp"
@@ -57,6 +58,7 @@ struct Problem {
   TablePlace study_place;                       // of [study], where it is written
   PathTable path;
   std::optional<CurveTable> curve;
+  std::optional<RefineTable> refine;
   ModesTable modes;
   SolverTable solver;
   DynamicsTable dynamics;
@@ -66,6 +68,8 @@ struct Problem {
   std::vector<ExpectTable> expect;
   /// A motion in time is asked for; damped dynamics ends in an equilibrium.
   bool in_time() const { return study == StudyType::dynamics && !dynamics.relax; }
+  /// Events have a column lambda_error.
+  bool event_errors() const { return study == StudyType::path && (path.event_errors || refine); }
   bool operator==(const Problem&) const = default;
 };
 

@@ -54,7 +54,7 @@ ArcOptions arc_options(const PathOptions& o) {
   ArcOptions a;
   a.load_step = std::abs(range) / o.steps;
   a.rotation = std::clamp(5.0 / o.steps, 1e-3, 0.2);
-  a.contacts = o.contacts;
+  a.contacts = o.contacts, a.event_errors = o.event_errors;
   a.stops = o.stops;
   for (const double end : {low, high, o.to}) a.stops.push_back(end);
   std::sort(a.stops.begin(), a.stops.end());
@@ -64,7 +64,7 @@ ArcOptions arc_options(const PathOptions& o) {
 }
 
 ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric metric, ArcOptions options)
-    : Branch(newton, std::move(from), options.contacts, options.user_events), metric_(metric), options_(std::move(options)),
+    : Branch(newton, std::move(from), options.contacts, options.event_errors, options.user_events), metric_(metric), options_(std::move(options)),
       direction_(std::move(direction)) {
   sign_ = sign_of(direction_.load);
   if (negative_ < 0) neutral_ = current_.zero_modes;
@@ -77,8 +77,8 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
 
 void ArcSteps::carry(Archive& archive) {
   Branch::carry(archive);
-  auto& [load_step, rotation, contacts, stops, user_events, patience, step, shortest] = options_;     // the observables of user events come with the problem
-  archive(load_step, rotation, contacts, stops, patience, step, shortest, contacts_);
+  auto& [load_step, rotation, contacts, event_errors, stops, user_events, patience, step, shortest] = options_;     // the observables of user events come with the problem
+  archive(load_step, rotation, contacts, event_errors, stops, patience, step, shortest, contacts_);
   archive(metric_, direction_, just_made_, last_stop_, step_, shortest_, least_length_, taken_, refused_);
 }
 

@@ -7,7 +7,7 @@ namespace elamin {
 struct ArcOptions {
   double load_step = 0.01;             // no step changes the load factor by more
   double rotation = 0.05;                  // … nor turns or stretches a bond by more (rad)
-  bool contacts = true;
+  bool contacts = true, event_errors = false;
   std::vector<double> stops = {};      // load factors at which it stops on the way
   std::vector<UserEvent> user_events = {};
   int patience = 0;                    // steps that may be refused altogether; 0: as many as it takes

@@ -1,6 +1,7 @@
 #include "path/branch.hpp"
 
 #include "path/carry.hpp"
+#include "path/event_error.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 #include "path/root.hpp"
@@ -13,9 +14,9 @@ namespace elamin {
 
 using namespace limits;
 
-Branch::Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEvent> user_events)
+Branch::Branch(Newton& newton, Departure from, bool contacts, bool event_errors, std::vector<UserEvent> user_events)
     : newton_(newton), current_(std::move(from.at)), negative_(from.negative), singular_(from.singular || from.negative < 0),
-      at_contact_(from.at_contact), closed_(std::move(from.closed)), changed_(std::move(from.changed)), contacts_(contacts),
+      at_contact_(from.at_contact), closed_(std::move(from.closed)), changed_(std::move(from.changed)), contacts_(contacts), event_errors_(event_errors),
       user_events_(std::move(user_events)), side_(std::move(from.sides)) {
   for (std::size_t k = side_.size(); k < user_events_.size(); ++k) side_.push_back(user_events_[k].side(current_.point.state));
   newton_.factors().expect(negative_ > 0, current_.soft);
@@ -70,6 +71,8 @@ Branch::Candidate Branch::with_contact(Candidate c, ContactChange change) const 
   event.beyond = std::move(change.beyond), event.onward = change.onward;
   event.at_parameter = c.parameter;
   c.e = std::move(change.at);
+  const double width = c.e.point.state.load_factor - current_.point.state.load_factor;
+  if (event_errors_ && sharpen(newton_, c.e)) c.e.point.load_error = contact_error(newton_, c.e, difference(event.closed, closed_), width);
   event.at = c.e;
   c.events = {std::move(event)};
   return c;
@@ -215,6 +218,10 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   }
   if (!event || event->modes.cols() == 0)
     return why = "the Morse index changes, but there is no limit point and no branch point between: two branches pass by each other", false;
+  const double width = c.e.point.state.load_factor - current_.point.state.load_factor;
+  if (event_errors_)
+    event->at.point.load_error = event->kind == EventKind::limit ? limit_error(newton_, event->at, event->modes)
+                                                                 : branch_error(newton_, event->at, event->modes, width);
   c.parameter = event->at_parameter, c.e = event->at;
   c.events = {std::move(*event)};
   return true;

@@ -52,7 +52,7 @@ class Branch {
   virtual void carry(Archive& archive);
 
  protected:
-  Branch(Newton& newton, Departure from, bool contacts, std::vector<UserEvent> user_events);
+  Branch(Newton& newton, Departure from, bool contacts, bool event_errors, std::vector<UserEvent> user_events);
 
   struct Candidate {
     double parameter;                  // on the segment from here
@@ -94,7 +94,7 @@ class Branch {
   Eigen::MatrixXd neutral_;            // zero modes of it that are no motions of rigid parts (dofs × count)
   bool singular_, at_contact_;
   ContactSet closed_, changed_;
-  bool contacts_;
+  bool contacts_, event_errors_;
   std::vector<UserEvent> user_events_;
   std::vector<double> side_;
 

@@ -114,6 +114,9 @@ constexpr double narrow = 1e-3;  // … until it is this part of the first
 }
 
 /// Contacts that change.
+namespace event_error {
+constexpr double step = 1e-4;       // of the step on which the event was found: a difference whose error is ε/1e-4 of the eigenvalue's own rounding
+}
 namespace contact_event {
 constexpr double together = 1e-10;  // of the size: gaps that vanish at one load factor
 constexpr double rounding = 1e-13;  // of the size: of a gap …

@@ -29,7 +29,7 @@ std::vector<double> load_targets(const PathOptions& o) {
 }
 
 LoadSteps::LoadSteps(Newton& newton, Departure from, const PathOptions& options)
-    : Branch(newton, std::move(from), options.contacts, options.user_events), grid_(load_targets(options), options.start.value_or(options.from)),
+    : Branch(newton, std::move(from), options.contacts, options.event_errors, options.user_events), grid_(load_targets(options), options.start.value_or(options.from)),
       correct_(options.correct) {
   sign_ = options.to < options.from ? -1 : 1;
   grid_.restart(current_.point.state.load_factor);
@@ -129,7 +129,7 @@ void LoadSteps::arrived(const Candidate& c) {
 void LoadSteps::set_out_on_detour() {
   const double here = current_.point.state.load_factor, way = grid_.next() - here;
   goal_ = grid_.next(), taken_ = 0;
-  ArcOptions a{.load_step = std::abs(way), .rotation = 0.1, .contacts = contacts_, .stops = {goal_, here - 100 * way}, .user_events = user_events_,
+  ArcOptions a{.load_step = std::abs(way), .rotation = 0.1, .contacts = contacts_, .event_errors = event_errors_, .stops = {goal_, here - 100 * way}, .user_events = user_events_,
                .patience = patience_.most > 0 && !contacts_ ? patience_.most - patience_.refused : 0};
   std::sort(a.stops.begin(), a.stops.end());
   const Metric metric = metric_for(newton_.energy(), current_, way);

@@ -5,6 +5,7 @@
 #include "solve/report.hpp"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,7 @@ struct PathPoint {
   int multiplicity = 0;                   // of the zero eigenvalue
   int negative_before = -1, negative_after = -1;   // Morse index on both sides of it, along the path; -1: not an event
   Eigen::MatrixXd modes;                  // null vectors, orthonormal (dofs × multiplicity)
+  double load_error = std::numeric_limits<double>::quiet_NaN();   // of its load factor by rounding, see path/event_error.hpp
   std::string what;                       // one phrase: who touches whom, where a jump lands
   std::optional<Resume> resume;           // where the state alone does not tell how the path goes on
 };

@@ -3,6 +3,7 @@
 #include "input/check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace elamin {
@@ -80,17 +81,19 @@ Row path_row(const PathPoint& p, const std::vector<double>& observables, const s
   return row;
 }
 
-std::vector<std::string> event_columns(const std::vector<std::string>& observables, bool staged) {
+std::vector<std::string> event_columns(const std::vector<std::string>& observables, bool staged, bool errors) {
   std::vector<std::string> columns = with_rest({"label", "lambda", "multiplicity", "step", "branch"}, observables);
   append(columns, last_of_event);
+  if (errors) columns.push_back("lambda_error");
   if (staged) columns.push_back("stage");
   return columns;
 }
 
-Row event_row(const PathPoint& p, const std::vector<double>& observables, const std::optional<std::string>& stage) {
+Row event_row(const PathPoint& p, const std::vector<double>& observables, const std::optional<std::string>& stage, bool errors) {
   Row row{p.label, p.state.load_factor, p.multiplicity, p.step, p.branch};
   append_rest(row, p, observables);
   row.insert(row.end(), {known(p.negative_before), known(p.negative_after), p.what});
+  if (errors) row.push_back(std::isnan(p.load_error) ? Cell{} : Cell(p.load_error));
   if (stage) row.emplace_back(*stage);
   return row;
 }

@@ -27,10 +27,10 @@ Row path_row(const PathPoint& point, const std::vector<double>& observables,
              const std::optional<std::string>& stage = std::nullopt);
 
 /// label, lambda, multiplicity, then the columns of path.csv without label and lambda, with negative_before,
-/// negative_after and what behind negative_rigid.
-std::vector<std::string> event_columns(const std::vector<std::string>& observables, bool staged = false);
+/// negative_after, what and, if asked for, lambda_error (of the load factor, by rounding) behind negative_rigid.
+std::vector<std::string> event_columns(const std::vector<std::string>& observables, bool staged = false, bool errors = false);
 Row event_row(const PathPoint& point, const std::vector<double>& observables,
-              const std::optional<std::string>& stage = std::nullopt);
+              const std::optional<std::string>& stage = std::nullopt, bool errors = false);
 
 /// second, label, lambda, then the columns of path.csv behind these, multiplicity, asymmetry and what: those of curve.csv.
 std::vector<std::string> curve_columns(const std::vector<std::string>& observables);

@@ -29,7 +29,7 @@ Record::Record(const Problem& problem, const Model& model)
     : problem_(problem),
       names_(observable_columns(problem, model.own)),
       path_{run_columns(problem, model.own), {}},
-      events_{event_columns(names_, !problem.stages.empty()), {}} {
+      events_{event_columns(names_, !problem.stages.empty(), problem.event_errors()), {}} {
   const Stage whole;
   enter(whole, model);
 }
@@ -47,7 +47,7 @@ void Record::add(const PathPoint& point, const Field& forces, const std::vector<
   values.resize(names_.size() - model_->own.size(), std::numeric_limits<double>::quiet_NaN());     // fewer dofs than modes asked for
   for (std::size_t k = 0; k < model_->own.size(); ++k) values.push_back(point.energy.own[k].second);
   path_.rows.push_back(path_row(point, values, stage_));
-  if (is_event(point.label)) events_.rows.push_back(event_row(point, values, stage_));
+  if (is_event(point.label)) events_.rows.push_back(event_row(point, values, stage_, problem_.event_errors()));
 }
 
 void Record::take_up(Table path, Table events) {

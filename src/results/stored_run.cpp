@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-const std::set<std::string> words{"label", "parent", "stage", "status", "what", "zero_mode"};
+const std::set<std::string> columns_of_words{"label", "parent", "stage", "status", "what", "zero_mode"};
 
 /// The lines of a CSV file (RFC 4180) as fields; the last one only if it ends.
 std::vector<std::vector<std::string>> fields(const std::string& text) {
@@ -149,7 +149,7 @@ Table read_table(const std::string& file) {
       throw InputError(fmt::format("{}:{}: {} entries for {} columns", file, table.rows.size() + 2, line.size(), table.columns.size()));
     Row row;
     for (std::size_t c = 0; c < line.size(); ++c)
-      row.push_back(words.count(table.columns[c]) ? Cell(std::move(line[c])) : cell(line[c]));
+      row.push_back(columns_of_words.count(table.columns[c]) ? Cell(std::move(line[c])) : cell(line[c]));
     table.rows.push_back(std::move(row));
   }
   return table;

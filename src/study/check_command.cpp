@@ -78,6 +78,12 @@ void check_command(const std::string& file, const std::vector<Setting>& settings
   const Problem& problem = runs.front().problem;
   say("{}: {}\n{}", problem.file, problem.title.empty() ? "(no title)" : problem.title, describe(problem, runs.front().model));
   if (prepared.bisection) say("a sweep that halves; its first run is shown\n");
+  else if (problem.refine)
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      std::vector<std::string> keys;
+      for (const Setting& s : runs[k].swept) keys.push_back(s.key + " = " + s.value);
+      say("level {}: {} particles: {}\n", k + 1, runs[k].model.particles(), fmt::join(keys, ", "));
+    }
   else if (runs.size() > 1) say("a sweep of {} runs; the first one is shown\n", runs.size());
 }
 

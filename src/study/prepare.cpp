@@ -4,6 +4,7 @@
 #include "input/read.hpp"
 #include "input/stages.hpp"
 #include "study/imperfection.hpp"
+#include "study/refine.hpp"
 
 #include <fmt/format.h>
 
@@ -70,12 +71,14 @@ class SweepReader {
     for (const Sweep& s : tables_.sweeps)
       if (bisects(s) && tables_.sweeps.size() > 1)
         mistakes_.add(s.place, "bisect", "a sweep that halves goes alone; leave the other sweeps out");
+    if (refines() && !tables_.sweeps.empty()) mistakes_.add(tables_.problem.refine->place, "does not go with [[sweep]]; leave one of them out");
   }
 
   SweepReader(SweepReader&&) = default;              // bundles point into the tables: no copies
 
   const Mistakes& mistakes() const { return mistakes_; }
   const std::optional<Bisection>& bisection() const { return bisection_; }
+  bool refines() const { return tables_.problem.refine.has_value(); }
 
   std::vector<std::vector<Setting>> runs() const {
     std::vector<std::vector<Setting>> runs(1);
@@ -203,16 +206,18 @@ SweepReader whole_sweeps(const Document& document, const std::vector<Setting>& s
   return reader;
 }
 
+bool of_all(const ExpectTable& e) { return e.extrapolate || e.continuum || e.at == at_sweep; }
+
 /// Expectations about all runs together leave the run's own, which stops where they look.
 std::vector<ExpectTable> of_all_runs(Problem& problem) {
   std::vector<ExpectTable> together;
   std::vector<double> stops = problem.path.stops.value_or(std::vector<double>{});
   for (const ExpectTable& e : problem.expect)
-    if (const auto lambda = load_factor_of(e.at); lambda && e.extrapolate) stops.push_back(*lambda);
+    if (const auto lambda = load_factor_of(e.at); lambda && of_all(e)) stops.push_back(*lambda);
   if (!stops.empty()) problem.path.stops = stops;
   for (const ExpectTable& e : problem.expect)
-    if (e.extrapolate || e.at == at_sweep) together.push_back(e);
-  std::erase_if(problem.expect, [](const ExpectTable& e) { return e.extrapolate || e.at == at_sweep; });
+    if (of_all(e)) together.push_back(e);
+  std::erase_if(problem.expect, of_all);
   return together;
 }
 
@@ -270,7 +275,7 @@ PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& s
 
 PreparedRuns prepare_runs(const Document& document, const std::vector<Setting>& settings, const std::vector<OwnLaw>& own) {
   const SweepReader reader = whole_sweeps(document, settings);
-  const std::vector<std::vector<Setting>> runs = reader.runs();
+  const std::vector<std::vector<Setting>> runs = reader.refines() ? levels_of(document, settings, own) : reader.runs();
   PreparedRuns prepared{document, own, {}, reader.bisection()};
   // Mistakes of two runs are the same if place and key are, and they come in the same turn there.
   struct Told {

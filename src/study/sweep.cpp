@@ -13,6 +13,7 @@
 #include "results/stored_run.hpp"
 #include "results/summary.hpp"
 #include "results/table.hpp"
+#include "study/refine.hpp"
 #include "study/resume.hpp"
 #include "study/single.hpp"
 
@@ -145,9 +146,22 @@ RunResult result_of_runs(const PreparedRuns& prepared, const std::vector<std::op
   }
   const PreparedRun& first = prepared.runs.front();
   if (tables.size() == results.size())
-    for (const ExpectTable& e : first.together) all.verdicts.push_back(check_extrapolated(first.problem, e, tables));
+    for (const ExpectTable& e : first.together)
+      if (e.extrapolate) all.verdicts.push_back(check_extrapolated(first.problem, e, tables));
   return all;
 }
+
+namespace {
+
+/// Where all levels of a [refine] are there, what they tell together.
+void add_refinement(const PreparedRuns& prepared, const std::vector<std::optional<SingleResult>>& results, ResultsDirectory& directory, bool quiet,
+                    RunResult& all) {
+  if (!prepared.runs.front().problem.refine || ended(results) < results.size() || interrupted()) return;
+  const std::vector<Verdict> verdicts = finish_refinement(prepared, results, directory, quiet);
+  all.verdicts.insert(all.verdicts.end(), verdicts.begin(), verdicts.end());
+}
+
+}  // namespace
 
 RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   const Stopwatch watch;
@@ -165,7 +179,9 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   if (ended(results) == runs.size() && !interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
     say("{} of {} runs in {:.2f} s\nwritten: {}/sweep.csv\n", ended(results), runs.size(), watch.seconds(), options.directory);
-  return result_of_runs(prepared, results, options.directory);
+  RunResult all_runs = result_of_runs(prepared, results, options.directory);
+  add_refinement(prepared, results, *directory, options.quiet, all_runs);
+  return all_runs;
 }
 
 namespace {
@@ -247,6 +263,7 @@ RunResult collect(const CollectOptions& options) {
     table.add(sweep_row_of(runs[k], *results[k], first));
   }
   RunResult all = result_of_runs(stopped.prepared, results, options.directory);
+  add_refinement(stopped.prepared, results, directory, options.quiet, all);
   if (missing.empty()) remove_checkpoint(options.directory);
   else {
     all.exit_status = std::max<int>(all.exit_status, exit_not_converged);

@@ -33,7 +33,7 @@ PathOptions options_of(const Problem& problem, const PathTable& t, const Model& 
   return {.method = t.method, .from = t.from, .to = t.to, .steps = t.steps,
           .when_unstable = t.when_unstable.value_or(WhenUnstable::jump), .start = t.start_lambda,
           .stops = stops_of(problem), .limits = locates("limit"), .branch_points = locates("branch"),
-          .contacts = locates("contact"), .branches = t.branches, .lowest = t.lowest, .highest = t.highest,
+          .contacts = locates("contact"), .event_errors = problem.event_errors(), .branches = t.branches, .lowest = t.lowest, .highest = t.highest,
           .most_points = t.points.value_or(0), .user_events = user_events(problem, model), .resume = {}, .deflate = t.deflate,
           .deflate_at = t.deflate_at.value_or(std::vector<double>{})};
 }

@@ -1,0 +1,281 @@
+#include "input/finer.hpp"
+
+#include "input/document.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace elamin {
+namespace {
+
+std::string number(double x) { return to_toml(x); }
+std::string list(const std::vector<int>& ids) { return fmt::format("[{}]", fmt::join(ids, ", ")); }
+
+/// A row of particles that is refined: which particle the i-th becomes. `begin`, `end`: 1 where one particle stands beyond that end.
+struct Row {
+  int count = 0, begin = 0, end = 0, by = 1;
+  bool closed = false;
+  int fine_count() const { return closed ? by * count : by * (count - 1 - begin - end) + 1 + begin + end; }
+  int image(int i) const { return i < begin ? 0 : i >= count - end ? fine_count() - 1 : begin + by * (i - begin); }
+  bool there(int i) const { return closed || (i >= 0 && i < count); }
+  int wrapped(int i) const { return closed ? (i + count) % count : i; }
+
+  /// The particles of a set, with what lies between neighbours. `held`: it clamps the row where it ends between two neighbours, in the middle of the bond;
+  /// `lost`: there is no bond with this middle.
+  std::set<int> images(const std::set<int>& in, bool held, bool& lost) const {
+    std::set<int> out;
+    const auto has = [&](int i) { return there(i) && in.count(wrapped(i)) > 0; };
+    for (const int i : in) {
+      const bool before = has(i - 1), after = has(i + 1);
+      const bool clamps_below = held && after && !before && there(i - 1) && i + 1 < count - end;
+      const bool clamps_above = held && before && !after && there(i + 1) && i - 1 >= begin;
+      if (!clamps_below && !clamps_above) out.insert(image(i));
+      lost = lost || ((clamps_below || clamps_above) && by % 2 == 0);
+      if (!after) continue;
+      const bool beside = i < begin || i + 1 >= count - end;      // the particle beyond an end: nothing is between
+      const bool next_clamps = held && !has(i + 2) && there(i + 2) && i >= begin;
+      const int from = clamps_below ? (by - 1) / 2 : 1, to = next_clamps ? (by + 1) / 2 : by - 1;
+      for (int k = from; !beside && k <= to; ++k) out.insert((image(i) + k) % fine_count());
+    }
+    return out;
+  }
+};
+
+/// The structures of a model, and what becomes of them.
+class Refined {
+ public:
+  Refined(const Problem& problem, const Model& model, int by, Mistakes& mistakes) : problem_(problem), model_(model) {
+    int first = 0;
+    for (const Structure& s : model.structures) {
+      Part part{&s, {}, false, first};
+      for (const BeamTable& t : problem.beams)
+        if (t.name == s.name) {
+          const bool both = t.clamped == ClampedEnds::both;
+          part.row = Row{s.count, both || t.clamped == ClampedEnds::from, both || t.clamped == ClampedEnds::to, by, false};
+        }
+      for (const LoopTable& t : problem.loops)
+        if (t.name == s.name) part.row = Row{s.count, 0, 0, by, true};
+      int count = part.row ? part.row->fine_count() : s.count;
+      for (SheetTable t : problem.sheets)
+        if (t.name == s.name) {
+          part.lattice = true, t.spacing /= by;
+          const auto sheet = built(t, mistakes);
+          count = sheet ? sheet_particles(*sheet) : s.count;
+        }
+      parts_.push_back(part), first += count;
+    }
+    for (const SupportTable& s : problem.supports) held_.insert(s.group);
+    for (auto g = problem.groups.rbegin(); g != problem.groups.rend(); ++g)
+      if (held_.count(g->name)) held_.insert(g->of.begin(), g->of.end());
+  }
+
+  struct Part {
+    const Structure* structure;
+    std::optional<Row> row;
+    bool lattice;
+    int first;                           // of its particles, refined
+  };
+  const std::vector<Part>& parts() const { return parts_; }
+  bool held(const std::string& group) const { return held_.count(group) > 0; }
+  const Part& part_of(int particle) const {
+    return *std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return particle < p.structure->first + p.structure->count; });
+  }
+  /// The row that a group is chosen from, if it is one.
+  const Row* row_of(const GroupTable& g) const {
+    if (g.of.size() != 1 || g.except) return nullptr;
+    if (g.of[0] == "all") return parts_.size() == 1 && parts_[0].row ? &*parts_[0].row : nullptr;
+    for (const Part& p : parts_)
+      if (p.structure->name == g.of[0]) return p.row ? &*p.row : nullptr;
+    return nullptr;
+  }
+
+  /// How a group is chosen now, as keys; nothing where that stays as it is. Mistakes: see finer_structure.
+  using Chosen = std::vector<std::pair<const char*, std::string>>;
+  Chosen chosen(const GroupTable& g, Mistakes& mistakes) const {
+    const char* const key = g.first ? "first" : g.last ? "last" : g.middle ? "middle" : g.ids ? "ids" : nullptr;
+    const auto refuse = [&](std::string why) { return mistakes.add(g.place, key, std::move(why)), Chosen{}; };
+    if (!key) return {};
+    bool lost = false;
+    std::string value;
+    if (g.ids) {
+      std::map<const Part*, std::set<int>> of;
+      for (const int id : *g.ids) {
+        const auto index = static_cast<int>(std::lower_bound(model_.id.begin(), model_.id.end(), id) - model_.id.begin());
+        if (index >= model_.particles()) return {};                            // a body, or nothing, which is told elsewhere
+        const Part& p = part_of(index);
+        if (p.lattice) return refuse("are particles of a [[sheet]], which have other ids at another spacing; choose by `inside`");
+        of[&p].insert(index - p.structure->first);
+      }
+      std::vector<int> ids;
+      for (const auto& [p, in] : of)
+        for (const int i : p->row ? p->row->images(in, held(g.name), lost) : in) ids.push_back(p->first + i + 1);
+      std::sort(ids.begin(), ids.end());
+      value = list(ids);
+    } else if (const Row* row = row_of(g)) {
+      const int n = g.first ? *g.first : g.last ? *g.last : *g.middle, others = row->count - n, skip = g.first ? 0 : g.last ? others : others / 2;
+      if (g.middle && others % 2 != 0)
+        return refuse(fmt::format("has no middle that stays, {} of {} particles; take an odd number of them", n, row->count));
+      std::set<int> in;
+      for (int i = skip; i < skip + n; ++i) in.insert(i);
+      value = std::to_string(row->images(in, held(g.name), lost).size());
+    } else {
+      return {};
+    }
+    if (lost)
+      return refuse("are held neighbours, which clamp a row in the middle of their bond; with an even refine.by no bond has this middle: give by = 3, "
+                    "or the [[beam]] `clamped` ends");
+    return {{key, value}};
+  }
+
+ private:
+  const Problem& problem_;
+  const Model& model_;
+  std::vector<Part> parts_;
+  std::set<std::string> held_;
+};
+
+/// A rest angle in degrees: the turn from bond to bond is divided.
+void divide_rest(const Rest& rest, int by, const auto& set) {
+  if (!rest.as_built && rest.degrees != 180) set("rest", number(180 - (180 - rest.degrees) / by));
+}
+
+}  // namespace
+
+std::vector<Setting> finer_structure(const Problem& problem, const Model& model, int by, Mistakes& mistakes) {
+  std::vector<Setting> settings;
+  const Place place = problem.refine ? Place{problem.refine->place} : Place{};
+  const auto setter = [&](const TablePlace& table) {
+    return [&settings, &table, place](const char* key, const std::string& value) { settings.push_back({table.key + "." + key, value, place}); };
+  };
+  const Refined refined(problem, model, by, mistakes);
+  const auto count_of = [&](const std::string& name) {
+    for (const Refined::Part& p : refined.parts())
+      if (p.structure->name == name && p.row) return p.row->fine_count();
+    return 0;
+  };
+  const auto row_keys = [&](const auto& t, const auto& set) {
+    set("particles", std::to_string(count_of(t.name)));
+    if (t.bond_stiffness) set("bond_stiffness", number(*t.bond_stiffness * by));
+    if (t.angle_stiffness) set("angle_stiffness", number(*t.angle_stiffness * by));
+    if (t.rest_length) set("rest_length", number(*t.rest_length / by));
+    if (t.density) set("density", number(*t.density / by));
+    divide_rest(t.rest, by, set);
+  };
+  for (const BeamTable& t : problem.beams) {
+    const auto set = setter(t.place);
+    row_keys(t, set);
+    if (t.center) set("spacing", number(*t.spacing / by));
+  }
+  for (const LoopTable& t : problem.loops) row_keys(t, setter(t.place));
+  for (const SheetTable& t : problem.sheets) {
+    const auto set = setter(t.place);
+    set("spacing", number(t.spacing / by)), set("thickness", number(*t.thickness)), set("diameter", number(*t.diameter));
+    if (t.rest_length) set("rest_length", number(*t.rest_length / by));
+    if (t.density) set("density", number(*t.density / (by * by)));
+    divide_rest(t.rest, by, set);
+  }
+  for (const GroupTable& g : problem.groups)
+    for (const auto& [key, value] : refined.chosen(g, mistakes)) setter(g.place)(key, value);
+  for (const ContactTable& c : problem.contacts)
+    if (c.exclude_bonds) setter(c.place)("exclude_bonds", std::to_string(*c.exclude_bonds * by));
+  return settings;
+}
+
+namespace {
+
+/// Looks for particles of a sheet by their place.
+class Places {
+ public:
+  Places(const Model& model, const Structure& s) : model_(model), order_(static_cast<std::size_t>(s.count)) {
+    std::iota(order_.begin(), order_.end(), s.first);
+    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return x(a) < x(b); });
+  }
+  /// The particle there, or −1.
+  int at(const Vec3& place, double within) const {
+    auto i = std::lower_bound(order_.begin(), order_.end(), place[0] - within, [&](int p, double value) { return x(p) < value; });
+    for (; i != order_.end() && x(*i) <= place[0] + within; ++i)
+      if ((model_.start.at(*i).hi - place).norm() <= within) return *i;
+    return -1;
+  }
+
+ private:
+  double x(int p) const { return model_.start.at(p).hi[0]; }
+  const Model& model_;
+  std::vector<int> order_;
+};
+
+const Group* group_of(const Model& model, const std::string& name) {
+  for (const Group& g : model.groups)
+    if (g.name == name) return &g;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_model, const Problem& fine, const Model& fine_model, int by,
+                                 Mistakes& mistakes) {
+  std::vector<Setting> settings;
+  const Refined refined(coarse, coarse_model, by, mistakes);
+  std::vector<int> image(static_cast<std::size_t>(coarse_model.particles()), -1);
+  for (std::size_t k = 0; k < refined.parts().size(); ++k) {
+    const Refined::Part& part = refined.parts()[k];
+    const Structure &s = *part.structure, &there = fine_model.structures[k];
+    std::optional<Places> places;
+    double within = 0;
+    if (part.lattice) {
+      places.emplace(fine_model, there);
+      for (const SheetTable& t : coarse.sheets)
+        if (t.name == s.name) within = 1e-6 * t.spacing / by;
+    }
+    for (int i = 0; i < s.count; ++i)
+      image[static_cast<std::size_t>(s.first + i)] = places ? places->at(coarse_model.start.at(s.first + i).hi, within)
+                                                            : there.first + (part.row ? part.row->image(i) : i);
+  }
+  std::set<int> held;                                          // beside the end of what is held the middle of a bond counts
+  for (const Support& s : coarse_model.supports) held.insert(s.particles.begin(), s.particles.end());
+  std::set<std::string> apart;                                 // regions that the file itself makes smaller with the spacing, and what is made of them
+  for (std::size_t k = 0; k < coarse.groups.size(); ++k) {
+    const GroupTable &g = coarse.groups[k], &changed = fine.groups[k];
+    std::vector<std::string> of = g.of;
+    if (g.except) of.insert(of.end(), g.except->begin(), g.except->end());
+    const bool of_apart = std::any_of(of.begin(), of.end(), [&](const auto& name) { return apart.count(name) > 0; });
+    if (of_apart || g.inside != changed.inside || g.outside != changed.outside) {
+      apart.insert(g.name);
+      continue;
+    }
+    const Group *before = group_of(coarse_model, g.name), *now = group_of(fine_model, g.name);
+    if (!before || !now) continue;
+    const std::set<int> was(before->particles.begin(), before->particles.end()), is(now->particles.begin(), now->particles.end());
+    for (int i = 0; i < coarse_model.particles(); ++i) {
+      const int there = image[static_cast<std::size_t>(i)];
+      const bool clamps = refined.part_of(i).row && held.count(i) && (held.count(i - 1) || held.count(i + 1));
+      if (there < 0 || clamps || (was.count(i) > 0) == (is.count(there) > 0)) continue;
+      mistakes.add(g.place, fmt::format("does not stay where it is: particle {} {} it, but with a spacing {} times as fine what is at its place {}; give the "
+                                        "region by lengths that do not depend on the spacing, or by a constant that refine.divide names",
+                                        coarse_model.id[static_cast<std::size_t>(i)], was.count(i) ? "is in" : "is not in", by,
+                                        was.count(i) ? "is not" : "is"));
+      break;
+    }
+  }
+  for (std::size_t k = 0; k < coarse.loads.size(); ++k) {
+    const LoadTable &t = coarse.loads[k], &changed = fine.loads[k];
+    const Group *before = group_of(coarse_model, t.group), *now = group_of(fine_model, t.group);
+    if (!before || !now || t.force != changed.force || t.radial != changed.radial) continue;
+    const auto count = [](const Group& group) { return static_cast<double>(group.particles.size() + group.bodies.size()); };
+    const double part = count(*before) / count(*now);
+    const Place place = coarse.refine ? Place{coarse.refine->place} : Place{};
+    if (t.force) {
+      const Vec3 f = *t.force * part;
+      settings.push_back({t.place.key + ".force", fmt::format("[{}, {}, {}]", number(f[0]), number(f[1]), number(f[2])), place});
+    }
+    if (t.radial) settings.push_back({t.place.key + ".radial", number(*t.radial * part), place});
+  }
+  return settings;
+}
+
+}  // namespace elamin
