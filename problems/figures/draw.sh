@@ -64,6 +64,7 @@ sheet_indented . --x deflection --y force --shapes final
 confined_d_cone . --y push --shapes final
 two_beams . --y gap --shapes initial,branch:1,contact:1,limit:1,final
 two_beams_gaps .
+two_beams_law . --y second
 two_beams_winner . --y thin_x
 hertz_pair . --x driven_gap --y driven_force --shapes initial,final
 grain_column .

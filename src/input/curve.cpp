@@ -37,6 +37,7 @@ void describe(Keys& keys, CurveTable& t) {
   keys.must("to", t.to, "… and where it ends");
   keys.may("steps", t.steps, "no step of the curve changes it by more than such a part", Range{1, most_steps});
   keys.may("stops", t.stops, "values of it that are met besides");
+  keys.one_or_more("until", t.until, "ends at the first of these, such as \"turn:1\", if it comes before `to`");
 }
 
 std::optional<double> second_of(const std::string& at) {
@@ -71,6 +72,9 @@ void check_curve(Problem& p, Mistakes& mistakes) {
   else if (const std::string kind = t.of.substr(0, t.of.find(':'));
            std::find(p.path.locate.begin(), p.path.locate.end(), kind) == p.path.locate.end() && !p.path.place.broken)
     mistakes.add(t.place, "of", in_quotes(kind) + " is not among path.locate; only located events can be followed");
+  for (const std::string& label : t.until)
+    if (!is_numbered(label, labels_of_curve))
+      mistakes.add(t.place, "until", fmt::format("must be \"{}:1\" or such, is {}", fmt::join(labels_of_curve, ":1\", \""), in_quotes(label)));
   if (t.from == t.to) mistakes.add(t.place, "to", fmt::format("is the same value as from, {}; a curve leads from one to another", t.to));
   if (t.stops)
     for (const double s : *t.stops)

@@ -11,6 +11,7 @@ struct CurveTable {
   double from = 0, to = 0;               // its values; the path is traced at `from`
   int steps = 40;
   std::optional<std::vector<double>> stops;
+  std::vector<std::string> until;        // labels at which it ends
   bool operator==(const CurveTable&) const = default;
 };
 

@@ -66,6 +66,7 @@ class CurveTracer {
         if (const std::string wrong = land(here, *target, next); !wrong.empty()) return {Status::not_converged, wrong};
       system_.assess_at(next);
       const std::string missed = tell_between(here, next);
+      if (!until_.empty()) return {Status::converged, "the curve has been followed to " + until_};
       const bool ends = target && (*target == options_.to || *target == options_.from);
       if (!told || target) found_({next, ends ? "end" : "", missed});
       if (ends && *target == options_.to) return {Status::converged, "the curve has been followed to its end"};
@@ -160,6 +161,9 @@ class CurveTracer {
       point.label = fmt::format("{}:{}", point.label, ++numbers_[point.label]);
       point.threshold.at.point.label = point.label;
       found_(point);
+      if (std::find(options_.until.begin(), options_.until.end(), point.label) == options_.until.end()) continue;
+      until_ = point.label;
+      break;
     }
     return missed;
   }
@@ -249,6 +253,7 @@ class CurveTracer {
   const std::function<void(const CurvePoint&)>& found_;
   ExtendedSystem system_;
   std::map<std::string, int> numbers_;
+  std::string until_;                                          // of options_.until, where it has come
 };
 
 }  // namespace

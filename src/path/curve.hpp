@@ -8,6 +8,7 @@ struct CurveOptions {
   double from = 0, to = 1;             // values of μ
   int steps = 40;                      // no step changes μ by more than (to − from)/steps
   std::vector<double> stops = {};      // values of μ that are met besides
+  std::vector<std::string> until = {}; // labels at the first of which it ends
   double load = 1;                     // the scale of the load factor, where it is zero at the start
 };
 

@@ -74,12 +74,22 @@ bool ExtendedSystem::move(Threshold& point, const CurveDirection& by) {
   return true;
 }
 
-// How far along a direction of unit length a central difference goes: ε^(1/3) of a turn of the bonds by a radian, of the scale of λ and of
-// that of μ, where its rounding ε/h and what it leaves out, h²/6 of the third derivative, are alike.
+// How far along a direction of unit length a central difference goes: ε^(1/3) of a turn of the bonds by a radian, of the scale of λ, of
+// that of μ and of the overlap of every contact, where its rounding ε/h and what it leaves out, h²/6 of the third derivative, are alike.
 double ExtendedSystem::step_of(const Threshold& at, const CurveDirection& along) {
   const Energy& energy = variant(at.second)->energy;
   const double turn = distortion(energy, at.at.point.state, along.x, along.load), by_turn = turn > 0 ? turn : movement(energy, along.x);
-  return std::cbrt(epsilon) / std::max({by_turn, std::abs(along.load) / metric.load, std::abs(along.second) / metric.second});
+  const double part = std::cbrt(epsilon), h = part / std::max({by_turn, std::abs(along.load) / metric.load, std::abs(along.second) / metric.second});
+  const std::optional<State> beside = moved(at, along * h);
+  if (!beside) return h;
+  Energy &here = variant(at.second)->energy, &there = variant(at.second + h * along.second)->energy;
+  double within = 1;
+  for (const ContactKey& key : closed_contacts(here, at.at.point.state)) {
+    if (key.feature >= 0 || (at.kind == EventKind::contact && key == at.contact)) continue;
+    const double overlap = gap(here, key, at.at.point.state), change = std::abs(gap(there, key, *beside) - overlap);
+    if (change > part * std::abs(overlap)) within = std::min(within, part * std::abs(overlap) / change);
+  }
+  return h * std::max(within, curve::least_within);
 }
 
 std::optional<ExtendedSystem::Rates> ExtendedSystem::rates(const Threshold& at, const CurveDirection& along, const Vector& v) {

@@ -216,7 +216,8 @@ constexpr double longest_step = 2, least_step = 1e-6;  // times 1/steps
 constexpr double asymmetric = 1e-4;  // of ∇³E v v v to ∇³E v v: less is the rounding of differences
 constexpr double located = 1e-12, about = 1e-9;  // of a step: where what vanishes is exact, and where it is a difference quotient
 constexpr double as_near = 1e-6;  // … at least, where one cannot be found nearer
-constexpr double no_row = 1e-8;  // of the sizes of its terms: a condition that does not depend on what it is to tell
+constexpr double least_within = 1e-4;  // of the step of a difference: as little as an overlap may leave of it; less is rounding
+constexpr double no_row = 1e-6;  // of the sizes of its terms: a condition that does not depend on what it is to tell
 constexpr int most_points = 20;  // times `steps`
 constexpr int more_modes = 3;  // beside the critical ones, among which the next one is looked for
 constexpr double orthogonal = 1e-5;  // of the load to a mode

@@ -120,6 +120,27 @@ function drawForces(svg, shown, left, space) {
   return true;
 }
 
+/// A threshold as a curve: its load factor against the second parameter, with what happens on it.
+function drawCurve(svg, run) {
+  const c = run.curve;
+  if (!c || c.rows < 2) return false;
+  const {t, root, width, height} = blank(svg, 420, 220), x = c.column('second').map(asNumber), y = c.column('lambda').map(asNumber);
+  const sx = d3.scaleLinear(reach(x), [64, width - 16]).nice(), sy = d3.scaleLinear(reach(y), [height - 34, 26]).nice();
+  axis(root, t, d3.axisBottom(sx).tickFormat(ticks(sx)), [0, height - 34], width / 90);
+  axis(root, t, d3.axisLeft(sy).tickFormat(ticks(sy)), [64, 0], 4);
+  words(root, width - 16, height - 4, c.second, t.ink, atEnd);
+  words(root, 6, 14, `load factor of ${c.of}`, t.ink);
+  put(root, 'path', {d: d3.line().x((v) => sx(v)).y((_, k) => sy(y[k]))(x), fill: 'none', stroke: t.series[0], 'stroke-width': 2});
+  x.forEach((v, k) => {
+    const label = c.at('label', k);
+    if (!label || label === 'start' || label === 'end') return;
+    put(root, 'circle', {cx: sx(v), cy: sy(y[k]), r: 4.5, fill: t.index[0]})
+      .append('title').text(`${label}: ${c.second} ${short(v)}, load factor ${short(y[k])}; ${c.at('what', k)}`);
+    words(root, sx(v) + 7, sy(y[k]) - 6, label, t.ink, {...small, ...haloed(t)});
+  });
+  return true;
+}
+
 function drawEigenvalues(svg, run, row, choose) {
   const names = run.path.columns.filter((c) => /^eigenvalue_\d+$/.test(c)), values = names.map((c) => run.path.column(c));
   if (!names.length || run.path.rows < 2) return false;

@@ -27,6 +27,7 @@ class Run {
     this.number = number;
     this.name = data.directory.replace(/\/+$/, '').split('/').pop() || data.title;
     for (const table of ['path', 'events']) this[table] = new Table(data[table]);
+    if (data.curve) this.curve = Object.assign(new Table(data.curve), {of: data.curve.of, second: data.curve.second});
     this.parameter = this.in_time ? 'time' : 'lambda';
     this.states = data.states ? data.states.list : [];
     this.stored = data.states ? data.states.stored : 0;

@@ -82,6 +82,7 @@ Json run_data(const std::string& directory, std::size_t most_bytes) {
     const Problem problem = read_problem(resolved);
     if (j["title"] == "") j["title"] = problem.title;
     j["expected"] = expected_data(problem, run);
+    if (problem.curve) j["curve"] = table_data(run.curve), j["curve"]["of"] = problem.curve->of, j["curve"]["second"] = problem.curve->second;
     Model model = model_of(problem);
     j["described"] = describe(problem, model);
     const std::vector<RunStage> stages = stages_of(run, problem, model);

@@ -104,12 +104,13 @@ std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, con
   std::vector<std::string> columns = keys;
   columns.push_back("status");
   append(columns, first_events(problem));
+  if (problem.curve) append(columns, {"second"});
   append(columns, run_columns(problem, own));
   return columns;
 }
 
 Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events,
-              const Problem& problem) {
+              const Problem& problem, const Table& curve) {
   Row row(values.begin(), values.end());
   row.emplace_back(status);
   for (const std::string& label : first_events(problem)) {
@@ -117,6 +118,7 @@ Row sweep_row(const std::vector<Cell>& values, const std::string& status, const 
         std::find_if(events.rows.begin(), events.rows.end(), [&](const Row& r) { return r[0] == Cell(label); });
     row.push_back(it == events.rows.end() ? Cell{} : (*it)[1]);
   }
+  if (problem.curve) row.push_back(curve.rows.empty() ? Cell{} : curve.rows.back().front());
   const Row final_row = path.rows.empty() ? Row(path.columns.size()) : path.rows.back();
   row.insert(row.end(), final_row.begin(), final_row.end());
   return row;

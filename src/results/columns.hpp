@@ -43,7 +43,7 @@ bool is_event(const std::string& label);
 /// was none), then the run_columns, with the values of the last row.
 std::vector<std::string> sweep_columns(const std::vector<std::string>& keys, const Problem& problem, const std::vector<OwnLaw>& own = {});
 Row sweep_row(const std::vector<Cell>& values, const std::string& status, const Table& path, const Table& events,
-              const Problem& problem);
+              const Problem& problem, const Table& curve = {});
 
 // A motion as rows of trajectory.csv and frames.
 

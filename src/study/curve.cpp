@@ -83,7 +83,7 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
     if (start.modes.cols() == 0)
       return {Status::not_converged, "the event has no mode along which the structure gives way: bodies that touch, whose stiffness jumps"};
   }
-  const CurveOptions options{t.from, t.to, t.steps, stops_on(problem), std::abs(problem.path.to - problem.path.from)};
+  const CurveOptions options{t.from, t.to, t.steps, stops_on(problem), t.until, std::abs(problem.path.to - problem.path.from)};
   const CurveEnd end = trace_curve(variants, std::move(start), options, [&](const CurvePoint& point) {
     const std::shared_ptr<Variant> there = variants(point.threshold.second);
     PathPoint p = point.threshold.at.point;

@@ -132,7 +132,7 @@ std::size_t ended(const std::vector<std::optional<SingleResult>>& results) {
 }
 
 Row sweep_row_of(const PreparedRun& run, const SingleResult& result, const Problem& first) {
-  return sweep_row(swept_values(run), status_name(result.status), result.path, result.events, first);
+  return sweep_row(swept_values(run), status_name(result.status), result.path, result.events, first, result.curve);
 }
 
 RunResult result_of_runs(const PreparedRuns& prepared, const std::vector<std::optional<SingleResult>>& results, const std::string& directory) {

@@ -165,6 +165,9 @@ TEST_CASE("a truss sways first if it is steeper than arccos(2^(−3/2))", "[curv
     CHECK(row["lambda"] == Approx(2 * y * (1 / r - 1 / l0)).epsilon(1e-11));
   }
   CHECK(row_of(sway, "turn:1")["second"] == Approx(180 / pi * std::acos(2 / std::pow(3, 1.5))).epsilon(exact));
+  const std::vector<TableRow> half = curve_of(tall_truss + curve("branch:1", "constants.degrees", 75, 60, "steps = 10\nuntil = \"turn:1\"\n"));
+  CHECK(half.back().text("label") == "turn:1");
+  CHECK(half.size() < sway.size());
   CHECK(sway.back()["lambda"] == Approx(0.76859681475999079427).epsilon(exact));        // the other branch point of the truss at 75°
   // Limit points: λ = 2 (1 − cos^(2/3) α)^(3/2).
   const std::vector<TableRow> snap = curve_of(tall_truss + curve("limit:1", "constants.degrees", 60, 75, "steps = 10\n"));
@@ -339,5 +342,20 @@ TEST_CASE("a curve is expected, and what is wrong with one is told", "[curve]") 
     INFO(answer.text);
     CHECK(answer.status == 1);
     CHECK(answer.text.find(says) != std::string::npos);
+  }
+}
+
+// Where the thick beam has been driven back it is straight and the contact bears next to nothing: an overlap of 1e-9 m, within which differences have to stay.
+TEST_CASE("a limit point at a contact that is hardly closed is followed", "[curve]") {
+  std::ifstream in(ELAMIN_ROOT "/problems/two_beams.toml");
+  const std::string problem{std::istreambuf_iterator<char>(in), {}};
+  const std::vector<TableRow> rows =
+      curve_of(problem + curve("limit:1", "beam.thin.center.1", -0.0038523056653491437, -0.00395, "steps = 4\nstops = [-0.0039]\n"));
+  REQUIRE(rows.size() > 2);
+  for (const TableRow& row : rows) {
+    const ScratchDirectory scratch;
+    const std::string file = scratch.file("p.toml", problem);
+    CHECK(elamin_says("'" + file + "' --quiet --set beam.thin.center.1=" + row.text("second"), 60).status == 0);
+    CHECK(row_of(table_of(scratch / "p/events.csv"), "limit:1")["lambda"] == Approx(row["lambda"]).epsilon(1e-9));
   }
 }
