@@ -21,6 +21,7 @@ buckling_strain_cylindrical .
 buckling_strain_square .
 hencky_hinged . --shapes branch:1+mode,branch:2+mode,branch:3+mode
 column_curve .
+column_landscape . --shapes minimum-2-0-5,saddle-2-0-5
 hencky_clamped . --shapes branch:1+mode,branch:2+mode,branch:3+mode,branch:4+mode
 elastica 1 --x force --y distance --shapes initial,final
 elastica_touches 3 --y force --shapes initial,contact:1
@@ -33,6 +34,7 @@ beam_in_tube . --y tube_force --shapes initial,final
 truss_low . --x height --y lambda --shapes initial,limit:1,final
 truss_tall . --x height --y lambda --shapes initial,branch:1+mode,final
 truss_curve . --shapes initial,branch:1+mode
+truss_landscape . --x lambda --y energy --shapes minimum-1-0-01,saddle-1-0-01,minimum-2-0-01
 truss_spring 1 --x height --y force --shapes initial,final
 truss_three_bars . --no-diagram --shapes final
 chain_hanging . --no-diagram --shapes final
@@ -43,6 +45,7 @@ williams_toggle 1 --x w --y lambda --shapes initial,limit:1,final
 arch_low . --x w --y lambda --shapes initial,limit:1,final
 arch_sine 2 --x height --y lambda --shapes initial,branch:1+mode,final
 arch_curve .
+arch_landscape . --x lambda --y barrier --shapes minimum-1-0-35,saddle-1-0-35,minimum-2-0-35
 arch_deep 1 --x v --y lambda --shapes initial,limit:1,final
 arch_buckled . --y height --shapes initial,compression,limit:1,final
 arch_flipped . --y height --shapes initial,compression,branch:1+mode,final
@@ -63,6 +66,7 @@ tube_pressure . --no-diagram --shapes final
 sheet_indented . --x deflection --y force --shapes final
 confined_d_cone . --y push --shapes final
 two_beams . --y gap --shapes initial,branch:1,contact:1,limit:1,final
+two_beams_landscape . --shapes minimum-1-0-9,minimum-2-0-9
 two_beams_gaps .
 two_beams_law . --y second
 two_beams_winner . --y thin_x

@@ -2,7 +2,9 @@
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "core/text.hpp"
 #include "results/columns.hpp"
+#include "results/json.hpp"
 
 #include <fmt/format.h>
 
@@ -211,6 +213,38 @@ Diagram curve_diagram(const Table& table, const Axes& asked, const std::string& 
     d.curves.front().points.push_back(*here);
     if (const std::string name = text_in(row, label); is_event(name)) d.marks.push_back({name.substr(0, name.find(':')), *here});
   }
+  return d;
+}
+
+Diagram landscape_diagram(const Table& table, const Axes& asked, const std::string& file) {
+  Columns at{};
+  Diagram d = begun(table, {first_of({asked.x, "lambda"}), first_of({asked.y, "energy"})}, file, at);
+  const int label = column_index(table.columns, "label");
+  for (const Row& row : table.rows) {
+    const std::string name = text_in(row, label);
+    const auto here = at.at(row);
+    if (!here || !is_event(name)) continue;
+    const auto known = std::find(d.names.begin(), d.names.end(), name);
+    const auto colour = static_cast<std::size_t>(known - d.names.begin());
+    const Curve::Kind kind = name.starts_with("minimum:") ? Curve::Kind::stable : Curve::Kind::unstable;
+    if (known == d.names.end()) d.names.push_back(name), d.curves.push_back({{}, kind, static_cast<int>(colour)});
+    d.curves[colour].points.push_back(*here);
+  }
+  if (d.names.size() < 2) d.names.clear();
+  return d;
+}
+
+Diagram tree_diagram(const std::string& file) {
+  Diagram d{"minima", "energy", {}, {}};
+  d.whole_x = true;
+  const Json json = Json::parse(read_text(file), nullptr, false);
+  if (json.is_discarded() || !json.contains("landscapes") || json["landscapes"].empty()) throw InputError(file + ": is no landscape.json of elamin");
+  const Json& tree = json["landscapes"].back()["tree"];
+  for (const Json& line : tree["lines"]) {
+    d.curves.emplace_back();
+    for (const Json& point : line) d.curves.back().points.emplace_back(point[0].get<double>(), point[1].get<double>());
+  }
+  for (const Json& leaf : tree["leaves"]) d.curves.push_back({{{leaf["x"].get<double>(), leaf["energy"].get<double>()}}, Curve::Kind::points, 0});
   return d;
 }
 

@@ -73,6 +73,10 @@ struct Axes {
 Diagram path_diagram(const Table& path, const Axes& axes, const std::string& file);
 /// Of curve.csv: the load factor of a threshold against the second parameter, and what happens on the way.
 Diagram curve_diagram(const Table& curve, const Axes& axes, const std::string& file);
+/// Of landscape.csv, where columns are asked for: one against the other, a colour for each node that is followed over load factors.
+Diagram landscape_diagram(const Table& landscape, const Axes& axes, const std::string& file);
+/// Of landscape.json: the tree of its last landscape.
+Diagram tree_diagram(const std::string& file);
 /// Of trajectory.csv: time, and the first column observed that changes, or the kinetic energy.
 Diagram motion_diagram(const Table& trajectory, const Axes& axes, const std::string& file);
 /// Of modes.csv: eigenvalues by number.

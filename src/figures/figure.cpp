@@ -19,12 +19,17 @@ namespace {
 
 constexpr double page = 85 / 25.4 * 72, height = 135, margin = 3;       // 85 mm [pt]
 
+Diagram landscape_or_tree(const Table& table, const Axes& axes, const std::string& file) {
+  if (!axes.x.empty() || !axes.y.empty()) return landscape_diagram(table, axes, file);
+  return tree_diagram(std::filesystem::path(file).replace_extension(".json").string());
+}
+
 // What the directory has in it; nothing if it has one point at most.
 std::optional<Diagram> diagram_in(const FigureOptions& options) {
   using Read = Diagram (*)(const Table&, const Axes&, const std::string&);
   const std::pair<const char*, Read> tables[] = {
       {"sweep.csv", sweep_diagram}, {"modes.csv", modes_diagram}, {"trajectory.csv", motion_diagram},
-      {"curve.csv", curve_diagram}, {"path.csv", path_diagram}};
+      {"curve.csv", curve_diagram}, {"landscape.csv", landscape_or_tree}, {"path.csv", path_diagram}};
   for (const auto& [name, read] : tables) {
     const std::string file = (std::filesystem::path(options.directory) / name).string();
     if (!std::filesystem::exists(file)) continue;

@@ -57,7 +57,7 @@ std::string stem_of_step(const std::string& directory, const std::string& step) 
   const int column = column_index(run.path.columns, "step");
   std::vector<std::string> known;
   for (const StoredState& s : run.states) {
-    if (column < 0 || !s.file.ends_with(".data")) continue;
+    if (column < 0 || s.row < 0 || !s.file.ends_with(".data")) continue;
     known.push_back(csv_text(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(column)]));
     if (known.back() == step) return s.file.substr(0, s.file.size() - 5);
   }

@@ -248,7 +248,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
 
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes) {
   const bool modes = problem.study == StudyType::modes;
-  if (!modes && !(problem.study == StudyType::path && problem.stages.empty())) return;     // what stages let go is free
+  if (!modes && !(problem.follows_path() && problem.stages.empty())) return;     // what stages let go is free
   const int free = Kinematics(model).dofs();
   const auto limit = [&](const TablePlace& place, const char* key, int count, const char* what) {
     if (free < count) mistakes.add(place, key, fmt::format("asks for {} {}; only {} coordinates are free", count, what, free));

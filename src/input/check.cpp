@@ -24,6 +24,7 @@ void check_problem(Problem& problem, const std::vector<std::string>& other_names
   check_path(problem, mistakes);
   check_curve(problem, mistakes);
   check_refine(problem, mistakes);
+  check_landscape(problem, mistakes);
   check_solver(problem, mistakes);
   check_walls(problem, names, mistakes);
   check_contacts(problem, names, mistakes);

@@ -30,7 +30,7 @@ Scaling scaling_of(const Problem& problem, const Condition& condition) {
 
 std::vector<double> load_factors(const Problem& problem) {
   const PathTable& path = problem.path;
-  if (problem.study != StudyType::path || path.place.broken) return {0, 1};
+  if (!problem.follows_path() || path.place.broken) return {0, 1};
   std::vector<double> all{path.from, path.to, path.start_lambda.value_or(path.from)};
   for (const auto& end : {path.lowest, path.highest})
     if (end) all.push_back(*end);

@@ -127,7 +127,7 @@ bool has_effective_modulus(TablePlace& place, Mistakes& mistakes) {
 }
 
 void check_potential(const Problem& problem, TablePlace& place, const char* why, Mistakes& mistakes) {
-  const bool minimises = problem.study == StudyType::equilibrium || problem.study == StudyType::path ||
+  const bool minimises = problem.study == StudyType::equilibrium || problem.follows_path() ||
                          problem.study == StudyType::modes || (problem.study == StudyType::dynamics && problem.dynamics.relax);
   if (minimises) mistakes.add(place, "formulation", why);
 }

@@ -15,8 +15,8 @@ namespace elamin {
 void describe(Keys& keys, ExpectTable& t) {
   keys.about("What the results are held against by `elamin verify`.");
   keys.must("observable", t.observable, "a column of path.csv");
-  keys.may("at", t.at, "its row: final, initial, an event such as branch:1, a stage, lambda=0.5, in dynamics step=100, sweep, or on a curve second=0.5, "
-           "curve.end, curve.cusp:1");
+  keys.may("at", t.at, "its row: final, initial, an event such as branch:1, a stage, lambda=0.5, in dynamics step=100, sweep, on a curve second=0.5, "
+           "curve.end, curve.cusp:1, or of a landscape landscape.minimum:1@0.5");
   keys.must("value", t.value, "what it should be");
   keys.may("rtol", t.rtol, "how far off it may be, relative to the value", range::not_negative);
   keys.may("atol", t.atol, "… and besides", range::not_negative);
@@ -52,7 +52,7 @@ const std::vector<std::string>& standing_columns() {
 }
 
 std::vector<std::string> eigenvalue_columns(const Problem& p) {
-  const int count = p.study == StudyType::modes ? p.modes.count : p.study == StudyType::path ? p.path.eigenvalues : 0;
+  const int count = p.study == StudyType::modes ? p.modes.count : p.follows_path() ? p.path.eigenvalues : 0;
   std::vector<std::string> columns;
   for (int i = 1; i <= count; ++i) columns.push_back(fmt::format("eigenvalue_{}", i));
   return columns;
@@ -93,6 +93,7 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
   const bool event = at.find(':') != std::string::npos;
   std::vector<std::string> columns;
   if (is_of_curve(at)) columns = {"second", "multiplicity", "asymmetry"};
+  if (is_of_landscape(at)) columns = {"multiplicity", "barrier", "barrier_back", "minima", "saddles", "euler"};
   for (const std::string& c : columns_of(p))
     if (!is_in(no_numbers, c) && (event || !is_in(of_events, c))) columns.push_back(c);
   for (const ObserveTable& o : p.observe)
@@ -103,7 +104,8 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
 
 std::string wrong_at(const Problem& p, const std::string& at) {
   if (is_of_curve(at)) return wrong_at_curve(p, at);
-  if (at == at_sweep || at == "final" || (at == "initial" && p.study == StudyType::path)) return "";
+  if (is_of_landscape(at)) return wrong_at_landscape(p, at);
+  if (at == at_sweep || at == "final" || (at == "initial" && p.follows_path())) return "";
   if (p.in_time()) {
     if (const auto step = step_of(at); step && *step > p.dynamics.steps)
       return fmt::format("lies behind the last step, {}", p.dynamics.steps);
@@ -111,7 +113,7 @@ std::string wrong_at(const Problem& p, const std::string& at) {
       return "";
     return "must be \"initial\", \"final\" or a step such as \"step=100\" in dynamics, is " + in_quotes(at);
   }
-  if (p.study != StudyType::path) return "must be \"final\" in a study that is not a path, is " + in_quotes(at);
+  if (!p.follows_path()) return "must be \"final\" in a study that is not a path, is " + in_quotes(at);
   const std::string allowed =
       "must be \"initial\", \"final\", an event such as \"branch:1\", \"limit:1\" or \"contact:1\", " +
       std::string(p.stages.empty() ? "" : "a stage's name, ") + "or \"lambda=0.5\", is " + in_quotes(at);

@@ -35,6 +35,9 @@ void check_curve(Problem& problem, Mistakes& mistakes);
 std::string wrong_at_curve(const Problem& problem, const std::string& at);
 /// What cannot be refined.
 void check_refine(Problem& problem, Mistakes& mistakes);
+/// The landscape that is asked for; why no row of it is meant by `at`, or "".
+void check_landscape(Problem& problem, Mistakes& mistakes);
+std::string wrong_at_landscape(const Problem& problem, const std::string& at);
 /// Connections, bonds, angles, and what is removed.
 void check_connections(Problem& problem, Names& names, Mistakes& mistakes);
 void check_contacts(Problem& problem, Names& names, Mistakes& mistakes);

@@ -13,6 +13,7 @@ namespace {
 constexpr Word<StudyType> study_words[]{{"energy", StudyType::energy},
                                         {"equilibrium", StudyType::equilibrium},
                                         {"path", StudyType::path},
+                                        {"landscape", StudyType::landscape},
                                         {"modes", StudyType::modes},
                                         {"dynamics", StudyType::dynamics}};
 constexpr Word<PathMethod> path_method_words[]{{"load_steps", PathMethod::load_steps}, {"arc_length", PathMethod::arc_length}};
@@ -27,7 +28,7 @@ const char* const when_unstable_means =
 
 void describe(Keys& keys, StudyTable& t) {
   keys.about("What is asked for.");
-  keys.word("type", t.type, study_words, "by default what the tables are for: dynamics, path (or stages), modes; else an equilibrium");
+  keys.word("type", t.type, study_words, "by default what the tables are for: dynamics, landscape, path (or stages), modes; else an equilibrium");
 }
 
 void describe(Keys& keys, ModesTable& t) {
@@ -152,7 +153,7 @@ void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
 }  // namespace
 
 void check_path(Problem& problem, Mistakes& mistakes) {
-  const bool is_path = problem.study == StudyType::path;
+  const bool is_path = problem.follows_path();
   check_table(problem.path, is_path, !problem.stages.empty(), mistakes);
   if (!is_path && !problem.stages.empty())
     mistakes.add(problem.stages.front().place, "stages are parts of a path; give study.type = \"path\" or leave them out");

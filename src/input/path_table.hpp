@@ -6,7 +6,7 @@
 
 namespace elamin {
 
-enum class StudyType { energy, equilibrium, path, modes, dynamics };
+enum class StudyType { energy, equilibrium, path, landscape, modes, dynamics };
 
 /// [study] is one word; the problem keeps the word alone.
 struct StudyTable {

@@ -37,6 +37,7 @@ void describe(Keys& keys, ProblemFile& file) {
   keys.table("path", p.path);
   keys.table("curve", p.curve);
   keys.table("refine", p.refine);
+  keys.table("landscape", p.landscape);
   keys.table("modes", p.modes);
   keys.table("solver", p.solver);
   keys.table("dynamics", p.dynamics);

@@ -10,6 +10,7 @@
 #include "input/group.hpp"
 #include "input/imperfection.hpp"
 #include "input/lammps.hpp"
+#include "input/landscape.hpp"
 #include "input/loads.hpp"
 #include "input/loop.hpp"
 #include "input/motion.hpp"
@@ -59,6 +60,7 @@ struct Problem {
   PathTable path;
   std::optional<CurveTable> curve;
   std::optional<RefineTable> refine;
+  std::optional<LandscapeTable> landscape;
   ModesTable modes;
   SolverTable solver;
   DynamicsTable dynamics;
@@ -66,10 +68,12 @@ struct Problem {
   std::vector<EventTable> events;
   std::vector<StageTable> stages;
   std::vector<ExpectTable> expect;
+  /// A path is followed, for itself or for a landscape.
+  bool follows_path() const { return study == StudyType::path || study == StudyType::landscape; }
   /// A motion in time is asked for; damped dynamics ends in an equilibrium.
   bool in_time() const { return study == StudyType::dynamics && !dynamics.relax; }
   /// Events have a column lambda_error.
-  bool event_errors() const { return study == StudyType::path && (path.event_errors || refine); }
+  bool event_errors() const { return follows_path() && (path.event_errors || refine); }
   bool operator==(const Problem&) const = default;
 };
 

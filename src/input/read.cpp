@@ -18,6 +18,7 @@ namespace {
 void complete(Problem& p) {
   if (!p.study_place.written("type"))
     p.study = !p.dynamics.place.key.empty()                           ? StudyType::dynamics
+              : p.landscape                                            ? StudyType::landscape
               : !p.path.place.key.empty() || !p.stages.empty() ? StudyType::path
               : !p.modes.place.key.empty()                             ? StudyType::modes
                                                                        : StudyType::equilibrium;
@@ -41,10 +42,11 @@ void complete(Problem& p) {
   }
   for (SupportTable& s : p.supports)
     if (!s.directions && !s.rotations && !s.rotation && p.bodies.empty() && !p.lammps) s.directions = "xyz";
+  if (p.study == StudyType::landscape && !p.landscape) p.landscape.emplace();
   for (WallTable& w : p.walls)
     if (w.k_n && !w.c_t) w.c_t = w.c_n / 2;
   if (!p.path.start.empty() && !p.path.start_lambda) {
-    p.path.start_lambda = p.study == StudyType::path ? p.path.from : 1.0;
+    p.path.start_lambda = p.follows_path() ? p.path.from : 1.0;
     try {
       if (const auto stored = read_supplement(p.path.start)) p.path.start_lambda = stored->load_factor;
     } catch (const InputError&) {

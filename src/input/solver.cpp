@@ -71,7 +71,7 @@ void check_solver(Problem& problem, Mistakes& mistakes) {
   const bool newton = s.by_newton();
   if (!newton && problem.study == StudyType::modes)
     mistakes.add(s.place, "method", "must be \"auto\" or \"newton\" in a study of modes, is " + in_quotes(s.method));
-  if (!newton && problem.study == StudyType::path) {
+  if (!newton && problem.follows_path()) {
     const auto by_newton = [&](TablePlace& place, const char* key, const char* what) {
       mistakes.add(place, key, fmt::format("{} follows stable and unstable equilibria, which {} does not; use solver.method = "
                                            "\"newton\"", what, in_quotes(s.method)));

@@ -164,7 +164,7 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
   if (problem.study == StudyType::energy) return;
   // A path starts at its own load factor. An equilibrium at 1 may be reached from what was built at 0.
   std::vector<double> factors{1};
-  if (problem.study == StudyType::path)
+  if (problem.follows_path())
     factors = {(model.restart ? *model.restart : model.start).load_factor};
   else if (!model.restart)
     factors = {0, 1};

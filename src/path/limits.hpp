@@ -170,6 +170,35 @@ constexpr int rays = 32;  // on half a circle
 constexpr double no_force = 1e-12;  // of the scale of internal forces
 }
 
+/// Walks to saddles and minima. Radii are rotations of a bond in one step [rad]; of what is not glued movements [diameters].
+namespace saddle {
+constexpr int modes = 4;  // soft ones, in which steps are taken: those that cross on the way are among them
+constexpr double accuracy = 1e-6;  // of their stiffnesses: they give the way, not its end
+constexpr double first_radius = 0.02, largest_radius = 0.1, least_radius = 1e-9;
+constexpr double most_off = 0.25, little_off = 0.1;  // of the slopes or their change: of a parabola to a saddle at s a step of s/4 has the first
+constexpr double same_mode = 0.7;  // cosine between the mode that is climbed along and what it was a step before
+constexpr double relaxed = 3;  // times the step: how far a state may be from where it was, when the rest has relaxed
+constexpr double arrived = 1e-4, settled = 1e-2;  // a step to the end; how far Newton's method may go then: quadratically that is 1e-8
+constexpr double before_collision = 0.9;  // of the way to where something would go through something
+constexpr double pressed = 0.1;  // of its rest length: a bond that a walk up presses together, not what it looks for
+constexpr int most_steps = 400;  // of a walk: a bond turns by 2π in 63 of the largest
+constexpr int images = 15, most_rounds = 60;  // of a line between two states
+constexpr double even = 1e-2;  // the largest step of a line that is at rest: walks begin there
+}
+
+/// Equilibria at one load factor.
+namespace landscape {
+constexpr double same_place = 1e-8;  // of the span, for each dof, beside what rounding leaves: states that are one
+constexpr double same_energy = 1e-10;  // of the sum of its terms' sizes: images by symmetry, to which reflections come by rounding; …
+constexpr double same_stiffness = 1e-6, same_distance = 1e-7;  // … of the stiffest of the soft modes, of the span
+constexpr int spectrum = 4;  // soft modes that are compared
+constexpr double nudge = 1.0;  // largest turn of a bond where a random start is [rad; diameters]
+constexpr int most_leaves = 4;  // saddles that one descent may run into
+constexpr int most_strings = 20;  // pairs of minima that are joined by a line
+constexpr double first_part = 0.125, least_part = 1e-7;  // of the way to the next load factor: steps of an equilibrium that is followed
+constexpr double together = 1e-3;  // of that way: changes that are one, and the event of a path that explains them
+}
+
 /// Equilibria that no branch leads to.
 namespace deflation {
 constexpr int most_iterations = 60, most_modes = 4;  // of one search; along which searches begin

@@ -57,6 +57,28 @@ function drawEnergies(svg, run, row, choose) {
   return true;
 }
 
+/// The trees of a landscape, side by side, one for each load factor.
+function drawLandscape(svg, run) {
+  const all = (run.landscape && run.landscape.landscapes || []).filter((l) => l.tree.leaves.length);
+  if (!all.length) return false;
+  const {t, root, width, height} = blank(svg, 420, 260), each = width / all.length;
+  all.forEach(({load_factor, minima, saddles, tree}, k) => {
+    const [lo, hi] = d3.extent([...tree.leaves.map((l) => l.energy), ...tree.lines.flat().map((p) => p[1])]);
+    const left = k * each + 60, sx = d3.scaleLinear([0.5, tree.leaves.length + 0.5], [left, (k + 1) * each - 8]);
+    const sy = d3.scaleLinear(hi > lo ? [lo, hi] : [lo - 1, lo + 1], [height - 40, 30]);
+    axis(root, t, d3.axisLeft(sy).tickFormat(ticks(sy)), [left, 0], 4);
+    for (const line of tree.lines)
+      put(root, 'path', {d: d3.line().x((p) => sx(p[0])).y((p) => sy(p[1]))(line), fill: 'none', stroke: seriesColour(t, 0), 'stroke-width': 2});
+    for (const l of tree.leaves) {
+      put(root, 'circle', {cx: sx(l.x), cy: sy(l.energy), r: 4, fill: seriesColour(t, 0)}).append('title').text(`${l.label}, energy ${short(l.energy)}`);
+      if ((sx(1) - sx(0)) > 60) words(root, sx(l.x), sy(l.energy) + 16, l.label, t.quiet, {'text-anchor': 'middle', ...small});
+    }
+    const counted = each > 260 ? `: minima ${minima}, saddles ${saddles}` : '';
+    words(root, left + 4, 18, `load factor ${short(load_factor)}${counted}`, t.quiet, small);
+  });
+  return true;
+}
+
 /// Who touches whom at the stored states; of many pairs, how many of which structures.
 function drawContacts(svg, run, row, choose) {
   const states = run.states.filter((s) => s.row >= 0), pairs = new Map(), walls = run.shape ? run.shape.walls : [];

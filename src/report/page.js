@@ -161,7 +161,7 @@ function showEvents() {
 }
 
 function drawCharts() {
-  const run = page.run, all = {curve: drawCurve, energy: drawEnergies, contacts: drawContacts, eigenvalues: drawEigenvalues, iterations: drawIterations};
+  const run = page.run, all = {curve: drawCurve, landscape: drawLandscape, energy: drawEnergies, contacts: drawContacts, eigenvalues: drawEigenvalues, iterations: drawIterations};
   const drawn = () => Object.entries(all).map(([id, draw]) => [id, draw($(id), run, page.row, select)]);
   for (const [id, there] of drawn()) $(`${id}-part`).hidden = !there;
   drawn();                                                     // once more, as wide as they are now

@@ -43,11 +43,11 @@ Json input_text(const Summary& summary) {
 
 Json expected_data(const Problem& problem, const StoredRun& run) {
   Json all = Json::array();
-  const std::vector<Verdict> verdicts = check_expectations(problem, run.path, run.events, run.curve);
+  const std::vector<Verdict> verdicts = check_expectations(problem, run.path, run.events, run.curve, run.landscape);
   for (std::size_t k = 0; k < problem.expect.size(); ++k) {
     const ExpectTable& e = problem.expect[k];
     std::string why;
-    const auto found = value_at(e.observable, e.at, {&run.path, &run.events, &run.curve}, why);
+    const auto found = value_at(e.observable, e.at, {&run.path, &run.events, &run.curve, &run.landscape}, why);
     all.push_back({{"column", e.observable}, {"at", e.at}, {"value", found ? Json(*found) : Json(why)}, {"expected", e.value},
                    {"allowed", e.rtol * std::abs(e.value) + e.atol}, {"met", verdicts[k].met}, {"source", e.source}});
   }
@@ -77,6 +77,8 @@ Json run_data(const std::string& directory, std::size_t most_bytes) {
   j["resolved"] = read_text(resolved);
   j["in_time"] = run.in_time;
   j["path"] = table_data(run.path), j["events"] = table_data(run.events);
+  if (const std::string file = (std::filesystem::path(directory) / "landscape.json").string(); std::filesystem::exists(file))
+    j["landscape"] = Json::parse(read_text(file), nullptr, false);
   j["described"] = "", j["expected"] = Json::array();
   try {
     const Problem problem = read_problem(resolved);

@@ -68,6 +68,14 @@ Row curve_row(double second, double asymmetry, const PathPoint& p, const std::ve
   return row;
 }
 
+std::vector<std::string> node_columns(const std::vector<std::string>& observables) { return with_rest({"label", "lambda"}, observables); }
+
+Row node_row(const PathPoint& p, const std::vector<double>& observables) {
+  Row row{p.label, p.state.load_factor};
+  append_rest(row, p, observables);
+  return row;
+}
+
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged) {
   std::vector<std::string> columns = with_rest({"step", "label", "branch", "lambda"}, observables);
   if (staged) columns.push_back("stage");

@@ -19,6 +19,10 @@ std::vector<std::string> observable_columns(const Problem& problem, const std::v
 /// The columns of the table of a run: of path.csv, or of trajectory.csv.
 std::vector<std::string> run_columns(const Problem& problem, const std::vector<OwnLaw>& own = {});
 
+/// What a row of landscape.csv begins with.
+std::vector<std::string> node_columns(const std::vector<std::string>& observables);
+Row node_row(const PathPoint& p, const std::vector<double>& observables);
+
 /// step, label, branch, lambda, energy, bond, angle, contact, wall, cohesion, body, external, residual, iterations, negative,
 /// stable, then the observables, parent, negative_rigid, and `stage` of a path in stages.
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged = false);

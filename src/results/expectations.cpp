@@ -44,6 +44,20 @@ Found on_curve(const std::string& at, const Table* curve, std::string* why) {
   return found;
 }
 
+Found in_landscapes(const std::string& at, const Table* table, std::string* why) {
+  const auto place = in_landscape(at);
+  if (!table || table->rows.empty() || !place) return *why = "the run has no landscape", Found{};
+  const int label = column_index(table->columns, "label"), lambda = column_index(table->columns, "lambda");
+  std::optional<double> load = place->load_factor;                 // by default that of the last graph
+  if (!load && !place->label.starts_with("change:"))
+    for (const Row& row : table->rows)
+      if (row[label] == Cell("graph")) load = as_number(row[lambda]);
+  for (const Row& row : table->rows)
+    if (row[label] == Cell(place->label) && (!load || as_number(row[lambda]) == load)) return {table, &row};
+  *why = "nothing of that is in the landscape; there are: " + labels_in(*table);
+  return {};
+}
+
 /// The row that `at` means; else *why says what there is.
 Found find(const std::string& at, const Table& path, const Table& events, std::string* why) {
   if (path.rows.empty()) return *why = "the run has no equilibrium", Found{};
@@ -86,7 +100,9 @@ Verdict held(const std::string& what, double value, const ExpectTable& e, const 
 }  // namespace
 
 std::optional<double> value_at(const std::string& name, const std::string& at, const RunTables& run, std::string& why) {
-  const Found found = is_of_curve(at) ? on_curve(at, run.curve, &why) : find(at, *run.path, *run.events, &why);
+  const Found found = is_of_curve(at)       ? on_curve(at, run.curve, &why)
+                      : is_of_landscape(at) ? in_landscapes(at, run.landscape, &why)
+                                            : find(at, *run.path, *run.events, &why);
   if (!found.row) return std::nullopt;
   const int column = column_index(found.table->columns, name);
   if (column < 0) return why = "there is no such column; there are: " + listed(found.table->columns), std::nullopt;
@@ -120,11 +136,11 @@ Verdict check_threshold(const Problem& problem, const ExpectTable& e, std::optio
   return held(what_of(problem, e), (*threshold)[0] + ((*threshold)[1] - (*threshold)[0]) / 2, e);
 }
 
-std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events, const Table& curve) {
+std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events, const Table& curve, const Table& landscape) {
   std::vector<Verdict> verdicts;
   for (const ExpectTable& e : problem.expect) {
     std::string why;
-    const auto value = value_at(e.observable, e.at, {&path, &events, &curve}, why);
+    const auto value = value_at(e.observable, e.at, {&path, &events, &curve, &landscape}, why);
     verdicts.push_back(value ? held(what_of(problem, e), *value, e) : Verdict{what_of(problem, e) + ": " + why, false});
   }
   return verdicts;

@@ -19,7 +19,7 @@ struct Verdict {
 struct RunTables {
   const Table* path;
   const Table* events;
-  const Table* curve = nullptr;
+  const Table *curve = nullptr, *landscape = nullptr;
 };
 
 /// The number in a column at `at` (see check_expectations); nothing if there is none, and then `why` says so.
@@ -35,8 +35,10 @@ Verdict check_threshold(const Problem& problem, const ExpectTable& expected, std
 
 /// Holds every [[expect]] against the tables of a run: |value − expected| ≤ rtol·|expected| + atol (true counts as 1,
 /// false as 0). at: an event's label; "initial" and "final", the first and the last row of the path; a stage's
-/// name, its last row; or "lambda=0.5", the last row whose load factor agrees to 1e-12 relative; of a curve "curve.cusp:1", a label, and "second=0.5". What is not there is not
-/// met, and the sentence says what is. A sentence begins with the place in the problem file.
-std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events, const Table& curve = {});
+/// name, its last row; or "lambda=0.5", the last row whose load factor agrees to 1e-12 relative; of a curve "curve.cusp:1", a label, and
+/// "second=0.5"; of a landscape "landscape.saddle:1", of the last load factor, or "landscape.saddle:1@0.5". What is not there is not met, and
+/// the sentence says what is. A sentence begins with the place in the problem file.
+std::vector<Verdict> check_expectations(const Problem& problem, const Table& path, const Table& events, const Table& curve = {},
+                                        const Table& landscape = {});
 
 }  // namespace elamin

@@ -27,7 +27,7 @@ const std::vector<std::string> contact_columns{"label", "lambda", "first", "seco
 /// Of a path without frames none.
 std::vector<std::string> films_of(const Problem& problem) {
   if (problem.in_time()) return problem.dynamics.film;
-  if (problem.study != StudyType::path || !problem.path.has_frames()) return {};
+  if (!problem.follows_path() || !problem.path.has_frames()) return {};
   return problem.path.film.value_or(std::vector<std::string>{"lammpstrj", "pvd"});
 }
 
@@ -44,6 +44,8 @@ std::vector<std::string> inputs_of(const Problem& problem) {
     for (const std::string& file : {data, supplement_file(data), bodies_file(data)}) all.push_back(file);
   };
   add(problem.path.start);
+  if (problem.landscape && !problem.landscape->run.empty())
+    for (const StoredState& s : read_run(problem.landscape->run).states) add(s.file);
   if (problem.lammps) add(problem.lammps->data), add(problem.lammps->bodies);
   if (problem.lammps && problem.lammps->script)
     for (const std::string& file : problem.lammps->script->files) all.push_back(file);
@@ -144,7 +146,7 @@ void RunDirectory::add_point(const std::string& name, const std::string& called,
 }
 
 bool RunDirectory::is_frame(const PathPoint& point) {
-  if (record_.problem().study != StudyType::path) return false;
+  if (!record_.problem().follows_path()) return false;
   const bool is = frames_.take(point);
   for (const int step : frames_.dropped()) dropped_.insert(step);
   if (!keeps_) settle();
@@ -270,6 +272,12 @@ void RunDirectory::add_curve(const Row& row) {
     curve_file_.emplace(results_.file("curve.csv"), curve_.columns);
   }
   curve_file_->add(row), curve_.rows.push_back(row);
+}
+
+void RunDirectory::set_landscape(Table table, const Json& json) {
+  landscape_ = std::move(table);
+  write_csv(results_.file("landscape.csv"), landscape_);
+  write_text(results_.file("landscape.json"), json.dump(1) + "\n");
 }
 
 void RunDirectory::finish(const Summary& summary) {

@@ -3,6 +3,7 @@
 #include "results/fields.hpp"
 #include "results/film.hpp"
 #include "results/frame_choice.hpp"
+#include "results/json.hpp"
 #include "results/mode.hpp"
 #include "results/record.hpp"
 #include "results/results_directory.hpp"
@@ -88,6 +89,10 @@ class RunDirectory {
   void add_curve(const Row& row);
   const Table& curve() const { return curve_; }
 
+  /// landscape.csv and landscape.json, see results/landscape.hpp.
+  void set_landscape(Table table, const Json& json);
+  const Table& landscape() const { return landscape_; }
+
   /// A line of log.txt, with the time.
   void log(const std::string& line);
 
@@ -128,7 +133,7 @@ class RunDirectory {
   CsvFile path_, contacts_;
   std::optional<CsvFile> events_;                     // of equilibria
   std::optional<CsvFile> modes_, curve_file_;         // made with the first mode, with the first point of a curve
-  Table curve_;
+  Table curve_, landscape_;
   FrameChoice frames_;
   Film film_;
   std::set<std::int64_t> dropped_;                    // frames that are no longer wanted and still there

@@ -90,6 +90,13 @@ std::string file_name(std::string label) {
   return label;
 }
 
+struct Columns {
+  Table table;
+  int at(const std::string& name) const { return column_index(table.columns, name); }
+  double number(std::size_t row, int column) const { return as_number(table.rows[row][column]).value_or(0); }
+  Vec3 vector(std::size_t row, int first) const { return {number(row, first), number(row, first + 1), number(row, first + 2)}; }
+};
+
 void find_states(StoredRun& run) {
   const int label = column_index(run.path.columns, "label"), step = column_index(run.path.columns, "step");
   const int rows = static_cast<int>(run.path.rows.size());
@@ -105,14 +112,16 @@ void find_states(StoredRun& run) {
         break;
       }
   }
+  const Columns nodes{run.landscape};
+  for (std::size_t k = 0; k < nodes.table.rows.size(); ++k) {
+    const std::string node = csv_text(nodes.table.rows[k][nodes.at("label")]), load = csv_text(nodes.table.rows[k][nodes.at("lambda")]);
+    for (int image = 1; image <= nodes.number(k, nodes.at("multiplicity")); ++image)
+      for (const std::string& at : {std::string(), "@" + load}) {
+        const std::string name = node + (image > 1 ? fmt::format("-image-{}", image) : "") + at;
+        if (const std::string file = in(run.directory, "states/" + file_name(name) + ".data"); fs::exists(file)) run.states.push_back({name, -1, file});
+      }
+  }
 }
-
-struct Columns {
-  Table table;
-  int at(const std::string& name) const { return column_index(table.columns, name); }
-  double number(std::size_t row, int column) const { return as_number(table.rows[row][column]).value_or(0); }
-  Vec3 vector(std::size_t row, int first) const { return {number(row, first), number(row, first + 1), number(row, first + 2)}; }
-};
 
 void want(bool same, const std::string& file) {
   if (!same) throw InputError(file + ": does not hold the particles and bodies of the model in resolved.toml");
@@ -163,6 +172,7 @@ StoredRun read_run(const std::string& directory) {
   run.path = table_if_there(in(directory, run.in_time ? "trajectory.csv" : "path.csv"));
   run.events = table_if_there(in(directory, "events.csv"));
   run.curve = table_if_there(in(directory, "curve.csv"));
+  run.landscape = table_if_there(in(directory, "landscape.csv"));
   run.contacts = table_if_there(in(directory, "contacts.csv"));
   run.modes = table_if_there(in(directory, "modes.csv"));
   read_summary(in(directory, "summary.json"), run);

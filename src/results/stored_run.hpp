@@ -24,10 +24,10 @@ struct StoredState {
 struct StoredRun {
   std::string directory;
   bool in_time = false;                // then `path` is trajectory.csv
-  Table path, events, contacts, modes, curve; // empty where the study has none
+  Table path, events, contacts, modes, curve, landscape;   // empty where the study has none
   std::optional<Summary> summary;      // none: the run did not end
   std::string version;                 // of the program that ran
-  std::vector<StoredState> states;     // in the order of their rows; of a study of modes the equilibrium alone
+  std::vector<StoredState> states;     // in the order of their rows, then the nodes of a landscape; of a study of modes the equilibrium alone
 };
 
 /// Reads the directory of one run. Throws InputError if it is none, or if a file in it cannot be understood.

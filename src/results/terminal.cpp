@@ -191,6 +191,26 @@ std::string closing_curve(const Table& curve, const std::string& second) {
   return text;
 }
 
+std::string closing_landscape(const Table& landscape, const Ink& ink) {
+  constexpr auto line = "{:<14}  {:>8}  {:>14}  {:>12}  {:>14}  {}";
+  std::string text = ink.strong(trimmed(fmt::format(line, "node", "negative", "energy", "multiplicity", "barrier", "")));
+  for (const Row& row : landscape.rows) {
+    const Entries e{landscape.columns, row};
+    const std::string label = csv_text(e["label"]), lambda = shown(e["lambda"], "{:.10g}");
+    const Cell cell = e["what"];
+    const auto* words = std::get_if<std::string>(&cell);
+    const std::string what = words ? *words : "";
+    if (label == "graph")
+      text += fmt::format("load factor {}: minima {}, saddles {}\n", lambda, csv_text(e["minima"]), csv_text(e["saddles"]));
+    else if (label.starts_with("change:"))
+      text += fmt::format("load factor {}: {}\n", lambda, what);
+    else
+      text += trimmed(fmt::format(line, label, shown(e["negative"], "{:.0f}"), shown(e["energy"], "{:.10g}"), csv_text(e["multiplicity"]),
+                                  shown(e["barrier"], "{:.8g}"), what));
+  }
+  return text;
+}
+
 std::string closing_values(const Table& path, const std::vector<std::string>& observables, const Ink& ink) {
   if (path.rows.empty()) return "";
   const Entries last{path.columns, path.rows.back()};

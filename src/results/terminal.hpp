@@ -108,6 +108,9 @@ std::string closing_table(const Table& events, const Ink& ink = {});
 /// The points of a curve that have a label; second: the key of its parameter.
 std::string closing_curve(const Table& curve, const std::string& second);
 
+/// The nodes of landscapes, and what becomes of them.
+std::string closing_landscape(const Table& landscape, const Ink& ink = {});
+
 /// The last row of a study: energy, residual and stability, or time and kinetic energy of a motion, and a line for each observable.
 std::string closing_values(const Table& path, const std::vector<std::string>& observables, const Ink& ink = {});
 

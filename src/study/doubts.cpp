@@ -92,7 +92,7 @@ std::vector<std::string> doubts(const Problem& problem, const Model& model) {
 }
 
 std::vector<std::string> driven_together(const Problem& problem, const Model& model) {
-  const bool path = problem.study == StudyType::path;
+  const bool path = problem.follows_path();
   if (model.contacts.empty() || !problem.stages.empty() || !(path || problem.study == StudyType::equilibrium)) return {};
   const Kinematics kinematics(model);
   const auto fixed = [&](int p) { return kinematics.dof(p, 0) < 0 && kinematics.dof(p, 1) < 0 && kinematics.dof(p, 2) < 0; };

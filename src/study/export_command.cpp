@@ -70,7 +70,7 @@ void export_command(const ExportOptions& options) {
   study.title = problem.title, study.source = std::filesystem::path(problem.file).filename().string();
   study.kind = problem.study == StudyType::energy ? Kind::energy : problem.in_time() ? Kind::motion : Kind::equilibria;
   study.start = starting_state(problem, whole);
-  const bool path = problem.study == StudyType::path;
+  const bool path = problem.follows_path();
   if (path && (problem.path.method == PathMethod::arc_length || problem.path.when_unstable == WhenUnstable::follow))
     study.notes.push_back("LAMMPS does not follow unstable equilibria, as this study does: where one ends it falls to the next stable "
                           "one.");

@@ -29,10 +29,11 @@ int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurre
 // What was found, what is doubtful of it, and how it ended.
 std::string closing(const Problem& problem, const SingleResult& result, const Ink& ink) {
   const StudyType study = problem.study;
-  std::string text = study == StudyType::path    ? closing_table(result.events, ink)
+  std::string text = problem.follows_path()      ? closing_table(result.events, ink)
                      : study == StudyType::modes ? closing_modes(result.modes, ink)
                                                  : closing_values(result.path, result.observables, ink);
   if (problem.curve) text += closing_curve(result.curve, problem.curve->second);
+  if (study == StudyType::landscape) text += closing_landscape(result.landscape, ink);
   for (const std::string& name : result.zero_modes) text += fmt::format("free at the end: {}\n", name);
   for (const std::string& warning : result.warnings) text += ink.warning("warning") + ": " + warning + "\n";
   const std::string status = status_name(result.status);
@@ -49,7 +50,7 @@ RunResult run_one(const PreparedRun& run, const RunOptions& options) {
 
 // A page's shape follows the path where states of it are kept.
 void keep_frames(Problem& problem) {
-  if (problem.study == StudyType::path && !problem.path.has_frames()) problem.path.frames = 50, problem.path.film.emplace();
+  if (problem.follows_path() && !problem.path.has_frames()) problem.path.frames = 50, problem.path.film.emplace();
 }
 
 }  // namespace

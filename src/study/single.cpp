@@ -80,6 +80,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   double setup = 0, checking = 0, before = 0;                 // seconds; of the sessions before this one
 
   Summary summary;
+  PathOfLandscape path_of_landscape(problem);
   std::optional<PathPoint> event;                              // that a curve begins at
   StrainWatch strains;
   std::vector<Mode> found;
@@ -91,7 +92,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     if (!a.reads() && lowest) own(*lowest);
     std::string eigenvalues = own.bytes();
     if (!a.reads()) carry_results(a, results);                 // which have been read as they were made
-    a(strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check);
+    a(path_of_landscape, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check);
     if (a.reads()) before = seconds, of_lowest = std::move(eigenvalues);
   };
   if (stopped) carry(archive);
@@ -134,7 +135,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
         energy = &in_force;
         results.enter(stage, energy->model());
         teller.enter(stage);
-        if (problem.study == StudyType::path && problem.path.eigenvalues > 0) lowest.emplace(energy->model(), problem.path.eigenvalues);
+        if (problem.follows_path() && problem.path.eigenvalues > 0) lowest.emplace(energy->model(), problem.path.eigenvalues);
         if (Archive own(std::exchange(of_lowest, {})); lowest && !own.bytes().empty()) own(*lowest);
         teller.log(fmt::format("{}{} particles, {} bonds, {} angles, {} free dofs, {} entries in the Hessian's lower triangle",
                                stage.name.empty() ? "" : "stage " + stage.name + ": ", model.particles(), energy->model().bonds.size(),
@@ -146,6 +147,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
       },
       .point = [&](const PathPoint& point, bool last) {
         if (problem.curve && point.label == problem.curve->of) event = point;
+        if (problem.landscape) path_of_landscape.take(point);
         add(point, last, lowest ? lowest->at(point.state) : std::vector<double>{});
       },
       .modes = [&](const PathPoint& point, const std::vector<Mode>& modes) {
@@ -185,6 +187,12 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   try {
     if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
     if (problem.curve && outcome.status == Status::converged) outcome = follow_curve();
+    if (problem.landscape && outcome.status == Status::converged) {
+      teller.begin("the landscape");
+      outcome = trace_landscape(problem, model, path_of_landscape, results,
+                                [&](const std::string& line) { teller.log(line), teller.moved(line, problem.path.to); },
+                                [&](const std::string& warning) { teller.warn(warning); });
+    }
     if (outcome.status == Status::interrupted) checkpoints.stop();
     else if (results.has_film()) checkpoints.end(carry);
     teller.finish();
@@ -212,18 +220,18 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   }
 
   const Record& record = results.record();
-  SingleResult result{outcome.status, outcome.why, record.path(), record.events(), results.curve(), record.columns(), std::move(found), summary.zero_modes,
-                      summary.warnings, {}};
-  result.verdicts = check_expectations(problem, result.path, result.events, result.curve);
+  SingleResult result{outcome.status, outcome.why, record.path(), record.events(), results.curve(), results.landscape(), record.columns(),
+                      std::move(found), summary.zero_modes, summary.warnings, {}};
+  result.verdicts = check_expectations(problem, result.path, result.events, result.curve, result.landscape);
   return result;
 }
 
 SingleResult stored_result(const Problem& problem, const std::string& directory) {
   StoredRun run = read_run(directory);
   const bool done = run.summary->status == status_name(Status::converged);
-  SingleResult result{done ? Status::converged : Status::not_converged, run.summary->message, std::move(run.path), std::move(run.events), std::move(run.curve), {}, {},
-                      run.summary->zero_modes, run.summary->warnings, {}};
-  result.verdicts = check_expectations(problem, result.path, result.events, result.curve);
+  SingleResult result{done ? Status::converged : Status::not_converged, run.summary->message, std::move(run.path), std::move(run.events),
+                      std::move(run.curve), std::move(run.landscape), {}, {}, run.summary->zero_modes, run.summary->warnings, {}};
+  result.verdicts = check_expectations(problem, result.path, result.events, result.curve, result.landscape);
   return result;
 }
 

@@ -8,13 +8,14 @@
 #include "solve/report.hpp"
 #include "study/checkpoint.hpp"
 #include "study/curve.hpp"
+#include "study/landscape.hpp"
 
 namespace elamin {
 
 struct [[nodiscard]] SingleResult {
   Status status = Status::converged;
   std::string why;
-  Table path, events, curve;
+  Table path, events, curve, landscape;
   std::vector<std::string> observables;    // their columns in path
   std::vector<Mode> modes;                 // of a study of modes
   std::vector<std::string> zero_modes;     // of the last equilibrium, by name

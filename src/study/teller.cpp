@@ -19,7 +19,7 @@ bool steady(const Problem& problem) {
 }
 
 std::string first_of(StudyType study) {
-  return study == StudyType::path ? "the first equilibrium" : study == StudyType::modes ? "the modes" : "the equilibrium";
+  return study == StudyType::path || study == StudyType::landscape ? "the first equilibrium" : study == StudyType::modes ? "the modes" : "the equilibrium";
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ void Teller::enter(const Stage& stage) {
 void Teller::found(const PathPoint& point, const std::vector<Touch>& touches) {
   const auto closed = std::count_if(touches.begin(), touches.end(), [](const Touch& t) { return t.bears || t.gap < 0; });
   const std::lock_guard lock(mutex_);
-  if (problem_.study == StudyType::path) progress_.show(point, static_cast<int>(closed));
+  if (problem_.follows_path()) progress_.show(point, static_cast<int>(closed));
   after_ = fmt::format("what comes after step {}, load factor {:.7g},", point.step, point.state.load_factor);
   since_point_ = since_line_ = Stopwatch();
 }
@@ -56,6 +56,11 @@ void Teller::found(const PathPoint& point, const std::vector<Touch>& touches) {
 void Teller::moved(const std::string& line, double step) {
   const std::lock_guard lock(mutex_);
   progress_.show(line, step);
+}
+
+void Teller::begin(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  after_ = what, since_point_ = since_line_ = Stopwatch();
 }
 
 void Teller::finish() {

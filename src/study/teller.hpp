@@ -26,6 +26,8 @@ class Teller {
   void enter(const Stage& stage);
   void found(const PathPoint& point, const std::vector<Touch>& touches);
   void moved(const std::string& line, double step);
+  /// What comes behind the path: "the landscape".
+  void begin(const std::string& what);
   /// Takes the overwritten line away; then nothing is told but to the log.
   void finish();
 

@@ -91,7 +91,7 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
 }  // namespace
 
 double starting_load_factor(const Problem& problem) {
-  return problem.path.start_lambda.value_or(problem.study == StudyType::path ? problem.path.from : 1.0);
+  return problem.path.start_lambda.value_or(problem.follows_path() ? problem.path.from : 1.0);
 }
 
 std::string not_finite(const Energy& energy, const State& state) {
@@ -106,7 +106,7 @@ State starting_state(const Problem& problem, const Energy& energy) {
 }
 
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped) {
-  if (problem.study == StudyType::path) return trace_path(problem, model, stored, sink, stopped);
+  if (problem.follows_path()) return trace_path(problem, model, stored, sink, stopped);
   if (problem.in_time()) return trace_dynamics(problem, model, sink, stopped);
   Energy energy(model);
   Stage whole;

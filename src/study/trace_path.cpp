@@ -5,6 +5,7 @@
 #include "model/entities.hpp"
 #include "path/carry.hpp"
 #include "path/path.hpp"
+#include "study/landscape.hpp"
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ namespace {
 // Load factors that the file names, and those that its expectations are about.
 std::vector<double> stops_of(const Problem& problem) {
   std::vector<double> stops = problem.path.stops.value_or(std::vector<double>{});
+  for (const double at : landscape_load_factors(problem)) stops.push_back(at);
   for (const ExpectTable& e : problem.expect)
     if (const auto lambda = load_factor_of(e.at)) stops.push_back(*lambda);
   return stops;

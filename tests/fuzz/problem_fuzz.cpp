@@ -170,7 +170,7 @@ class Inputs {
     const Stopwatch watch;
     const std::function<bool()> enough = [&] { return watch.seconds() > moment; };
     stop_asked = &enough;
-    const SingleResult result = run_single(runs.runs.front().problem, runs.runs.front().model, {.directory = scratch_ / "run", .force = true});
+    const SingleResult result = run_single(runs.runs.front().problem, runs.runs.front().model, {.directory = scratch_ / "run", .force = true, .models = runs.runs.front().models});
     stop_asked = nullptr;
     for (const Row& row : result.path.rows)
       for (std::size_t c = 0; c < row.size(); ++c)

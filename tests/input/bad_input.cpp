@@ -173,8 +173,8 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK(
       said("", "1") ==
       "--set: \"\": \"\" is no key; allowed: title, plane, constants, lammps, beam, loop, sheet, grains, body, group, connect, bonds, angles, remove, glue, "
-      "imperfection, support, load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, curve, refine, modes, solver, dynamics, "
-      "and 5 more");
+      "imperfection, support, load, gravity, pressure, change, contact, wall, viscosity, velocity, study, path, curve, refine, landscape, modes, "
+      "solver, and 6 more");
   CHECK(said("path.parameter", "1") == "--set: path.parameter: must be a string or a list of strings, is 1");
   CHECK(said("path.parameter", "support.9") ==
         "--set: path.parameter: \"support.9\" names no table that a load factor scales; there are: support.1, support.2; "

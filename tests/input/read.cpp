@@ -97,7 +97,7 @@ TEST_CASE("The hash is SHA-256 of the bytes") {
 
 TEST_CASE("The resolved problem reads back to the same problem") {
   for (const char* name : {"column.toml", "everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "staged.toml", "dynamics.toml", "bodies.toml",
-                           "falling.toml", "observed.toml", "constants.toml", "shapes.toml", "shapes_random.toml", "shapes_state.toml"}) {
+                           "falling.toml", "observed.toml", "landscape.toml", "constants.toml", "shapes.toml", "shapes_random.toml", "shapes_state.toml"}) {
     const Problem p = read_problem(good + name);
     INFO(resolved_toml(p));
     CHECK(again(p) == p);
@@ -144,7 +144,7 @@ TEST_CASE("The resolved problems hold every key") {
   const ScratchDirectory scratch;
   std::vector<Node> roots;
   for (const char* name : {"everything.toml", "structures.toml", "beams.toml", "path.toml", "stages.toml", "staged.toml", "dynamics.toml", "bodies.toml",
-                           "falling.toml", "observed.toml", "constants.toml", "refined.toml", "shapes.toml", "shapes_random.toml", "shapes_state.toml"})
+                           "falling.toml", "observed.toml", "landscape.toml", "constants.toml", "refined.toml", "shapes.toml", "shapes_random.toml", "shapes_state.toml"})
     roots.push_back({{}, read_document(scratch.file("r.toml", resolved_toml(read_problem(good + name)))).root});
   // A key is there if one of the tables of its name has it.
   const auto has = [](const auto& self, const Node& node, const std::string& key) -> bool {

@@ -137,6 +137,11 @@ TEST_CASE("stages go on with the same bits", "[resume]") {
   compare_stopped(example("arch_buckled"), 4);
 }
 
+TEST_CASE("a landscape that is stopped is explored anew, with the same bits", "[resume][landscape]") {
+  compare_stopped(example("truss_landscape"), 5);
+  compare_stopped(example("column_landscape"), 3);
+}
+
 TEST_CASE("motions go on with the same bits: grains, bodies, friction, films", "[resume]") {
   compare_stopped(example("grain_bounces"), 4);
   compare_stopped(example("cube_dropped"), 4);

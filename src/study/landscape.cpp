@@ -1,0 +1,95 @@
+#include "study/landscape.hpp"
+
+#include "core/interrupt.hpp"
+#include "energy/hard_gaps.hpp"
+#include "model/carry.hpp"
+#include "results/columns.hpp"
+#include "results/landscape.hpp"
+#include "results/stored_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace elamin {
+namespace {
+
+/// Load factors that are one.
+bool same_load(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+}  // namespace
+
+std::vector<double> landscape_load_factors(const Problem& problem) {
+  return problem.landscape ? problem.landscape->at.value_or(std::vector{problem.path.to}) : std::vector<double>{};
+}
+
+void PathOfLandscape::take(const PathPoint& point) {
+  for (const double at : at_)
+    if (same_load(point.state.load_factor, at)) known_.push_back(point.state), known_.back().load_factor = at;
+  for (const char* kind : {"limit:", "branch:", "contact:"})
+    if (point.label.starts_with(kind)) events_.push_back({point.label, point.state.load_factor});
+}
+
+void PathOfLandscape::carry(Archive& archive) {
+  std::vector<std::string> labels;
+  std::vector<double> loads;
+  for (const PathEvent& e : events_) labels.push_back(e.label), loads.push_back(e.load_factor);
+  archive(known_, labels, loads);
+  if (!archive.reads()) return;
+  events_.clear();
+  for (std::size_t k = 0; k < labels.size(); ++k) events_.push_back({labels[k], loads[k]});
+}
+
+Outcome trace_landscape(const Problem& problem, const Model& model, const PathOfLandscape& path, RunDirectory& results,
+                        const std::function<void(const std::string&)>& tell, const std::function<void(const std::string&)>& warn) {
+  const LandscapeTable& t = *problem.landscape;
+  if (any_hard(model)) return {Status::not_converged, "landscapes with hard contacts are not explored; give the contacts a stiffness"};
+  const std::vector<double> load_factors = landscape_load_factors(problem);
+  std::vector<State> known = path.known();
+  if (!t.run.empty())
+    for (const StoredState& s : read_run(t.run).states) {
+      State state = read_state(s, model);
+      for (const double at : load_factors)
+        if (same_load(state.load_factor, at)) state.load_factor = at, known.push_back(state);
+    }
+  Energy energy(model);
+  Newton newton(energy, solver_options(problem));
+  const LandscapeOptions options{t.modes, t.starts, t.deflate, static_cast<unsigned>(t.seed), t.most, t.strings};
+  const Landscapes all = explore(newton, known, path.events(), load_factors, options, tell);
+  if (interrupted()) return {Status::interrupted, "interrupted before the landscape was whole; elamin resume begins it anew"};
+  for (const std::string& note : all.notes) warn(note);
+
+  const Observables observables(problem, model);
+  const auto observe = [&](const PathPoint& p) {
+    energy.evaluate(p.state);
+    std::vector<double> values = observables.evaluate(p.state, energy.forces(p.state), observed_touches(energy, p.state, observables));
+    for (const auto& own : p.energy.own) values.push_back(own.second);
+    return values;
+  };
+  const auto called = [&](const Landscape& l, const NodeImage& i) {
+    const std::string label = l.node(i).label + (i.image > 0 ? fmt::format("-image-{}", i.image + 1) : "");
+    return load_factors.size() == 1 ? label : fmt::format("{}@{}", label, l.load_factor);
+  };
+  for (const Landscape& l : all.at)
+    for (const NodeImage& i : l.images(-1)) {
+      const PathPoint& p = l.at(i).point;
+      energy.evaluate(p.state);
+      const std::vector<Touch> touches = observed_touches(energy, p.state, observables);
+      results.add_state(called(l, i), p, touches);
+      results.add_fields(called(l, i), model, p.state, fields_at(energy, p.state, touches));
+    }
+  const auto file = [&](const Landscape& l, const NodeImage& i) {
+    return std::filesystem::relative(results.state_file(called(l, i)), results.directory()).string();
+  };
+  results.set_landscape(landscape_table(all, results.record().columns(), observe), landscape_json(all, file));
+  for (const Landscape& l : all.at)
+    if (l.nodes.empty())
+      return {Status::not_converged, fmt::format("load factor {:.10g}: no equilibrium is known that a landscape could begin with; choose one that "
+                                                 "the path meets", l.load_factor)};
+  const Landscape& last = all.at.back();
+  return {Status::converged, fmt::format("minima {}, saddles {} at load factor {:.10g}", last.minima(), last.saddles(), last.load_factor)};
+}
+
+}  // namespace elamin
