@@ -31,11 +31,11 @@ std::string collapsed(const Model& model, const State& state) {
 }  // namespace
 
 Continuation::Continuation(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
-    : Path(newton.factors(), numbering), newton_(newton), options_(std::move(options)), start_(start) {}
+    : Path(numbering), newton_(newton), options_(std::move(options)), start_(start) {}
 
 Continuation::Continuation(Newton& newton, SideBranch side, std::string parent, const std::vector<Event>& known, Metric metric,
                            PathOptions options, Numbering* numbering)
-    : Path(newton.factors(), numbering), newton_(newton), options_(std::move(options)), side_(std::move(side)), known_(known), metric_(metric) {
+    : Path(numbering), newton_(newton), options_(std::move(options)), side_(std::move(side)), known_(known), metric_(metric) {
   options_.method = PathMethod::arc_length;
   parent_ = std::move(parent);
 }

@@ -99,7 +99,7 @@ std::vector<State> brought_to(Newton& newton, const std::vector<State>& states, 
 }  // namespace
 
 std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states, const PathOptions& options,
-                               std::vector<std::string>& notes, std::string& lower) {
+                               std::vector<std::string>& notes) {
   Energy& energy = newton.energy();
   std::vector<PathPoint> found;
   std::vector<double> at = options.deflate_at;
@@ -117,10 +117,6 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
       notes.push_back(fmt::format("deflation: no equilibrium is known at load factor {:.10g}", load_factor));
       continue;
     }
-    EnergyTerms lowest = energy.terms(deflation.known().front());
-    for (const State& s : deflation.known())
-      if (const EnergyTerms there = energy.terms(s); there.total() < lowest.total()) lowest = there;
-    const double of_branches = lowest.total();
     int count = 0;
     for (std::size_t k = 0; k < deflation.known().size() && count < options.deflate; ++k) {
       const State base = deflation.known()[k];
@@ -139,12 +135,6 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
           ++count;
           e->point.label = fmt::format("deflated:{}", ++number);
           e->point.what = "found by deflation";
-          const EnergyTerms there = e->point.energy;
-          if (e->point.stability.stable && there.total() < lowest.total() - equilibrium::energy_rounding * std::max(there.size(), lowest.size())) {
-            lower = fmt::format("a lower minimum is known at load factor {:.10g}: {}, energy {:.10g}, where the branches have {:.10g} at least", load_factor,
-                                e->point.label, there.total(), of_branches);
-            lowest = there;
-          }
           found.push_back(std::move(e->point));
         }
     }

@@ -12,8 +12,7 @@ namespace elamin {
 /// which does not vanish at the equilibria xᵢ known so far, begun at all known states that are brought to the load factor
 /// and at these moved along their lowest modes. ρ: the largest distance of the known ones, or a tenth of the extent.
 /// They are labelled deflated:1, …  Source: Farrell, Birkisson, Funke 2015, SIAM J. Sci. Comput. 37.
-/// `lower`: a sentence where one of them is a minimum and has less energy than all that the branches know at its load factor; else as it was.
 std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& known, const PathOptions& options,
-                               std::vector<std::string>& notes, std::string& lower);
+                               std::vector<std::string>& notes);
 
 }  // namespace elamin

@@ -17,7 +17,7 @@ namespace {
 /// asked for have been switched at; then the equilibria that deflation finds.
 class Diagram final : public Path {
  public:
-  Diagram(Newton& newton, const State& start, const PathOptions& options) : Path(newton.factors()), newton_(newton), options_(options) {
+  Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options) {
     if (any_hard(newton.energy().model())) {
       now_ = std::make_unique<HardContactSteps>(newton, start, options, &numbering());
       if (options.branches > 0 || options.deflate > 0 || options.method == PathMethod::arc_length)
@@ -108,14 +108,12 @@ class Diagram final : public Path {
     if (options_.deflate == 0 || deflated_) return end(worst_, why_);
     deflated_ = true;
     std::vector<std::string> sentences;
-    std::string lower;
     parent_.clear();
-    for (PathPoint& point : deflate(newton_, points_, options_, sentences, lower)) {
+    for (PathPoint& point : deflate(newton_, points_, options_, sentences)) {
       branch_ = ++numbering().branches;
       emit(std::move(point));
     }
     for (std::string& sentence : sentences) note(std::move(sentence));
-    if (!lower.empty()) why_ += "; " + lower;
   }
 
   Newton& newton_;

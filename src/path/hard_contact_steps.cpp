@@ -51,7 +51,7 @@ std::string told(const Model& model, const HardForce& h, bool made) {
 }  // namespace
 
 HardContactSteps::HardContactSteps(Newton& newton, const State& start, PathOptions options, Numbering* numbering)
-    : Path(newton.factors(), numbering), newton_(newton), equilibrium_(newton.energy()), options_(std::move(options)), start_(start),
+    : Path(numbering), newton_(newton), equilibrium_(newton.energy()), options_(std::move(options)), start_(start),
       targets_(load_targets(options_)) {}
 
 void HardContactSteps::carry(Archive& archive) {

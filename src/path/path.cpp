@@ -17,8 +17,8 @@ std::optional<PathPoint> Path::next() {
 }
 
 void carry(Archive& archive, Numbering& x) {
-  auto& [steps, branches, limits, branch_points, contacts, jumps, factorizations, refused, user_events] = x;
-  archive(steps, branches, limits, branch_points, contacts, jumps, factorizations, refused, user_events);
+  auto& [steps, branches, limits, branch_points, contacts, jumps, user_events] = x;
+  archive(steps, branches, limits, branch_points, contacts, jumps, user_events);
 }
 
 void Path::carry(Archive& archive) {
@@ -27,18 +27,10 @@ void Path::carry(Archive& archive) {
 
 void Path::end(Status status, std::string why) { ended_ = true, status_ = status, why_ = std::move(why); }
 
-void Path::charge(PathPoint& point) {
-  const int all = factors_.factorizations() - std::exchange(numbering_.factorizations, factors_.factorizations());
-  const Cost before = std::exchange(numbering_.refused, factors_.refused());
-  const Cost refused{numbering_.refused.count - before.count, numbering_.refused.factorizations - before.factorizations};
-  point.refused.add(refused), point.factorizations += all - refused.factorizations;
-}
-
 void Path::emit(PathPoint point) {
   point.step = numbering_.steps++;
   point.branch = branch_;
   point.parent = parent_;
-  charge(point);
   ready_.push_back(std::move(point));
 }
 

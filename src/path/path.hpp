@@ -3,7 +3,6 @@
 #include "core/archive.hpp"
 #include "path/event.hpp"
 #include "path/options.hpp"
-#include "solve/factors.hpp"
 
 #include <deque>
 #include <map>
@@ -15,8 +14,6 @@ namespace elamin {
 /// Numbers that run through all branches of a diagram.
 struct Numbering {
   int steps = 0, branches = 0, limits = 0, branch_points = 0, contacts = 0, jumps = 0;
-  int factorizations = 0;              // that points have been charged with …
-  Cost refused;                        // … and those of steps that were refused
   std::map<std::string, int> user_events;
 };
 
@@ -25,7 +22,7 @@ struct Numbering {
 ///   path->status(), path->why()
 class Path {
  public:
-  explicit Path(const Factors& factors, Numbering* shared = nullptr) : factors_(factors), numbering_(shared ? *shared : own_) {}
+  explicit Path(Numbering* shared = nullptr) : numbering_(shared ? *shared : own_) {}
   virtual ~Path() = default;
   Path(const Path&) = delete;
   Path& operator=(const Path&) = delete;
@@ -36,8 +33,6 @@ class Path {
   const std::string& why() const { return why_; }
   /// What happened besides, one sentence each, for the log; emptied by the call.
   std::vector<std::string> notes() { return std::exchange(notes_, {}); }
-  /// Charges a point with what has been factorised since the last one was found.
-  void charge(PathPoint& point);
   /// Branch points found so far, for who wants to switch at them.
   const std::vector<Event>& branch_points() const { return branch_points_; }
 
@@ -63,7 +58,6 @@ class Path {
   std::string parent_;                 // … and where it comes from
 
  private:
-  const Factors& factors_;
   Numbering own_;
   Numbering& numbering_;
   bool ended_ = false;

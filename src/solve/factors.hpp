@@ -35,7 +35,7 @@ class Factors {
   /// `soft`: the modes that it had to resolve, for factorize_resolving().
   void expect(bool indefinite, const Eigen::MatrixXd& soft) { indefinite_ = indefinite, soft_ = soft; }
   const Eigen::MatrixXd& soft() const { return soft_; }
-  void carry(Archive& archive) { archive(indefinite_, soft_, factorizations_, refused_); }
+  void carry(Archive& archive) { archive(indefinite_, soft_); }
   /// Factorises H + τI with the smallest τ ≥ 0 of a short list (none, σ, then growing from a guess) that makes
   /// it positive definite; returns τ.  The factor is then in cholesky(). None where there is no such thing: see why_none().
   [[nodiscard]] std::optional<double> make_positive(double guess);
