@@ -101,7 +101,6 @@ std::optional<Waypoint> ArcSteps::next() {
   step_ = std::min(step_, longest());
   const auto patient = [&] { return options_.patience == 0 || refused_ < options_.patience; };
   for (double s = step_; s >= shortest_ && patient() && !interrupted();) {
-    const int before = newton_.factors().factorizations();
     double better = 0;
     std::optional<Candidate> c;
     if (!current_.slack) c = attempt(s, direction_, false, shifts, better, why);
@@ -121,7 +120,7 @@ std::optional<Waypoint> ArcSteps::next() {
       step_ = s;
       return accept(std::move(*c));
     }
-    ++refused_, newton_.factors().refuse(before);
+    ++refused_;
     if (better > 0) s = better;
     else s /= ++refused > arc_steps::halvings_at_first ? 4 : 2;
   }

@@ -27,10 +27,8 @@ inline void carry(Archive& archive, Resume& x) {
   archive(label, before, after, modes, tangent, direction, load, length, step, shortest, closed, closed_bodies);
 }
 inline void carry(Archive& archive, PathPoint& x) {
-  auto& [step, label, branch, parent, state, energy, report, stability, multiplicity, negative_before, negative_after, modes, load_error, what, resume, factorizations,
-         refused] = x;
-  archive(step, label, branch, parent, state, energy, report, stability, multiplicity, negative_before, negative_after, modes, load_error, what, resume, factorizations,
-          refused);
+  auto& [step, label, branch, parent, state, energy, report, stability, multiplicity, negative_before, negative_after, modes, load_error, what, resume] = x;
+  archive(step, label, branch, parent, state, energy, report, stability, multiplicity, negative_before, negative_after, modes, load_error, what, resume);
 }
 inline void carry(Archive& archive, EigenPairs& x) {
   auto& [values, vectors] = x;

@@ -53,9 +53,7 @@ std::optional<Waypoint> LoadSteps::next() {
     if (detour_) {
       if (std::optional<Waypoint> w = on_detour()) return w;
     } else {
-      const int before = newton_.factors().factorizations();
       if (std::optional<Candidate> c = reach(grid_.next(), why)) return accept(std::move(*c));
-      newton_.factors().refuse(before);
       if (std::optional<Candidate> c = meet(grid_.next())) return accept(std::move(*c));
       const bool caught = (current_.pushed || current_.point.state.load_factor == met_) && way_is_free(grid_.next());
       patience_.refused += caught ? load_steps::caught : contacts_ ? 0 : 1;

@@ -54,8 +54,6 @@ struct PathPoint {
   double load_error = std::numeric_limits<double>::quiet_NaN();   // of its load factor by rounding, see path/event_error.hpp
   std::string what;                       // one phrase: who touches whom, where a jump lands
   std::optional<Resume> resume;           // where the state alone does not tell how the path goes on
-  int factorizations = 0;                 // of the Hessian, since the point before was told …
-  Cost refused;                           // … but for those of steps that were refused
 };
 
 }  // namespace elamin

@@ -89,10 +89,6 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
                     {"directions", c->directions}};
     if (!c->passed) all["check"]["what"] = c->what;
   }
-  if (const Effort& e = summary.effort; e.points.count > 0) {
-    const auto told = [](const Cost& c) -> Json { return {{"count", c.count}, {"factorizations", c.factorizations}}; };
-    all["effort"] = {{"points", told(e.points)}, {"events", told(e.events)}, {"snaps", told(e.snaps)}, {"refused", told(e.refused)}};
-  }
   if (summary.resumed > 0) all["resumed"] = summary.resumed;
   if (summary.imperfection > 0) all["imperfection"] = {{"max_displacement", json_of(summary.imperfection)}};
   write_to_disk(file, text_of(all));

@@ -20,12 +20,6 @@ struct EndCheck {
   void carry(Archive& archive) { archive(passed, what, residual, energy_error, directions); }
 };
 
-/// What a path took, by what it has told and by what led nowhere.
-struct Effort {
-  Cost points, events, snaps, refused;                         // points: what has no label of an event; refused: steps
-  void carry(Archive& archive) { archive(points, events, snaps, refused); }
-};
-
 struct Summary {
   std::string title, status, message;                          // status: see status_name
   std::string input, input_sha256;                             // the problem file, and the hash of its bytes
@@ -35,7 +29,6 @@ struct Summary {
   double imperfection = 0;                                     // how far a particle was moved at most before all [length]; 0: none was
   int resumed = 0;                                             // how often the run was stopped and went on
   std::optional<EndCheck> check = {};                          // of equilibria
-  Effort effort = {};                                          // of a path
   std::vector<std::string> warnings = {};                      // what is doubtful about the model or the result, a sentence each
 };
 
@@ -52,7 +45,7 @@ void write_broken_off(const std::string& file, const std::string& title, const s
 std::string version();
 
 /// Writes status, message, warnings, points, events (rows as objects), final (all columns of the last row, or null), times,
-/// version, input_sha256, tolerances, of a path its effort, where there is one the imperfection, and of a curve its points and, as objects, the rows that have a label. Numbers that are not finite become null. Throws OutputError if it cannot be
+/// version, input_sha256, tolerances, where there is one the imperfection, and of a curve its points and, as objects, the rows that have a label. Numbers that are not finite become null. Throws OutputError if it cannot be
 /// written.
 void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events, const Table& curve = {});
 

@@ -4,7 +4,6 @@
 #include "energy/energy.hpp"
 #include "solve/cholesky.hpp"
 #include "solve/pivoted.hpp"
-#include "solve/report.hpp"
 #include "solve/shifts.hpp"
 
 #include <optional>
@@ -83,9 +82,6 @@ class Factors {
   Cholesky& cholesky() { return cholesky_.factor; }
   PivotedFactor& pivoted() { return pivoted_.factor; }
   int factorizations() const { return factorizations_; }
-  /// What led nowhere so far, and that it was one more: all that was factorised since there were `before`.
-  const Cost& refused() const { return refused_; }
-  void refuse(int before) { refused_.add(factorizations_ - before); }
   /// Time spent in analyses, factorisations and solves so far.
   double seconds() const {
     return cholesky_.factor.seconds() + pivoted_.factor.seconds() + bordered_.factor.seconds() + beside_.factor.seconds();
@@ -114,7 +110,6 @@ class Factors {
   Analysed<Cholesky> cholesky_;
   Analysed<PivotedFactor> pivoted_, bordered_, beside_;
   int factorizations_ = 0;
-  Cost refused_;
   struct Near {                                  // of the last inertia that needed it, as in inertia.cpp
     Eigen::MatrixXd x, w, r, t;                  // X, H⊥⁻¹R, R, T
     Vector error;                                // of the eigenvalues of T by rounding

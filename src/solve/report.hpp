@@ -1,7 +1,5 @@
 #pragma once
 // What a solver answers: not converging is a result, not an exception.
-#include "core/archive.hpp"
-
 #include <string>
 #include <vector>
 
@@ -15,14 +13,6 @@ struct Iteration {
   double residual = 0;      // largest force on a free dof / largest internal force
   double step = 0;          // largest movement of a dof [length]
   double shift = 0;         // added to the Hessian's diagonal to make it positive definite [force/length]
-};
-
-/// What was done so often, and the factorisations of the Hessian that it took.
-struct Cost {
-  int count = 0, factorizations = 0;
-  void add(int spent) { ++count, factorizations += spent; }
-  void add(const Cost& more) { count += more.count, factorizations += more.factorizations; }
-  void carry(Archive& archive) { archive(count, factorizations); }
 };
 
 struct Report {

@@ -40,12 +40,6 @@ void carry_results(Archive& archive, RunDirectory& results) {
   archive(bytes);
 }
 
-void count(const PathPoint& p, Effort& effort) {
-  Cost& found = p.label.starts_with("jump:") ? effort.snaps : p.label.find(':') == std::string::npos ? effort.points : effort.events;
-  found.add(p.factorizations);
-  effort.refused.add(p.refused);
-}
-
 std::vector<Field> null_vectors(const PathPoint& p, const Kinematics& kinematics) {
   std::vector<Field> vectors;
   for (Eigen::Index k = 0; k < p.modes.cols(); ++k) vectors.push_back(kinematics.extend(p.modes.col(k), p.state));
@@ -98,7 +92,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     if (!a.reads() && lowest) own(*lowest);
     std::string eigenvalues = own.bytes();
     if (!a.reads()) carry_results(a, results);                 // which have been read as they were made
-    a(path_of_landscape, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check, summary.effort);
+    a(path_of_landscape, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check);
     if (a.reads()) before = seconds, of_lowest = std::move(eigenvalues);
   };
   if (stopped) carry(archive);
@@ -155,7 +149,6 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
         if (problem.curve && point.label == problem.curve->of) event = point;
         if (problem.landscape) path_of_landscape.take(point);
         add(point, last, lowest ? lowest->at(point.state) : std::vector<double>{});
-        if (problem.study == StudyType::path) count(point, summary.effort);
       },
       .modes = [&](const PathPoint& point, const std::vector<Mode>& modes) {
         std::vector<double> eigenvalues;

@@ -16,7 +16,6 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <utility>
 
 namespace elamin {
 
@@ -53,21 +52,6 @@ struct Run {
     path = make_path(newton, start, options);
   }
 
-  std::optional<PathPoint> next() {
-    const int before = newton.factors().factorizations();
-    std::optional<PathPoint> point = path->next();
-    if (!point) return point;
-    point->refused = newly_refused();
-    point->factorizations = newton.factors().factorizations() - before - point->refused.factorizations;
-    return point;
-  }
-
-  // Since this was asked last.
-  Cost newly_refused() {
-    const Cost before = std::exchange(refused, newton.factors().refused());
-    return {refused.count - before.count, refused.factorizations - before.factorizations};
-  }
-
   // Whether this is the path that the state is of: the same load factor, that scales the same and goes the same way, and the
   // same free coordinates.
   bool goes_on(const StateSupplement& stored, const Problem& problem) const {
@@ -86,7 +70,6 @@ struct Run {
   Energy energy;
   Newton newton;
   std::unique_ptr<Path> path;
-  Cost refused;
 };
 
 // Numbers of steps, branches and labels that go on from stage to stage.
@@ -221,7 +204,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     const auto carry = [&](Archive& archive) { archive(numbers, held, headway, *run->path, run->energy, run->newton.factors()); };
     if (here) sink.stage(run->stage, run->energy), carry(*stopped);
     const auto enough = [&] { return held && sink.enough && sink.enough(*held); };
-    while (std::optional<PathPoint> point = broken.empty() && !enough() ? run->next() : std::nullopt) {
+    while (std::optional<PathPoint> point = broken.empty() && !enough() ? run->path->next() : std::nullopt) {
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
         break;
@@ -239,7 +222,6 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       // What is found while it is to stop need not be what would be found otherwise.
       if (sink.checkpoint && broken.empty() && !interrupted()) sink.checkpoint([&](Archive& archive) { archive(starts), carry(archive); });
     }
-    if (begun) held->refused.add(run->newly_refused());
     outcome = {run->path->status(), run->path->why()};
     if (enough()) outcome = {Status::converged, "the path ends at " + held->label};
     if (!broken.empty()) outcome = {Status::not_converged, broken};

@@ -721,19 +721,6 @@ TEST_CASE("no step goes over a limit point to another branch", "[paths][truss_th
   }
 }
 
-TEST_CASE("a path tells what its points, events, snaps and refused steps took", "[paths][truss_there_and_back]") {
-  const Run run("truss_there_and_back", {in_steps(17)});
-  REQUIRE(run.summary.contains("effort"));
-  const auto count = [&](const char* what) { return run.summary["effort"][what]["count"].get<std::size_t>(); };
-  const auto taken = [&](const char* what) { return run.summary["effort"][what]["factorizations"].get<std::size_t>(); };
-  const std::size_t snaps = run.of("jump").size(), events = run.events.size() - snaps, points = run.path.size() - run.events.size();
-  CHECK(count("snaps") == snaps);
-  CHECK(count("events") == events);
-  CHECK(count("points") == points);
-  CHECK(count("refused") >= run.of("limit").size());            // each by a step of the load factor beyond it
-  for (const char* what : {"points", "events", "snaps", "refused"}) CHECK(taken(what) >= count(what));      // one at least, of its inertia or its corrector
-}
-
 // Where a contact has just been made its gap vanishes, too: that is not where it is lost.
 TEST_CASE("a contact is not lost where it was made", "[paths][two_beams_stiff]") {
   const Run first("two_beams_stiff", {in_steps(40), by_load_steps});
