@@ -151,8 +151,7 @@ class Explorer {
     PathOptions asked;
     asked.to = found_.load_factor, asked.deflate = options_.deflate;
     std::vector<std::string> told;
-    std::string lower;                                          // which the landscape tells itself
-    for (const PathPoint& p : deflate(newton_, known, asked, told, lower)) add(assess(newton_, p.state, p.report));
+    for (const PathPoint& p : deflate(newton_, known, asked, told)) add(assess(newton_, p.state, p.report));
     grow();
   }
 
