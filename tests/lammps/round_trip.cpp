@@ -31,6 +31,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> refusals{
     {"what is added or taken away as it begins",
      {"problems/studies/middle_glued", "problems/studies/on_top_cohesive", "problems/studies/on_top_glued", "tests/input/good/staged",
       "tests/input/good/staged_body"}},
+    {"is not the directory of a run", {"tests/input/good/landscape"}},
     {"imperfection",
      {"tests/input/good/shapes", "tests/input/good/shapes_state"}}};
 

@@ -16,7 +16,7 @@ class StageWalk {
   explicit StageWalk(const Problem& problem) : problem_(problem), stages_(problem), all_(model_of(problem)) {
     Energy whole(all_);
     now_ = State(starting_state(problem, whole).position);
-    path_ = problem.study == StudyType::path;
+    path_ = problem.follows_path();
   }
   int count() const { return path_ ? stages_.count() : 1; }
   void enter() {
