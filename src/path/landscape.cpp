@@ -63,7 +63,7 @@ std::vector<Reflection> reflections_of(const Model& model) {
   if (!model.bodies.empty() || model.particles() == 0) return all;
   const Field& x = model.start.position;
   const Vec3 middle = (x.rowwise().minCoeff() + x.rowwise().maxCoeff()) / 2;
-  const double close = 1e-9 * span(model);
+  const double close = landscape::same_rest * span(model);
   std::vector<int> order(static_cast<std::size_t>(x.cols()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return x(0, a) < x(0, b); });
@@ -298,7 +298,7 @@ Followed follow(Newton& newton, const Equilibrium& from, double to) {
   Followed f{from, {}};
   for (double step = landscape::first_part * way; f.at->point.state.load_factor != to && !interrupted();) {
     const double here = f.at->point.state.load_factor, left = to - here;
-    const bool last = std::abs(step) >= (1 - 1e-12) * std::abs(left);
+    const bool last = std::abs(step) >= (1 - landscape::same_load) * std::abs(left);
     Equilibrium next = continue_to(newton, *f.at, last ? to : here + step);
     const int before = f.at->point.stability.negative, after = next.point.report.converged() ? next.point.stability.negative : -1;
     if (after != before && std::abs(step) / 2 > least) {

@@ -1,5 +1,6 @@
 #pragma once
 // Equilibria at given load factors: minima, saddles, which minima a saddle joins, and what becomes of them from one load factor to the next.
+#include "core/archive.hpp"
 #include "path/equilibrium.hpp"
 #include "path/landscape_options.hpp"
 
@@ -54,7 +55,11 @@ struct LandscapeChange {
 };
 
 /// An event of a path.
-struct PathEvent { std::string label; double load_factor; };
+struct PathEvent {
+  std::string label;
+  double load_factor = 0;
+  void carry(Archive& archive) { archive(label, load_factor); }
+};
 
 struct Landscapes {
   std::vector<Landscape> at;

@@ -189,6 +189,8 @@ constexpr double even = 1e-2;  // the largest step of a line that is at rest: wa
 /// Equilibria at one load factor.
 namespace landscape {
 constexpr double same_place = 1e-8;  // of the span, for each dof, beside what rounding leaves: states that are one
+constexpr double same_rest = 1e-9;  // of the span: places at rest that a reflection takes to each other
+constexpr double same_load = 1e-12;  // of the load factor: the path's and the landscape's, as far as sums round
 constexpr double same_energy = 1e-10;  // of the sum of its terms' sizes: images by symmetry, to which reflections come by rounding; …
 constexpr double same_stiffness = 1e-6, same_distance = 1e-7;  // … of the stiffest of the soft modes, of the span
 constexpr int spectrum = 4;  // soft modes that are compared

@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "energy/hard_gaps.hpp"
 #include "model/carry.hpp"
+#include "path/limits.hpp"
 #include "results/columns.hpp"
 #include "results/landscape.hpp"
 #include "results/stored_run.hpp"
@@ -16,8 +17,7 @@
 namespace elamin {
 namespace {
 
-/// Load factors that are one.
-bool same_load(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+bool same_load(double a, double b) { return std::abs(a - b) <= limits::landscape::same_load * std::max(std::abs(a), std::abs(b)); }
 
 }  // namespace
 
@@ -33,13 +33,7 @@ void PathOfLandscape::take(const PathPoint& point) {
 }
 
 void PathOfLandscape::carry(Archive& archive) {
-  std::vector<std::string> labels;
-  std::vector<double> loads;
-  for (const PathEvent& e : events_) labels.push_back(e.label), loads.push_back(e.load_factor);
-  archive(known_, labels, loads);
-  if (!archive.reads()) return;
-  events_.clear();
-  for (std::size_t k = 0; k < labels.size(); ++k) events_.push_back({labels[k], loads[k]});
+  archive(known_, events_);
 }
 
 Outcome trace_landscape(const Problem& problem, const Model& model, const PathOfLandscape& path, RunDirectory& results,
