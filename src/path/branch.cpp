@@ -100,7 +100,7 @@ bool Branch::stop_where_contact_passes(const Segment& segment, Candidate& c) {
 
 namespace {
 
-// Where between two samples of dλ/dt the load factor changes least, if that is little beside both ends' rates, of Hermite's cubic; its rate by theirs.
+// Where between two samples of dλ/dt Hermite's cubic of λ has its least rate, if that is little beside the rates at both ends; and how much of them it is.
 //   λ' = ra + 2u (3Δλ − 2ra − rb) + 3u² (ra + rb − 2Δλ)
 struct Slowest { double t, by; };
 std::optional<Slowest> slowest(const Sample& a, const Sample& b) {
@@ -113,8 +113,8 @@ std::optional<Slowest> slowest(const Sample& a, const Sample& b) {
 
 }  // namespace
 
-// The candidate is where the load factor goes back, which goes on at both ends of the step: two limit points lie between. They are looked for where it changes
-// least. False where the load factor went back as a whole, which proves two limit points, and none of them is seen.
+// Where the load factor goes back between the ends of a step, at both of which it goes on, two limit points lie between: the candidate becomes a state between
+// them, which is looked for where the load factor changes least. False if it went back over the whole step, which proves two limit points, and none was found.
 bool Branch::stop_where_load_goes_back(const Segment& segment, Candidate& c) {
   Sample a{segment.a, singular_ ? 0.0 : segment.load_rate(current_), current_}, b{segment.b, segment.load_rate(c.e), c.e};
   const double change = c.e.point.state.load_factor - current_.point.state.load_factor;

@@ -94,8 +94,8 @@ std::optional<Newton::Halt> Newton::no_factor() const {
 
 Newton::Halt Newton::without_factor() const { return no_factor().value_or(Halt{Status::not_converged, "no shift makes a factor of the Hessian"}); }
 
-// The residual down to rounding: simplified Newton steps with the factor at hand, kept while they halve the residual, or, where it is rounding, themselves: what is
-// soft moves by more than the residual tells. step: makes one, and gives its size [length].
+// The residual down to rounding: simplified Newton steps with the factor at hand. They are kept while the residual halves, or, where it is rounding already, while the
+// steps halve: what is soft moves by more than the residual tells. step: makes one, and gives its size [length].
 void Newton::polish(State& state, Report& report, const std::function<double(State&)>& step) {
   const bool meets = may_touch(energy_.model());
   double last = std::numeric_limits<double>::infinity();
@@ -104,8 +104,8 @@ void Newton::polish(State& state, Report& report, const std::function<double(Sta
     const double size = step(next);
     energy_.evaluate(next, false);
     ++report.evaluations;
-    const bool finest = !meets && report.residual <= limits::finest && residual() <= limits::finest;
-    if (!(residual() <= report.residual / 2) && !(finest && size <= last / 2)) break;
+    const bool is_rounding = !meets && report.residual <= limits::finest && residual() <= limits::finest;
+    if (!(residual() <= report.residual / 2) && !(is_rounding && size <= last / 2)) break;
     state = next, last = size;
     report.residual = residual();
   }
@@ -269,9 +269,10 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
     if (plane) kinematics.prescribe(to, to.load_factor + part * step.delta);
     kinematics.retract(to, step.p, part);
   };
-  // The load factor changes by whole spacings, and half of one stretches what is driven by more than rounding: p for the change δ that it takes,  H p = −g − c δ.
+  // λ + δ is rounded to a double, and half a spacing of doubles stretches what is driven by more than rounding. So p is that for the change δ that λ really takes:
+  //   H p = −g − c δ.
   const bool meets = may_touch(energy_.model());
-  const auto finest = [&](const State& at) {
+  const auto rounded_correction = [&](const State& at) {
     const Factors::Bordered step = correction();
     if (!plane || meets) return step;
     const double taken = (at.load_factor + step.delta) - at.load_factor;
@@ -299,10 +300,10 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
       if (!guided)
         polish(state, report, [&](State& next) {
           see(next);
-          const Factors::Bordered step = finest(next);
+          const Factors::Bordered step = rounded_correction(next);
           return move(next, step, 1), infinity_norm(step.p);
         });
-      // Of contacts, whose stiffness changes with every step, what is left is rounding; not where one is to be located.
+      // Where contacts bear forces, their stiffness changes with every step, and what is left is rounding; a place where one is made or lost is found exactly.
       const bool locates = plane && plane->condition;
       if (guided || (touches(energy_.last_terms()) && !locates) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
