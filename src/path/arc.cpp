@@ -109,6 +109,18 @@ Report Arc::on_plane(State& state, const Eigen::MatrixXd& held, const State* fro
   });
 }
 
+Equilibrium with_tangent(Newton& newton, Equilibrium e, const Equilibrium& nearest, const Plane& across) {
+  if (e.tangent.size() == 0) return e;
+  Factors& factors = newton.factors();
+  if (nearest.zero_modes.cols() > 0 || e.zero_modes.cols() > 0)
+    factors.factorize_holding(phase_conditions(newton.energy(), e.point.state, e.zero_modes.cols() == nearest.zero_modes.cols() ? e.zero_modes : nearest.zero_modes));
+  const Factors::Bordered t = factors.solve_bordered(newton.energy().load_derivative(), across.row, across.corner, Vector::Zero(e.tangent.size()), 1);
+  const double least = epsilon * epsilon * t.p.norm() * across.load / across.length;
+  const double load = std::abs(t.delta) > least ? t.delta : std::copysign(least, t.delta);
+  if (t.p.allFinite() && std::isfinite(1 / load)) e.tangent = t.p / load;
+  return e;
+}
+
 double Arc::load_rate(const Equilibrium& e) const {
   const Direction d = along(e);
   return d.load / std::max(cosine(d, direction_, metric_), arc::least_cosine);
@@ -122,19 +134,7 @@ Equilibrium Arc::at(double s, const Equilibrium& nearest) const {
     failed.point.state = state, failed.point.report = report;
     return failed;
   }
-  Equilibrium e = assess(newton_, state, report);
-  if (e.tangent.size() == 0) return e;
-  Factors& factors = newton_.factors();
-  if (nearest.zero_modes.cols() > 0 || e.zero_modes.cols() > 0)
-    factors.factorize_holding(phase_conditions(newton_.energy(), state, e.zero_modes.cols() == nearest.zero_modes.cols() ? e.zero_modes : nearest.zero_modes));
-  const Plane across = plane();
-  const Factors::Bordered t = factors.solve_bordered(newton_.energy().load_derivative(), across.row, across.corner,
-                                                     Vector::Zero(e.tangent.size()), 1);
-  // dx/dλ is without bound at a limit point, not its direction.
-  const double least = epsilon * epsilon * t.p.norm() * metric_.load / metric_.length;
-  const double load = std::abs(t.delta) > least ? t.delta : std::copysign(least, t.delta);
-  if (t.p.allFinite() && std::isfinite(1 / load)) e.tangent = t.p / load;
-  return e;
+  return with_tangent(newton_, assess(newton_, state, report), nearest, plane());
 }
 
 }  // namespace elamin

@@ -67,4 +67,7 @@ class Arc {
   Metric metric_;
 };
 
+/// The equilibrium with its tangent told across a plane, or a surface: dx/dλ is without bound at a limit point, not its direction. nearest: the one it was found from.
+[[nodiscard]] Equilibrium with_tangent(Newton& newton, Equilibrium e, const Equilibrium& nearest, const Plane& across);
+
 }  // namespace elamin

@@ -3,6 +3,7 @@
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "path/carry.hpp"
+#include "path/fading_contact.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 
@@ -150,7 +151,8 @@ bool ArcSteps::over_bend(const Candidate& c) {
 std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why) {
   const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
-  const bool kink = !c && !along_contact && (c = reach_kink(arc, s)).has_value();
+  std::optional<Segment> fading;
+  const bool kink = !c && !along_contact && (c = reach_kink(arc, s, fading)).has_value();
   if (!c) return {};
   if (along_contact && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
   if (!kink) {
@@ -160,12 +162,14 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
     if (ends_on_event && shifts++ < arc_steps::most_shifts) return better = 0.87 * s, std::nullopt;      // by chance: let it be inside of a step
   }
   if (negative_ < 0 && !look_beyond(arc, *c)) return better = arc_steps::just_beyond * s, std::nullopt;
-  const Segment segment = beside({0, c->parameter, [&](double t, const Equilibrium& nearest) { return arc.at(t, nearest); },
+  const Segment segment = fading ? *fading : beside({0, c->parameter, [&](double t, const Equilibrium& nearest) { return arc.at(t, nearest); },
                                   [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
                                   [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
-  if (kink ? !find_critical(segment, *c, why) || !find_user_events(segment, *c, why) : !find_events(segment, *c, why)) return {};
+  if (!kink && !find_events(segment, *c, why)) return {};
+  if (kink && ((!is_critical(deciding(*c)) && !find_critical(segment, *c, why)) || !find_user_events(segment, *c, why))) return {};
   if (!find_stop(segment, *c, why)) return {};
+  if (fading) c->parameter = arc.position(c->e.point.state);
   return c;
 }
 
@@ -236,15 +240,35 @@ void ArcSteps::carry_neutral(Equilibrium& e) {
   }
 }
 
-// Or, where the branch may end or turn back in a kink, the kink.
-std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s) {
-  if (!contacts_) return {};
-  std::optional<ContactChange> change = kink_ahead(newton_, closed_, current_, s * arc.direction().x, s * arc.direction().load);
+// Or, where the branch may end or turn back in a kink, the kink; `fading`: the way to it, where arc length does not tell it. Kinks that nobody asks for are looked
+// for only where stability may end with a contact.
+std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, std::optional<Segment>& fading) {
+  std::optional<ContactChange> change = kink_ahead(newton_, closed_, current_, s * arc.direction().x, s * arc.direction().load, contacts_);
   if (!change) return {};
   const double t = arc.position(change->at.point.state);
   if (!(t >= -arc_steps::standing * s) || t > 1.5 * s || arc.distance(change->at.point.state) > std::max(arc_steps::largest_departure * t, arc_steps::standing * s)) return {};
-  if (t > arc_steps::standing * s && !joins(arc, change->at, current_)) return {};
-  return with_contact(Candidate{.parameter = t, .e = {}}, std::move(*change));
+  Equilibrium lost = change->beyond.value_or(change->at);
+  lost.point.report = change->at.point.report;
+  if (lost.point.stability.negative != negative_ && (fading = fades(*change, lost))) {
+    Candidate c{.parameter = fading->b, .e = lost};
+    const auto bears = [&](const ContactKey& key) { return !change->after.count(key) && borne(newton_.energy(), key, c.e.point.state) > contact_event::unloaded; };
+    // Where what is lost bears nothing any more the limit point cannot be told from it: then they are one event.
+    if (std::string why; find_critical(*fading, c, why) && c.events.front().kind == EventKind::limit && std::any_of(closed_.begin(), closed_.end(), bears)) return c;
+    fading.reset();
+  }
+  if (!contacts_ && lost.point.stability.negative == negative_) return {};
+  if (t > arc_steps::standing * s && !joins(arc, change->at, current_) && !(fading = fades(*change, lost))) return {};
+  return with_contact(Candidate{.parameter = fading ? fading->b : t, .e = {}}, std::move(*change));
+}
+
+// The branch to where a contact is lost over what is left of it, if it leads there.
+std::optional<Segment> ArcSteps::fades(const ContactChange& change, const Equilibrium& lost) {
+  for (const ContactKey& key : closed_) {
+    if (key.feature >= 0 || change.after.count(key) || !(gap(newton_.energy(), key, current_.point.state) < 0)) continue;
+    Segment segment = segment_of_fading(newton_, key, current_, options_.load_step);
+    if (segment.leads(current_, lost)) return segment;
+  }
+  return {};
 }
 
 // A step and its two parts meet.

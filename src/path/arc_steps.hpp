@@ -54,7 +54,8 @@ class ArcSteps final : public Branch {
   bool over_bend(const Candidate& c);
   [[nodiscard]] std::optional<Candidate> attempt(double s, const Direction& towards, bool along_contact, int& shifts, double& better, std::string& why);
   [[nodiscard]] std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
-  [[nodiscard]] std::optional<Candidate> reach_kink(const Arc& arc, double s);
+  [[nodiscard]] std::optional<Candidate> reach_kink(const Arc& arc, double s, std::optional<Segment>& fading);
+  [[nodiscard]] std::optional<Segment> fades(const ContactChange& change, const Equilibrium& lost);
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
   [[nodiscard]] bool look_beyond(const Arc& arc, const Candidate& c);
   void carry_neutral(Equilibrium& e);

@@ -74,11 +74,6 @@ double farthest(const Energy& energy, const Vector& way, double load_change) {
   return most;
 }
 
-// By how much the gap of a wall may be wrong, which stands where coordinates are rounded [length]; those of particles are exact.
-double coordinate_rounding(const ContactKey& key, const State& state) {
-  return key.wall < 0 || key.feature >= 0 ? 0.0 : 4 * epsilon * state.at(key.particle).hi.norm();
-}
-
 // The equilibrium at which a gap vanishes, from a state that is near:  g(x, λ) = 0, gap(x, λ) = 0. way, load_change: the scales of
 // what may move. The state is moved along the way first, to where the gap vanishes to first order.
 Report close_gap(Newton& newton, const ContactKey& key, const Equilibrium& from, const Vector& way, double load_change, State& state) {
@@ -307,12 +302,12 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       if (!at) at = segment.at(change.at_parameter, a);
       if (just_made || !at->point.report.converged()) return ContactChange{};        // its gap vanishes at `a`, too: a shorter step
       const auto sample = [&](double u, const Equilibrium& e) { return Sample{u, gap(*first, e.point.state), e}; };
-      const auto zero = find_zero(sample(segment.a, a), sample(change.at_parameter, *at), 1e-13 * std::abs(segment.b - segment.a),
+      const auto zero = find_zero(sample(segment.a, a), sample(change.at_parameter, *at), [&](double t) { return segment.resolution(t); },
                                   [&](double u, const Sample& from) -> std::optional<Sample> {
         const Equilibrium e = segment.at(u, from.e);
         if (!e.point.report.converged()) return {};
         return sample(u, e);
-      });
+      }, root::leap);
       if (!zero || !near(*first, zero->e.point.state)) return ContactChange{};      // a gap that jumps: two branches
       at = zero->e, change.at_parameter = zero->t, found = zero->e.point.state;
       if (closed_from(found)) change.at_parameter = t, at.reset();                  // to the last digit
@@ -354,12 +349,12 @@ std::optional<double> where_contact_may_pass(Energy& energy, const Segment& segm
   return where;
 }
 
-std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change) {
+std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change, bool made) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
   const Model& model = energy.model();
   const State& from = a.point.state;
-  const double step_bound = 4 * farthest(energy, way, load_change);
+  const double step_bound = made ? 4 * farthest(energy, way, load_change) : 0.0;
   // The one that the tangent meets first.
   ContactKey first{};
   ContactSet candidates = before;

@@ -27,8 +27,8 @@ ContactSet closed_contacts(Energy& energy, const Equilibrium& e);
 
 /// A kink that is ahead: the equilibrium at which the first contact changes on the way along the tangent of `a`, up to the
 /// part 1 of the way (dofs) and change of the load factor, found without equilibria beyond, of which there may be none: by
-/// Newton's method on ∇gap · Δx = 0, again and again. `before` as above. Nothing if there is none.
-[[nodiscard]] std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change);
+/// Newton's method on ∇gap · Δx = 0, again and again. `before` as above; `made`: whether contacts that are made are looked for, too. Nothing if there is none.
+[[nodiscard]] std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change, bool made = true);
 
 /// Those of the closed contacts whose gap is none: made where the state is, or next to rigid.
 std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed);

@@ -19,6 +19,10 @@ double gap(const Energy& energy, const ContactKey& key, const State& state) {
   return touch->gap - (key.within_cutoff ? attraction_range(energy.model(), energy.body_rules(), touch_key(key)) : 0.0);
 }
 
+double coordinate_rounding(const ContactKey& key, const State& state) {
+  return key.wall < 0 || key.feature >= 0 ? 0.0 : 4 * epsilon * state.at(key.particle).hi.norm();
+}
+
 State moved_by(const Kinematics& kinematics, const State& from, const Vector& way, double load_change, double part) {
   State state = from;
   kinematics.prescribe(state, from.load_factor + part * load_change);

@@ -21,6 +21,9 @@ inline TouchKey touch_key(const ContactKey& key) { return {key.particle, key.oth
 /// The gap at a state, below zero where surfaces overlap [length]; of an attraction the distance beyond its cutoff. Infinite where bodies have no such place.
 double gap(const Energy& energy, const ContactKey& key, const State& state);
 
+/// By how much the gap of a wall may be wrong, which stands where coordinates are rounded [length]; those of particles are exact.
+double coordinate_rounding(const ContactKey& key, const State& state);
+
 /// ∇gap (dofs) and ∂gap/∂λ of prescribed coordinates and moving walls; load_change: over which the walls move. False where there is none.
 [[nodiscard]] bool slope(const Energy& energy, const ContactKey& key, const State& state, double load_change, Vector& row, double& by_load);
 

@@ -206,7 +206,7 @@ class CurveTracer {
     const Sample lower{0, sign.of(first), a.at}, upper{length, sign.of(last), b.at};
     if ((lower.f < 0) == (upper.f < 0)) return {};
     const double resolution = (sign.differenced ? curve::about : curve::located) * length;
-    const auto zero = find_zero(lower, upper, resolution, [&](double s, const Sample& nearest) -> std::optional<Sample> {
+    const auto zero = find_zero(lower, upper, [&](double) { return resolution; }, [&](double s, const Sample& nearest) -> std::optional<Sample> {
       Threshold t;
       double angle = 0;
       std::string why;

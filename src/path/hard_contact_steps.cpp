@@ -379,7 +379,8 @@ std::optional<HardContactSteps::Vanishing> HardContactSteps::crossing(const Equi
   const Sample lower = sample(current_), upper = sample(candidate);
   if (!((lower.f < 0) != (upper.f < 0)) || !std::isfinite(lower.f) || !std::isfinite(upper.f)) return {};
   const Eigen::MatrixXd held = side_by_side(known, mode);
-  const auto zero = find_zero(lower, upper, 1e-13 * std::abs(upper.t - lower.t), [&](double t, const Sample& near) -> std::optional<Sample> {
+  const auto resolution = [&](double) { return segment::rounding * std::abs(upper.t - lower.t); };
+  const auto zero = find_zero(lower, upper, resolution, [&](double t, const Sample& near) -> std::optional<Sample> {
     State state = near.e.point.state;
     const double way = t - state.load_factor, whole = upper.t - lower.t;
     energy.kinematics().prescribe(state, t);

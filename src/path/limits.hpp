@@ -29,6 +29,7 @@ constexpr double close_values = 1e-6;  // lengths that a symmetry makes equal
 
 /// What lies between two equilibria.
 namespace segment {
+constexpr double rounding = 1e-13;  // of a segment: what its parameter tells
 constexpr double widest = 0.5;  // of the chord, to the side and beyond its ends: a branch that is resolved bends less
 }
 
@@ -94,6 +95,7 @@ constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents a
 
 /// Bracketed root finding.
 namespace root {
+constexpr double leap = 0.1, narrow = 1e-4;  // of the values at both ends, on so little of the way: more is left where a branch leaps to another one
 constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2⁻²⁰; the rest converge superlinearly
 }
 

@@ -146,8 +146,9 @@ std::optional<Waypoint> LoadSteps::on_detour() {
   if (w && w->stop && *w->stop != goal_) w.reset();
   if (!w) return detour_.reset(), std::nullopt;
   const double load = w->at.point.state.load_factor;
-  const bool there = !w->events.empty() || (load - goal_) * sign_ >= 0;
-  grid_.restart(load, w->events.empty() ? std::max(0, grid_.halvings() - 1) : 0);
+  const bool told = std::any_of(w->events.begin(), w->events.end(), [&](const Event& event) { return contacts_ || event.kind != EventKind::contact; });
+  const bool there = told || (load - goal_) * sign_ >= 0;
+  grid_.restart(load, told ? 0 : std::max(0, grid_.halvings() - 1));
   arrived(Candidate{.parameter = load, .e = w->at, .events = w->events});
   if (there) detour_.reset();
   return Waypoint{std::move(w->at), std::move(w->events)};

@@ -157,7 +157,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   Sample upper{segment.b, eigenvalue(newton, second, index), second};
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
-  const double resolution = 1e-13 * std::abs(segment.b - segment.a);
+  const auto resolution = [&](double t) { return segment.resolution(t); };
   // A force that is left along the critical modes breaks the branch point: then there is none.
   const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
   const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
@@ -189,9 +189,10 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
       if (!good(e)) e = segment.at(t, from.e);
       if (!good(e)) return {};
       return sample(t, from, std::move(e));
-    });
+    }, root::leap);
     // Small beside both ends, too: of slender chains all that decides is below the zero level.
-    const bool small = zero && std::abs(zero->f) <= std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale));
+    const bool small = zero && (std::abs(zero->f) <= std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale)) ||
+                                (segment.rounding && std::abs(above.t - below.t) <= 4 * segment.rounding(zero->t)));
     if (!small || !meet(newton.energy().kinematics(), segment, a, b, below, above)) return {};
     // Where little moves as the load factor grows, rounding of what is soft in x is more in t than in λ, which the last step goes by.
     const double from = zero->e.point.state.load_factor, width = above.e.point.state.load_factor - below.e.point.state.load_factor;
@@ -243,8 +244,7 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
                                  const std::function<double(const Equilibrium&)>& f) {
   const Sample lower{segment.a, f(a), a}, upper{segment.b, f(b), b};
   if ((lower.f < 0) == (upper.f < 0)) return {};
-  const double resolution = 1e-13 * std::abs(segment.b - segment.a);
-  const auto zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
+  const auto zero = find_zero(lower, upper, [&](double t) { return segment.resolution(t); }, [&](double t, const Sample& from) -> std::optional<Sample> {
     const Equilibrium e = segment.at(t, from.e);
     if (!e.point.report.converged()) return {};
     return Sample{t, f(e), e};

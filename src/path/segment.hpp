@@ -18,6 +18,9 @@ struct Segment {
   std::function<double(const Equilibrium&)> load_rate;   // dλ/dt
   /// Whether the branch through one equilibrium leads to another one: a step and its parts meet.
   std::function<bool(const Equilibrium& from, const Equilibrium& to)> leads;
+  /// How well a parameter tells a state, where coordinates are rounded; none: to its own last digits.
+  std::function<double(double parameter)> rounding = {};
+  double resolution(double parameter) const { return std::max(limits::segment::rounding * std::abs(b - a), rounding ? rounding(parameter) : 0.0); }
 };
 
 /// A point between two equilibria of a segment, and dx/dt (dofs), dλ/dt there: Hermite's cubic, with dx/dt = dλ/dt dx/dλ at the ends.

@@ -112,7 +112,7 @@ std::vector<double> angles_between(const Switch& s, const Vector& u, const Vecto
   std::vector<double> angles;
   for (int k = 0; k < switching::rays; ++k) {
     if ((force[k] < 0) == (force[k + 1] < 0)) continue;
-    const auto zero = find_zero({shift + k * step, force[k], {}}, {shift + (k + 1) * step, force[k + 1], {}}, 1e-9,
+    const auto zero = find_zero({shift + k * step, force[k], {}}, {shift + (k + 1) * step, force[k + 1], {}}, [](double) { return 1e-9; },
                                 [&](double t, const Sample&) -> std::optional<Sample> {
       return Sample{t, s.around(t, u, v, amplitude), {}};
     });
