@@ -905,3 +905,16 @@ TEST_CASE("what bears nothing meets a stiff wall, near and far from the origin",
 TEST_CASE("user events of a slender column do not depend on the method", "[paths][column_events_softly]") {
   same_events(Run("column_events_softly", {by_arcs, follows, in_steps(4)}), Run("column_events_softly", {by_load_steps, snaps, in_steps(6)}));
 }
+
+// The contact at the rim that keeps the sheet stable fades within 1e-8 of the load factor, and its stiffness with it.
+TEST_CASE("a sheet snaps at the limit points where contacts fade, whatever the steps", "[paths][sheet_leaves_rim]") {
+  const auto last_limits = [](const Run& run) {
+    CHECK_ENDS_AT(run, 0.3);
+    std::vector<TableRow> limits = run.of("limit");
+    REQUIRE(limits.size() >= 3);
+    return std::vector<TableRow>(limits.end() - 3, limits.end());
+  };
+  const std::vector<TableRow> first = last_limits(Run("sheet_leaves_rim", {in_steps(10)})), other = last_limits(Run("sheet_leaves_rim", {in_steps(23)}));
+  for (std::size_t k = 0; k < first.size(); ++k) CHECK(first[k]["lambda"] == Approx(other[k]["lambda"]).epsilon(to_events));
+  CHECK(first.front()["lambda"] == Approx(0.28700226437).epsilon(to_events));
+}
