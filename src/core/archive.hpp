@@ -4,7 +4,6 @@
 #include "core/types.hpp"
 
 #include <array>
-#include <cstring>
 #include <deque>
 #include <map>
 #include <optional>
@@ -36,8 +35,7 @@ class Archive {
   void raw(void* data, std::size_t size) {
     if (!reads_) return void(bytes_.append(static_cast<const char*>(data), size));
     if (size > bytes_.size() - at_) throw InputError("the checkpoint is not whole");
-    std::memcpy(data, bytes_.data() + at_, size);
-    at_ += size;
+    at_ += bytes_.copy(static_cast<char*>(data), size, at_);
   }
   std::size_t count(std::size_t now) {
     std::uint64_t n = now;

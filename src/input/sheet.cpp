@@ -53,7 +53,7 @@ std::optional<Sheet> built(const SheetTable& table, Mistakes& mistakes) {
   s.name = table.name, s.shape = table.shape;
   s.center = table.center, s.normal = table.normal;
   s.size = table.size.value_or(s.size), s.radius = table.radius.value_or(0), s.height = table.height.value_or(0);
-  s.lattice_angle = table.lattice_angle * pi / 180;
+  s.lattice_angle = table.lattice_angle * (pi / 180);
   s.spacing = table.spacing, s.rest_length = table.rest_length.value_or(0);
   s.diameter = table.diameter.value_or(table.spacing), s.density = table.density.value_or(0), s.youngs_modulus = E;
   s.bond_stiffness = table.bond_stiffness.value_or(sheet_bond_stiffness(E, thickness));

@@ -65,7 +65,7 @@ CosineSine cosine_sine(Exact turns) {
 
 Exact turns(double angle) {
   const double twelfth = exact_pi.hi / 6, whole = std::round(angle / twelfth);
-  if (std::abs(angle - whole * twelfth) <= 4 * epsilon * std::abs(angle)) return exact(whole) / exact(12);
+  if (std::abs(angle - whole * twelfth) <= 4 * epsilon * std::abs(angle)) return exact(std::fmod(whole, 12)) / exact(12);
   return exact(angle) / (exact_pi * exact(2));
 }
 

@@ -24,7 +24,7 @@ struct CosineSine { Exact cosine, sine; };
 /// Cosine and sine of 2π·turns, of at most 1e6 turns, to about 1e-31; exactly 0 and ±1 at quarter turns.
 CosineSine cosine_sine(Exact turns);
 
-/// angle/2π, angle in rad; a multiple of 30° that only went through the rounding of radians is taken as what it was.
+/// angle/2π, angle in rad; a multiple of 30° that only went through the rounding of radians is taken as what it was, without whole turns.
 Exact turns(double angle);
 
 /// The angle at a point between the directions to two others [rad]; exactly π within 1e-9 of straight, and where two of

@@ -36,7 +36,7 @@ bool BunchKaufman::factorize(const SparseMatrix& hessian, double shift, const Ei
       matrix_(it.row(), j) = value;
       largest = std::max(largest, std::abs(value));
     }
-  matrix_.bottomLeftCorner(n - dofs, dofs) = largest * borders.transpose();
+  if (n > dofs) matrix_.bottomLeftCorner(n - dofs, dofs) = largest * borders.transpose();
   const int room = static_cast<int>(work_.size());
   int info = 0;
   dsytrf_rook_("L", &n, matrix_.data(), &n, pivots_.data(), work_.data(), &room, &info);

@@ -159,7 +159,7 @@ void Factors::refine(EigenPairs& pairs) {
 
 EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen::MatrixXd& start) {
   const int n = energy_.dofs();
-  assert(count > 0 && (start.cols() == 0 || start.rows() == n));
+  assert(count >= 0 && (start.cols() == 0 || start.rows() == n));
   count = std::min(count, n);
   const int block = std::min(n, count + 4);
   if (count == 0) return {Vector(0), Eigen::MatrixXd(n, 0)};

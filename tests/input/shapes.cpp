@@ -74,6 +74,13 @@ TEST_CASE("A chain of angle stiffness zero, however it is said, has no angles") 
   CHECK(model_of("[[sheet]]\nname = \"s\"\nsize = [3, 3]\nspacing = 1\nbond_stiffness = 1\nangle_stiffness = 0\n[[support]]\ngroup = \"s\"\n" + energy_study).angles.empty());
 }
 
+TEST_CASE("A lattice may be turned by any number of degrees") {
+  const Model m = model_of("[[sheet]]\nname = \"s\"\nshape = \"circle\"\nradius = 1\nspacing = 1\nbond_stiffness = 1\nangle_stiffness = 0\n"
+                           "lattice_angle = 1e308\n[[support]]\ngroup = \"s\"\n" + energy_study);
+  CHECK(m.particles() == 7);
+  CHECK(m.start.position.allFinite());
+}
+
 TEST_CASE("Tables of commas that are wrong are told with their lines") {
   const ScratchDirectory scratch;
   const auto said = [&](const std::string& csv, const std::string& table) {

@@ -2,6 +2,8 @@
 
 #include "catch.hpp"
 
+#include <limits>
+
 using namespace elamin;
 
 namespace {
@@ -40,6 +42,7 @@ TEST_CASE("Multiples of 30 degrees are taken as such", "[model]") {
   }
   CHECK(off(turns(1e-3) * exact_pi * exact(2), exact(1e-3)) < 1e-33);
   CHECK(turns(0.5235).value() != 1.0 / 12);
+  CHECK(std::abs(turns(std::numeric_limits<double>::max() / 180 * exact_pi.hi).value()) < 1);   // whole turns are none
 }
 
 TEST_CASE("The frame of a normal is the shortest rotation's", "[model]") {

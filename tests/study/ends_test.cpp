@@ -480,13 +480,20 @@ TEST_CASE("a second signal ends the program at once, whatever it is at", "[study
                                                   "[[support]]\ngroup = \"s\"\ndirections = \"z\"\n[[group]]\nname = \"a\"\nof = \"s\"\nfirst = 2\n"
                                                   "[[support]]\ngroup = \"a\"\n[study]\ntype = \"equilibrium\"\n");
   using namespace std::chrono;
+  const auto takes_signals = [](pid_t child) {                  // the program has begun, and catches SIGINT: bit 1 of SigCgt
+    const std::string process = "/proc/" + std::to_string(child);
+    std::error_code none;
+    if (!std::filesystem::equivalent(process + "/exe", ELAMIN_PROGRAM, none)) return false;
+    const std::string status = text_of(process + "/status");
+    return (std::stoul(status.substr(status.find('\n', status.find("SigCgt:")) - 1, 1), nullptr, 16) & 2) != 0;
+  };
   for (const int second : {SIGINT, SIGTERM}) {
     const pid_t child = fork();
     if (child == 0) {
       execl(ELAMIN_PROGRAM, ELAMIN_PROGRAM, file.c_str(), "--quiet", "-o", (scratch / "out").c_str(), nullptr);
       _exit(127);
     }
-    std::this_thread::sleep_for(milliseconds(300));
+    while (!takes_signals(child)) std::this_thread::sleep_for(milliseconds(5));
     const auto begin = steady_clock::now();
     kill(child, SIGINT);
     std::this_thread::sleep_for(milliseconds(150));

@@ -1,5 +1,7 @@
 #pragma once
 // Runs the program and keeps what it says.
+#include "processor_time.hpp"
+
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -13,10 +15,10 @@ struct Answer {
   std::string text;        // standard output and error
 };
 
-/// Runs `elamin ARGUMENTS` through the shell; `seconds` of processor time at the most, unless 0.
+/// Runs `elamin ARGUMENTS` through the shell; `seconds` of processor time at the most, unless 0; with the sanitizers `slower` times as many.
 inline Answer elamin_says(const std::string& arguments, int seconds = 0) {
   Answer answer;
-  const std::string limit = seconds > 0 ? "ulimit -t " + std::to_string(seconds) + "; " : "";
+  const std::string limit = seconds > 0 ? "ulimit -t " + std::to_string(slower * seconds) + "; " : "";
   std::FILE* pipe = popen((limit + "'" ELAMIN_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer;
   for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) answer.text.append(buffer.data(), n);

@@ -134,6 +134,8 @@ TEST_CASE("a file that meets its limit at any byte ends a run in a sentence; wha
   CHECK(resumed > 5);
 }
 
+#ifndef __SANITIZE_ADDRESS__                     // which maps far more than any of these limits
+
 TEST_CASE("under any limit of memory a run ends, in a sentence where that is too little, and what was begun says so", "[study][memory]") {
   const ScratchDirectory scratch;
   const std::string column = scratch.file("column.toml", printing_column), said = scratch / "said", problems = ELAMIN_ROOT "/problems/";
@@ -179,3 +181,5 @@ steps = 2
   CHECK(refused > 5);
   CHECK(broken_off > 2);
 }
+
+#endif

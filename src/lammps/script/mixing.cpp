@@ -14,6 +14,7 @@ const PairStyle* style_of(const Run& run, PairCoefficient::Law law) {
 
 std::vector<PairCoefficient> mixed(const Run& run, const std::vector<int>& types) {
   using Law = PairCoefficient::Law;
+  if (run.pairs.styles.empty()) return {};
   std::vector<PairCoefficient> all;
   for (const Law law : {Law::hertz, Law::lj, Law::rounded}) {
     const auto last = [&](int i, int j) -> const PairCoefficient* {

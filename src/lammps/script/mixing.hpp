@@ -7,7 +7,7 @@
 
 namespace elamin::script {
 
-/// The style of pair_style that has laws of this kind.
+/// The style of pair_style that has laws of this kind; there is one at least.
 const PairStyle* style_of(const Run& run, PairCoefficient::Law law);
 
 /// Pairs of unlike `types` that no line names: mixed of those of like types, as LAMMPS does.
