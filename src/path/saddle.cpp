@@ -191,8 +191,9 @@ std::vector<Equilibrium> passes_between(Newton& newton, const State& a, const St
   }
   line.back() = b;
   const auto tangent = [&](std::size_t k) -> Vector {
-    const Vector t = kinematics.difference(line[k - 1], line[k + 1]);
-    return (t - held * (held.transpose() * t)).normalized();
+    Vector t = kinematics.difference(line[k - 1], line[k + 1]);
+    if (held.cols() > 0) t -= held * (held.transpose() * t);
+    return t.normalized();
   };
   for (int round = 0; round < saddle::most_rounds && !interrupted(); ++round) {
     double most = 0;

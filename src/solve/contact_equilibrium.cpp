@@ -281,7 +281,7 @@ Inertia ContactEquilibrium::inertia(const State& state) {
   const double sigma = factors_.zero_level();
   const int contacts = static_cast<int>(gaps_.size());
   const auto factor_at = [&](double shift) { return first_shift(shift, 1.5 * shift, 1.5, [&](double s) { return factorize(s); }).has_value(); };
-  Inertia inertia{0, energy_.dofs()};
+  const Inertia inertia{0, std::max(1, energy_.dofs() - contacts)};       // without a factor
   if (!factor_at(sigma)) return inertia;
   const int below = pivoted_.negative() - contacts;
   if (!factor_at(-sigma)) return inertia;

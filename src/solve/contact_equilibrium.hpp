@@ -48,7 +48,7 @@ class ContactEquilibrium {
   [[nodiscard]] Report correct(State& state, double tolerance, const State* from = nullptr, double step_bound = anywhere, const Eigen::MatrixXd& held = {});
 
   /// Numbers of eigenvalues below zero and at zero of the Hessian of L among the motions that keep the closed gaps: stability, to
-  /// second order.
+  /// second order. All count as zero where there is no factor, or a stop is asked for.
   Inertia inertia(const State& state);
 
   /// How the state moves with the load factor: (∂q/∂λ, ∂f/∂λ), the contacts staying closed and the directions `held` still.
