@@ -309,7 +309,7 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
   for (const double stop : options_.stops) {
     if (last_stop_ && stop == *last_stop_) continue;
     const bool crosses = (from - stop) * (to - stop) <= 0;
-    if (!crosses && !stands_at(current_, stop) && !(c.events.empty() && stands_at(c.e, stop))) continue;
+    if (!crosses && !stands_at(current_, stop) && !(!deciding(c) && stands_at(c.e, stop))) continue;
     if (!first || std::abs(stop - from) < std::abs(*first - from)) first = stop;
   }
   if (!first) return true;
@@ -321,7 +321,9 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
     why = fmt::format("no equilibrium was found at load factor {:.10g}, which the step passes", *first);
     return (from - *first) * (to - *first) >= 0;
   }
-  c.parameter = std::max(s, 0.0), c.e = std::move(e), c.events.clear(), c.stop = first;
+  const auto elsewhere = [&](const Event& event) { return event.kind != EventKind::user || std::abs(event.at_parameter - s) > branch::coincide * c.parameter; };
+  std::erase_if(c.events, elsewhere);
+  c.parameter = std::max(s, 0.0), c.e = std::move(e), c.stop = first;
   return true;
 }
 

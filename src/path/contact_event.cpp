@@ -302,7 +302,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       if (!at) at = segment.at(change.at_parameter, a);
       if (just_made || !at->point.report.converged()) return ContactChange{};        // its gap vanishes at `a`, too: a shorter step
       const auto sample = [&](double u, const Equilibrium& e) { return Sample{u, gap(*first, e.point.state), e}; };
-      const auto zero = find_zero(sample(segment.a, a), sample(change.at_parameter, *at), [&](double t) { return segment.resolution(t); },
+      const auto zero = find_zero(sample(segment.a, a), sample(change.at_parameter, *at), [&](double u) { return segment.resolution(u); },
                                   [&](double u, const Sample& from) -> std::optional<Sample> {
         const Equilibrium e = segment.at(u, from.e);
         if (!e.point.report.converged()) return {};

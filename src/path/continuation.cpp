@@ -142,7 +142,7 @@ void Continuation::show(Waypoint waypoint) {
       return end(Status::converged, fmt::format("{} reached at load factor {:.10g}", event.what, load));
   for (Event& event : waypoint.events)
     if (event.kind != EventKind::user && !goes_on_behind(event)) return;
-  if (!waypoint.events.empty()) return;
+  if (!waypoint.events.empty() && !waypoint.stop) return;
   emit(waypoint.at.point);
   if (!arcs()) return;
   if (waypoint.stop) {

@@ -4,6 +4,8 @@
 #include "study/results_of.hpp"
 #include "study/truss.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 namespace {
@@ -31,6 +33,24 @@ TEST_CASE("an observable that reaches a value is located, whatever the steps", "
     for (const TableRow& row : events) count += row.text("label").starts_with("high") || row.text("label").starts_with("low");
     CHECK(count == 2);
   }
+}
+
+TEST_CASE("an observable that reaches its value at a load factor to stop at is one event, and the path stops there", "[events]") {
+  for (const double z : {0.0, 0.31, 0.1, -0.2, -0.43})
+    for (const char* steps : {"6", "25"}) {
+      CAPTURE(z, steps);
+      const ScratchDirectory scratch;
+      const double load = truss_load(z);
+      const std::string stop = fmt::format("stops = [{:.17g}]\n", load), value = fmt::format("[[event]]\nname = \"there\"\nobservable = \"z\"\nvalue = {:.17g}\n", z);
+      const std::string file = scratch.file("p.toml", truss + "[path]\nmethod = \"arc_length\"\nto = 0.4\nsteps = " + steps + "\n" + stop + value);
+      REQUIRE(elamin_says("'" + file + "' --quiet").status == 0);
+      int events = 0, stopped = 0;
+      for (const TableRow& row : table_of(scratch / "p/events.csv")) events += row.text("label").starts_with("there");
+      for (const TableRow& row : table_of(scratch / "p/path.csv"))
+        if (row["lambda"] == load && std::abs(row["z"] - z) < 1e-12) ++stopped;
+      CHECK(events == 1);
+      CHECK(stopped >= 1);
+    }
 }
 
 TEST_CASE("an event may be about a reaction, may end the path, and may be expected", "[events]") {
