@@ -374,7 +374,9 @@ Waypoint ArcSteps::accept(Candidate c) {
 void ArcSteps::rotate(const Candidate& c) {
   const Event* event = deciding(c);
   const bool kink = event && event->beyond, arrival = event && event->arrival, limit = is_critical(event) && event->kind == EventKind::limit;
-  Direction next = direction_of(kink ? *event->beyond : c.e, metric_, direction_);
+  // At a limit point the branch goes along the critical mode, which may be all but square to where it has been going.
+  const bool tells = limit && event->passing.size() > 0;
+  Direction next = direction_of(kink ? *event->beyond : c.e, metric_, tells ? Direction{event->passing, 0} : direction_);
   if (kink && event->onward != 0 && sign_of(next.load) != event->onward) next.x = -next.x, next.load = -next.load;
   const bool contact = event && !kink && event->kind == EventKind::contact && event->before == event->after;
   if (contact && sign_of(next.load) != sign_) next.x = -next.x, next.load = -next.load;        // the determinant keeps its sign

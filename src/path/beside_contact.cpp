@@ -2,6 +2,7 @@
 
 #include "core/dense.hpp"
 #include "model/entities.hpp"
+#include "path/arc.hpp"
 #include "path/limits.hpp"
 
 #include <algorithm>
@@ -71,14 +72,14 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
 std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load_change) {
   const std::optional<Rates> rates = along_contacts(newton, at, made, load_change);
   if (!rates) return {};
-  Energy& energy = newton.energy();
+  const Energy& energy = newton.energy();
+  const Metric metric{rates->x.norm() * std::abs(load_change), std::abs(load_change)};
+  const double size = std::sqrt(metric.dot(rates->x, rates->load, rates->x, rates->load));
+  const Arc arc(newton, at, {rates->x / size, rates->load / size}, metric);
   for (double part = contact_event::onward; part >= contact_event::least_beside; part /= 100) {
-    const double ahead = part * std::abs(load_change);
-    State state = moved_by(energy.kinematics(), at.point.state, ahead * rates->x, ahead * rates->load, 1);
-    const Report report = newton.correct(state, at.zero_modes);
-    const bool closed = std::all_of(made.begin(), made.end(), [&](const ContactKey& key) { return gap(energy, key, state) < 0; });
-    if (!report.converged() || !closed || energy.kinematics().difference(at.point.state, state).norm() > 2 * ahead * rates->x.norm()) continue;
-    return assess(newton, state, report).point.stability.negative;
+    const Equilibrium e = arc.at(part, at);
+    const auto closed = [&](const ContactKey& key) { return gap(energy, key, e.point.state) < 0; };
+    if (e.point.report.converged() && std::all_of(made.begin(), made.end(), closed) && arc.distance(e.point.state) < part) return e.point.stability.negative;
   }
   return {};
 }

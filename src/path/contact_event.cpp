@@ -368,7 +368,8 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
       const bool closed = before.count(key) > 0;
       // What is closed may overlap by no more than that everywhere: it changes here if it bears nothing.
       const bool bears = closed && here < 0 && key.feature < 0 && !rounding_bears(newton, key, from);
-      const bool at = !bears && std::abs(here) <= contact_event::together * size_of(model, key.particle);
+      const bool opens = closed && here < 0 && key.feature >= 0 && there - here > contact_event::rounding * size_of(model, key.particle);
+      const bool at = !bears && !opens && std::abs(here) <= contact_event::together * size_of(model, key.particle);
       const bool stays = (there < 0) == closed ||
                          std::abs(there) <= std::max(contact_event::rounding * size_of(model, key.particle), coordinate_rounding(key, from));
       if (at ? stays : (here < 0) != closed) continue;

@@ -13,8 +13,8 @@ struct Event {
   Equilibrium at;                      // its tangent: along the branch, without the critical modes of a branch point
   Eigen::MatrixXd modes;               // dofs × multiplicity
   int before = 0, after = 0;           // Morse index on both sides
-  bool arrival = false;                // a branch point reached along a side branch: an eigenvalue touches zero …
-  Vector passing;                      // … how that one passes: dx/ds (dofs) …
+  bool arrival = false;                // a branch point reached along a side branch: an eigenvalue touches zero
+  Vector passing;                      // how the branch passes it, or a limit point: along dx/ds (dofs) …
   double passing_load = 0;             // … and dλ/ds, all but zero
   ContactSet closed;                   // contact: what is closed beyond
   std::optional<Equilibrium> beyond = {};   // at a contact of bodies: see ContactChange

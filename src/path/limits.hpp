@@ -108,6 +108,7 @@ constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes
 constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
 constexpr double work_rounding = 1e-10;  // of a load: its work along a critical mode as far as that is known; and …
 constexpr double of_limit = 0.1;  // … of the eigenvalue times the way to it: the work of the load at a limit point, a parabola having 0.5
+constexpr double little_before = 1e-4;  // of the eigenvalue where a segment begins: where it tells how a branch comes to a limit point
 constexpr double load_rounding = 1e-13;  // of the load factor: where an eigenvalue vanishes
 constexpr int more_modes = 2;  // partners of a multiple one, so that a neighbour knows them
 constexpr int most_multiple = 6;  // eigenvalues that vanish together

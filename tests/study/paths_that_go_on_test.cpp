@@ -918,3 +918,31 @@ TEST_CASE("a sheet snaps at the limit points where contacts fade, whatever the s
   for (std::size_t k = 0; k < first.size(); ++k) CHECK(first[k]["lambda"] == Approx(other[k]["lambda"]).epsilon(to_events));
   CHECK(first.front()["lambda"] == Approx(0.28700226437).epsilon(to_events));
 }
+
+TEST_CASE("a branch turns where a stiff contact is made that makes it stable, whatever the steps", "[paths][two_beams_stable_again]") {
+  const Run first("two_beams_stable_again", {follows, in_steps(7)});
+  CHECK_ENDS_AT(first, 1);
+  CHECK(first.of("limit").size() == 6);
+  for (const int n : {5, 23}) same_events(first, Run("two_beams_stable_again", {follows, in_steps(n)}));
+}
+
+// Weight W and force λF at the height h over the centre, half sides a and b along and across the floor; two edges bear W = 2 k δ in the end, and the
+// box stands inclined by θ = δ/2a:  λ F h = W (a − θ b)  but for θ².
+TEST_CASE("a box on a floor tips where its edge leaves, however little it overlaps", "[paths][box_tips_slowly]") {
+  const double W = 0.0099272200000000005, F = 0.023407353929643458, h = 0.013843347025812164, a = 0.11084856595632499 / 2, b = 0.11957230553250875 / 2;
+  const double inclined = W / (2 * 171683.68248351323) / (2 * a);
+  for (const int n : {13, 92}) {
+    const Run run("box_tips_slowly", {follows, in_steps(n)});
+    CHECK_ENDS_AT(run, 0);
+    REQUIRE(run.events.size() == 1);
+    CHECK(run.events[0].text("label") == "limit:1");
+    CHECK(run.events[0]["lambda"] == Approx(W * (a - inclined * b) / (F * h)).epsilon(to_events));
+  }
+}
+
+TEST_CASE("a branch goes on behind a sharp limit point, not back where it came from", "[paths][column_turns_sharply]") {
+  const Run first("column_turns_sharply", {follows, in_steps(36)});
+  CHECK_ENDS_AT(first, 4683.5831185849738);
+  CHECK(first.of("limit").size() == 8);
+  same_events(first, Run("column_turns_sharply", {follows, in_steps(60)}));
+}
