@@ -222,17 +222,11 @@ bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
 void ArcSteps::carry_neutral(Equilibrium& e) {
   Stability& s = e.point.stability;
   if (neutral_.cols() == 0 || e.zero_modes.cols() >= neutral_.cols()) return;
-  newton_.energy().evaluate(e.point.state);
-  const EigenPairs pairs = newton_.factors().lowest(s.negative + static_cast<int>(neutral_.cols()) + 1);
-  const Eigen::Index count = pairs.values.size();
-  for (Eigen::Index j = 0; j < count; ++j) {
+  const EigenPairs pairs = all_but_neutral(newton_, e, static_cast<int>(neutral_.cols()));
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
     const Vector& v = pairs.vectors.col(j);
     if ((neutral_.transpose() * v).norm() < arc_steps::same_mode) continue;
     if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
-    double next = std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < count; ++i)
-      if (i != j) next = std::min(next, std::abs(pairs.values[i]));
-    if (!(std::abs(pairs.values[j]) <= arc_steps::next_to_nothing * next) || !std::isfinite(next)) continue;
     e.zero_modes = side_by_side(e.zero_modes, v);
     ++s.zero, ++s.critical;
     s.stable = false;

@@ -331,6 +331,22 @@ double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixX
   return std::isfinite(far) ? far : 0;
 }
 
+EigenPairs all_but_neutral(Newton& newton, const Equilibrium& e, int count) {
+  newton.energy().evaluate(e.point.state);
+  const EigenPairs pairs = newton.factors().lowest(e.point.stability.negative + count + 1);
+  EigenPairs found{Vector(0), Eigen::MatrixXd(pairs.vectors.rows(), 0)};
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
+    double next = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
+      if (i != j) next = std::min(next, std::abs(pairs.values[i]));
+    if (!(std::abs(pairs.values[j]) <= equilibrium::next_to_nothing * next) || !std::isfinite(next)) continue;
+    found.vectors = side_by_side(found.vectors, pairs.vectors.col(j));
+    found.values.conservativeResize(found.vectors.cols());
+    found.values[found.values.size() - 1] = pairs.values[j];
+  }
+  return found;
+}
+
 // How modes change the angles of a model in a plane, angles × modes [1]: unlike displacements the same whatever holds a ring in its plane.
 Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
   const Model& model = energy.model();

@@ -44,6 +44,9 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// the eigenvalue that is nearest to zero, but for held directions. 0: it cannot be told.
 [[nodiscard]] double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held);
 
+/// Eigenpairs of the Hessian whose stiffness is next to nothing beside the next one, at most `count` of them: as of an oval that rotates in a ring of links.
+[[nodiscard]] EigenPairs all_but_neutral(Newton& newton, const Equilibrium& e, int count);
+
 /// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it. In a plane
 /// they are those of ∇c,  c = Σ_k q_k ω_k,  ω_k the angles' changes and q_k those that the mode makes, which supports do not enter: with
 /// them a symmetric change of shape comes together with a rigid motion, and has a part along the mode. Of rigid motions, and in space, the

@@ -23,6 +23,7 @@ constexpr double energy_rounding = 1e-13;  // of the sum of its terms' sizes
 constexpr double rigid = 1e-6;  // of what a mode moves: by how much it may change angles
 constexpr int most_shifts = 6;  // along a neutral mode, until its phase is kept
 constexpr double drifted = 1e-13;  // of the phase: rounding [rad]
+constexpr double next_to_nothing = 1e-6;  // of the next stiffness
 constexpr double alike_angles = 1e-6;  // changes that a symmetry makes equal
 constexpr double close_values = 1e-6;  // lengths that a symmetry makes equal
 }
@@ -66,7 +67,6 @@ constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step:
 constexpr int refused_first = 6;  // … where so many of arc length have been refused, or right behind a contact
 constexpr double least_bent = 1e-6;  // … and the shortest that bends are a reason to shorten
 constexpr double same_mode = 0.9;  // cosine between a neutral mode and what it has become a step further
-constexpr double next_to_nothing = 1e-6;  // of the next stiffness
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves

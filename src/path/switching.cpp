@@ -130,11 +130,12 @@ bool images(const Kinematics& kinematics, const Equilibrium& at, const Beside& a
          std::abs(shape(a) - shape(b)) <= 1e3 * switching::same * shape(a);
 }
 
-// What costs nothing on a side branch within the span of the critical modes, orthonormal: the directions of a family.
-Eigen::MatrixXd neutral(const Beside& side, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& zero) {
+// What costs all but nothing on a side branch within the span of the critical modes, orthonormal: the directions of a family.
+Eigen::MatrixXd neutral(Newton& newton, const Beside& side, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& zero) {
   Eigen::MatrixXd found(modes.rows(), 0);
-  for (Eigen::Index j = 0; j < side.e.zero_modes.cols(); ++j) {
-    Vector v = modes * (modes.transpose() * side.e.zero_modes.col(j));
+  const Eigen::MatrixXd free = side_by_side(side.e.zero_modes, all_but_neutral(newton, side.e, static_cast<int>(modes.cols())).vectors);
+  for (Eigen::Index j = 0; j < free.cols(); ++j) {
+    Vector v = modes * (modes.transpose() * free.col(j));
     if (zero.cols() > 0) v -= zero * (zero.transpose() * v);
     v -= found * (found.transpose() * v);
     if ((v - side.leaving * side.leaving.dot(v)).norm() > 0.3) found = side_by_side(found, v.normalized());
@@ -157,7 +158,7 @@ std::vector<SideBranch> side_branches(Newton& newton, const Event& branch_point,
   const Vector symmetric = symmetric_direction(newton.energy(), branch_point.at.point.state, modes);
   if (modes.cols() > 1)
     if (const auto first = s.leave(symmetric, s.amplitude(symmetric, others(0)))) {
-      family = neutral(*first, modes, branch_point.at.zero_modes);
+      family = neutral(newton, *first, modes, branch_point.at.zero_modes);
       if (modes.cols() == 2 && family.cols() == 1) family = modes.col(1);          // by symmetry, where `first` has drifted along the family
     }
   if (modes.cols() == 1 + family.cols()) {
