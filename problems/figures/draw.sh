@@ -1,6 +1,6 @@
 #!/bin/bash
 # Draws the figures of problems/README.md and docs/studies.md anew:  bash problems/figures/draw.sh [PROGRAM]   (default: ./elamin)
-# A line for each: the problem; whose results, "." or of a sweep the run whose name begins so; what `elamin plot` is told.
+# A line for each: the problem, with :NAME for another figure of it; whose results, "." or of a sweep the run whose name begins so; what `elamin plot` is told.
 set -euo pipefail
 program=$(realpath "${1:-$(dirname "$0")/../../elamin}")
 cd "$(dirname "$0")"
@@ -8,9 +8,9 @@ results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 
 while read -r problem run options; do
-  name=$(basename "$problem")
+  name=$(basename "${problem/:/_}")
   directory=$results/$name
-  "$program" "../$problem.toml" -o "$directory" --threads 1 --quiet
+  "$program" "../${problem%%:*}.toml" -o "$directory" --threads 1 --quiet
   [ "$run" = . ] || directory=$(echo "$directory/$run"_*)
   # shellcheck disable=SC2086
   "$program" plot "$directory" $options --out "$name.svg"
@@ -26,6 +26,7 @@ hencky_clamped . --shapes branch:1+mode,branch:2+mode,branch:3+mode,branch:4+mod
 elastica 1 --x force --y distance --shapes initial,final
 elastica_touches 3 --y force --shapes initial,contact:1
 cantilever_tip_load 1 --x lambda --y w --shapes final
+cantilever_tip_load:levels .
 greenhill_mast 1 --no-diagram --shapes initial,branch:1+mode
 column_self_contact . --x deflection --y force --shapes initial,final
 column_between_walls . --y force --shapes initial,final

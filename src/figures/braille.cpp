@@ -60,7 +60,8 @@ std::string braille(const Diagram& d, int width, int height) {
   for (Extent* range : {&x, &y})
     if (range->empty() || !(range->hi > range->lo)) *range = with_room(*range);
   const auto number = [](double v) { return fmt::format("{:.4g}", v); };
-  const int margin = static_cast<int>(std::max(number(y.lo).size(), number(y.hi).size())), columns = std::max(10, width - margin - 2);
+  const auto up = [&](double v) { return number(d.decades ? std::pow(10, v) : v); };
+  const int margin = static_cast<int>(std::max(up(y.lo).size(), up(y.hi).size())), columns = std::max(10, width - margin - 2);
   Dots dots(columns, height);
   const auto at = [&](const Vec2& p) {
     return Vec2((p.x() - x.lo) / (x.hi - x.lo) * (2 * columns - 1), (y.hi - p.y()) / (y.hi - y.lo) * (4 * height - 1));
@@ -84,7 +85,7 @@ std::string braille(const Diagram& d, int width, int height) {
   }
   std::string text = fmt::format("{:>{}}\n", d.y, std::max<std::size_t>(static_cast<std::size_t>(margin), d.y.size()));
   for (int k = 0; k < height; ++k)
-    text += fmt::format("{:>{}} │{}\n", k == 0 ? number(y.hi) : k + 1 == height ? number(y.lo) : "", margin, dots.row(k));
+    text += fmt::format("{:>{}} │{}\n", k == 0 ? up(y.hi) : k + 1 == height ? up(y.lo) : "", margin, dots.row(k));
   const std::string lo = number(x.lo), hi = number(x.hi), name = d.x;
   const int between = columns - static_cast<int>(lo.size() + hi.size() + name.size());
   const auto blanks = [](int n) { return std::string(static_cast<std::size_t>(std::max(1, n)), ' '); };

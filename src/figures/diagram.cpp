@@ -19,14 +19,15 @@ namespace {
 
 constexpr double small_type = 6.5, type = 7.5;
 
-// "name (10⁻³)", or the name alone.
-std::string with_factor(const std::string& name, int exponent) {
-  if (exponent == 0) return name;
+std::string power_of_ten(int exponent) {
   static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string power = exponent < 0 ? "⁻" : "";
   for (const char digit : fmt::format("{}", std::abs(exponent))) power += raised[static_cast<std::size_t>(digit - '0')];
-  return fmt::format("{} (10{})", name, power);
+  return "10" + power;
 }
+
+// "name (10⁻³)", or the name alone.
+std::string with_factor(const std::string& name, int exponent) { return exponent == 0 ? name : fmt::format("{} ({})", name, power_of_ten(exponent)); }
 
 }  // namespace
 
@@ -67,9 +68,16 @@ Ticks ticks_of(const Extent& range, bool whole) {
   return ticks;
 }
 
+Ticks decades_of(const Extent& range) {
+  Ticks ticks;
+  const int step = std::max(1, static_cast<int>(std::ceil((range.hi - range.lo) / 6)));
+  for (int k = static_cast<int>(std::ceil(range.lo)); k <= range.hi; k += step) ticks.values.push_back(k), ticks.labels.push_back(power_of_ten(k));
+  return ticks;
+}
+
 void draw_axes(Drawing& drawing, const PlotArea& f, const std::string& x, const std::string& y) {
   constexpr double tick = 2.5;
-  const Ticks across = ticks_of(f.x, f.whole_x), up = ticks_of(f.y);
+  const Ticks across = ticks_of(f.x, f.whole_x), up = f.up();
   std::vector<Polyline> marks;
   double widest = 0;
   for (std::size_t i = 0; i < across.values.size(); ++i) {
@@ -308,6 +316,24 @@ Diagram sweep_diagram(const Table& sweep, const Axes& asked, const std::string& 
   for (auto& [name, curve] : series) {
     std::sort(curve.points.begin(), curve.points.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
     d.curves.push_back(curve);
+  }
+  return d;
+}
+
+Diagram refinement_diagram(const Table& refine, const std::string& file) {
+  constexpr std::size_t most = 6;
+  const int at = needed(refine, "at", file), quantity = needed(refine, "quantity", file), value = needed(refine, "value", file),
+            order = needed(refine, "order", file), first = needed(refine, "level_1", file);
+  Diagram d{"level", "distance from the value without particles, relative", {}, {}};
+  d.whole_x = d.decades = true;
+  for (const Row& row : refine.rows) {
+    const auto limit = number_in(row, value), observed = number_in(row, order);
+    if (!limit || !observed || *limit == 0 || d.curves.size() == most) continue;
+    Curve curve{{}, Curve::Kind::points, static_cast<int>(d.curves.size())};
+    for (int c = first; c < static_cast<int>(refine.columns.size()); ++c)
+      if (const auto level = number_in(row, c); level && *level != *limit) curve.points.emplace_back(c - first + 1, std::log10(std::abs(*level / *limit - 1)));
+    d.names.push_back(fmt::format("{} at {}, order {:.2f}", text_in(row, quantity), text_in(row, at), *observed));
+    d.curves.push_back(std::move(curve));
   }
   return d;
 }

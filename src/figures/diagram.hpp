@@ -28,12 +28,16 @@ struct Ticks {
   int exponent = 0;
 };
 Ticks ticks_of(const Extent& range, bool whole = false);
+/// Of an axis of logarithms: at powers of ten.
+Ticks decades_of(const Extent& range);
 
 /// A frame on the page, and where numbers are in it.
 struct PlotArea {
   Vec2 lo, hi;                         // corners on the page: left and low, right and high
   Extent x, y;
   bool whole_x = false;                // ticks at whole numbers only
+  bool decades = false;                // y is a logarithm to the base of ten
+  Ticks up() const { return decades ? decades_of(y) : ticks_of(y); }
   Vec2 at(double u, double v) const {
     return {lo.x() + (u - x.lo) / (x.hi - x.lo) * (hi.x() - lo.x()), lo.y() + (v - y.lo) / (y.hi - y.lo) * (hi.y() - lo.y())};
   }
@@ -60,6 +64,7 @@ struct Diagram {
   std::vector<EventMark> marks;
   std::vector<std::string> names = {};                    // of the colours; empty: there is one
   bool whole_x = false;                                   // x counts something
+  bool decades = false;                                   // y is a logarithm to the base of ten
   bool empty() const;                                     // there is at most one point
 };
 
@@ -84,6 +89,10 @@ Diagram modes_diagram(const Table& modes, const Axes& axes, const std::string& f
 /// Of sweep.csv: what is swept, and the load factor of the first kind of event that there is, or what is observed at the end; one colour for
 /// each combination of the other swept keys.
 Diagram sweep_diagram(const Table& sweep, const Axes& axes, const std::string& file);
+
+/// Of refine.csv: how far the values of the first few quantities are from those without particles, relative to these, level by level; their names tell the
+/// observed orders. None of quantities without an order.
+Diagram refinement_diagram(const Table& refine, const std::string& file);
 
 /// Draws it with axes and legend into a rectangle of the page. Returns the lower end of all that.
 double draw_diagram(Drawing& drawing, const Diagram& diagram, const Vec2& corner, double width, double height);

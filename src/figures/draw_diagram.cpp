@@ -86,9 +86,9 @@ double draw_diagram(Drawing& drawing, const Diagram& d, const Vec2& corner, doub
   Extent x, y;
   for (const Curve& c : d.curves)
     for (const Vec2& p : c.points) x.add(p.x()), y.add(p.y());
-  PlotArea f{{}, {}, with_room(x), with_room(y), d.whole_x};
+  PlotArea f{{}, {}, with_room(x), with_room(y), d.whole_x, d.decades};
   double widest = 0;
-  for (const std::string& label : ticks_of(f.y).labels) widest = std::max(widest, 1.2 * width_of(label, legend_type));   // where a wider typeface stands in
+  for (const std::string& label : f.up().labels) widest = std::max(widest, 1.2 * width_of(label, legend_type));   // where a wider typeface stands in
   const double left = corner.x() + widest + 16;
   const double top = draw_legend(drawing, entries_of(d), {left, corner.y()}, corner.x() + width - left) + 3;
   f.lo = {left, top + height}, f.hi = {corner.x() + width - 2, top};

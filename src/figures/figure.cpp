@@ -24,11 +24,19 @@ Diagram landscape_or_tree(const Table& table, const Axes& axes, const std::strin
   return tree_diagram(std::filesystem::path(file).replace_extension(".json").string());
 }
 
+// The values without particles, unless columns of sweep.csv are asked for.
+Diagram sweep_or_refinement(const Table& table, const Axes& axes, const std::string& file) {
+  const std::string refined = std::filesystem::path(file).replace_filename("refine.csv").string();
+  if (axes.x.empty() && axes.y.empty() && std::filesystem::exists(refined))
+    if (Diagram d = refinement_diagram(read_table(refined), refined); !d.empty()) return d;
+  return sweep_diagram(table, axes, file);
+}
+
 // What the directory has in it; nothing if it has one point at most.
 std::optional<Diagram> diagram_in(const FigureOptions& options) {
   using Read = Diagram (*)(const Table&, const Axes&, const std::string&);
   const std::pair<const char*, Read> tables[] = {
-      {"sweep.csv", sweep_diagram}, {"modes.csv", modes_diagram}, {"trajectory.csv", motion_diagram},
+      {"sweep.csv", sweep_or_refinement}, {"modes.csv", modes_diagram}, {"trajectory.csv", motion_diagram},
       {"curve.csv", curve_diagram}, {"landscape.csv", landscape_or_tree}, {"path.csv", path_diagram}};
   for (const auto& [name, read] : tables) {
     const std::string file = (std::filesystem::path(options.directory) / name).string();

@@ -160,6 +160,25 @@ function showEvents() {
   $('freed').textContent = drops.size > 1 ? `Together the ${drops.size} snaps set ${together} of energy free.` : '';
 }
 
+/// A number to the second digit of its error.
+function withError(value, error) {
+  if (!Number.isFinite(error)) return short(value);
+  const digits = error > 0 ? Math.max(0, Math.min(20, 1 - Math.floor(Math.log10(error)))) : 15;
+  return `${value.toFixed(digits)} ± ${error.toPrecision(2)}`;
+}
+
+function showRefined() {
+  const table = new Table(report.refined), levels = table.columns.filter((c) => c.startsWith('level_'));
+  const numbers = [2, 3, ...levels.map((_, i) => 5 + i)], number = (column, k) => asNumber(table.at(column, k));
+  const head = tableRow('th', ['at', 'quantity', 'value ± error', 'order', 'approach', ...levels.map((c) => c.replace('_', ' '))], numbers);
+  $('refined-part').hidden = false, $('sweep-title').textContent = 'The levels';
+  $('refined').replaceChildren(head, ...d3.range(table.rows).map((k) => {
+    const order = number('order', k), value = withError(number('value', k), number('error', k));
+    const cells = [table.at('at', k), table.at('quantity', k), value, Number.isFinite(order) ? order.toFixed(2) : '', table.at('approach', k)];
+    return tableRow('td', [...cells, ...levels.map((c) => short(number(c, k)))], numbers);
+  }));
+}
+
 function drawCharts() {
   const run = page.run, all = {curve: drawCurve, landscape: drawLandscape, energy: drawEnergies, contacts: drawContacts, eigenvalues: drawEigenvalues, iterations: drawIterations};
   const drawn = () => Object.entries(all).map(([id, draw]) => [id, draw($(id), run, page.row, select)]);
@@ -269,6 +288,7 @@ if (sweep) {
   fill($('sweep-x'), entries, swept.find((c) => !c.startsWith('expect.')) || swept[0]);
   fill($('sweep-y'), entries, threshold || firstColumns(runs[0])[1]);
 }
+if (report.refined) showRefined();
 if (runs.length > 1) {
   $('overlay').checked = runs.length <= 12;
   if (!sweep) {

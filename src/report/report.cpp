@@ -88,8 +88,10 @@ Json page_data(const ReportOptions& options) {
     for (const std::string& run : runs_in(d)) directories.push_back(run);
   Json data;
   data["version"] = version(), data["command"] = command_of(options);
-  const std::string table = (fs::path(options.directories.front()) / "sweep.csv").string();
-  data["sweep"] = options.directories.size() == 1 && fs::exists(table) ? table_data(table) : Json(nullptr);
+  for (const auto& [key, name] : {std::pair{"sweep", "sweep.csv"}, {"refined", "refine.csv"}}) {
+    const std::string table = (fs::path(options.directories.front()) / name).string();
+    data[key] = options.directories.size() == 1 && fs::exists(table) ? table_data(table) : Json(nullptr);
+  }
   data["runs"] = Json::array();
   std::size_t stored = 0, kept = 0;
   for (const std::string& d : directories) {

@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "figures/diagram.hpp"
 #include "figures/scene.hpp"
 #include "results/stored_run.hpp"
@@ -105,6 +106,26 @@ TEST_CASE("a sweep: what is swept, and the first event that there is", "[figures
   CHECK(d.y == "load factor λ of limit:1");
   REQUIRE(d.curves.size() == 1);
   CHECK(d.curves[0].points == Polyline{{5, 0.5}, {9, 0.25}});
+}
+
+TEST_CASE("a refinement: the distance from the limit, in decades, of what has an order", "[figures]") {
+  ScratchDirectory scratch;
+  const std::string table = "at,quantity,value,error,order,approach,level_1,level_2,level_3\n"
+                            "final,w,2,1e-3,2,asymptotic,2.2,2.02,2\nfinal,force,0,,,none,1,2,1\nlimit:1,lambda,-4,1e-3,1,asymptotic,-3.6,-3.96,-4.0004\n";
+  const Diagram d = refinement_diagram(read_table(scratch.file("refine.csv", table)), "refine.csv");
+  CHECK(d.decades);
+  CHECK(d.names == std::vector<std::string>{"w at final, order 2.00", "lambda at limit:1, order 1.00"});
+  REQUIRE(d.curves.size() == 2);
+  REQUIRE(d.curves[0].points.size() == 2);                        // what is the limit itself has no logarithm
+  CHECK(d.curves[0].points[1].y() == Approx(-2));
+  CHECK(d.curves[1].points[2].x() == 3);
+  CHECK(d.curves[1].points[2].y() == Approx(-4));
+  CHECK(decades_of({-4.5, -1.9}).labels == std::vector<std::string>{"10⁻⁴", "10⁻³", "10⁻²"});
+  CHECK(braille(d, 60, 8).find("0.0001") != std::string::npos);
+  scratch.file("sweep.csv", "beam.a.particles,status,energy\n9,done,1\n17,done,2\n");
+  const auto words = [&](const std::string& y) { return read_text(write_figure({scratch / ".", "", y, {}, true, scratch / "f.svg"})); };
+  CHECK(words("").find("w at final") != std::string::npos);
+  CHECK(words("energy").find("w at final") == std::string::npos);
 }
 
 TEST_CASE("a figure has its words as text, and the same bits twice", "[figures]") {

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/text_file.hpp"
 #include "lammps/data.hpp"
 #include "report/base64.hpp"
 #include "report/run_data.hpp"
@@ -165,6 +166,14 @@ TEST_CASE("a page holds the numbers of a run's files", "[report]") {
   CHECK(thin["states"]["kept"] < run.states.size());
   CHECK(thin["states"]["list"].front()["label"] == "initial");
   CHECK(thin["states"]["list"].back()["label"] == "final");
+}
+
+TEST_CASE("a page of a refinement has its values", "[report]") {
+  ScratchDirectory scratch;
+  const std::string directory = made(scratch);
+  CHECK(report_page({{directory}, "", true}).find("\"refined\":null") != std::string::npos);
+  write_text(directory + "/refine.csv", "at,quantity,value,error,order,approach,level_1,level_2\nfinal,w,0.5,1e-3,2,asymptotic,0.25,0.4375\n");
+  CHECK(report_page({{directory}, "", true}).find("[0.4375]") != std::string::npos);
 }
 
 TEST_CASE("a page has of every stage what was there", "[report]") {
