@@ -3,52 +3,21 @@
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "solve/blas.hpp"
-#include "solve/multifrontal.hpp"
-#include "solve/ordering.hpp"
+#include "solve/cholmod.hpp"
 
-#include <cholmod.h>
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <cassert>
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <span>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace elamin {
 
 namespace {
 
-// A view, no copy.
-cholmod_sparse view(const SparseMatrix& m) {
-  cholmod_sparse a{};
-  a.nrow = m.rows(), a.ncol = m.cols(), a.nzmax = m.nonZeros();
-  a.p = const_cast<int*>(m.outerIndexPtr()), a.i = const_cast<int*>(m.innerIndexPtr());
-  a.x = const_cast<double*>(m.valuePtr());
-  a.stype = -1, a.itype = CHOLMOD_INT, a.xtype = CHOLMOD_REAL, a.dtype = CHOLMOD_DOUBLE, a.sorted = 1, a.packed = 1;
-  return a;
-}
-
-// Unknowns from which on the graph of particles is ordered, which takes half the time of the graph of unknowns; below, milliseconds.
-constexpr Eigen::Index by_particles = 10'000;
-
 constexpr double checked_from = 1e9;             // bytes that are looked for before they are asked for
-
-std::span<const int> ints(const void* first, std::size_t count) { return {static_cast<const int*>(first), count}; }
-
-// The pattern of a supernodal factor; a view, no copy.
-Supernodes supernodes(const cholmod_factor& l) {
-  return {ints(l.super, l.nsuper + 1), ints(l.pi, l.nsuper + 1), ints(l.px, l.nsuper + 1), ints(l.s, l.ssize), ints(l.Perm, l.n)};
-}
-
-[[noreturn]] void cholmod_failed(const std::string& what, int status) {
-  if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw OutOfMemory("there is not enough memory for a factor of the Hessian (CHOLMOD, " + what + ")");
-  throw std::runtime_error("CHOLMOD: the " + what + " failed, status " + std::to_string(status));
-}
 
 // What programs can have without taking it from others [bytes]; infinity where the system does not tell.
 double free_memory() {
@@ -62,13 +31,6 @@ double free_memory() {
   }
   return known ? free : std::numeric_limits<double>::infinity();
 }
-
-// CHOLMOD opens teams of four threads for loops of a few hundred numbers, whatever it is told: none while this lives.
-struct OneThread {
-  int levels = omp_get_max_active_levels();
-  OneThread() { omp_set_max_active_levels(0); }
-  ~OneThread() { omp_set_max_active_levels(levels); }
-};
 
 }  // namespace
 
@@ -127,13 +89,7 @@ void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders
   const OneThread one;
   cholmod_->release();
   if (pattern.cols() == 0) return;
-  const Doing doing("ordering the unknowns");
-  cholmod_sparse a = view(pattern);
-  cholmod_common& common = cholmod_->common;
-  std::vector<int> order = pattern.cols() >= by_particles ? fill_reducing_order(pattern) : std::vector<int>();
-  common.nmethods = order.empty() ? 0 : 1, common.method[0].ordering = CHOLMOD_GIVEN;      // 0: its own choice
-  cholmod_->factor = cholmod_analyze_p(&a, order.empty() ? nullptr : order.data(), nullptr, 0, &common);
-  if (!cholmod_->factor) cholmod_failed("analysis", cholmod_->common.status);
+  cholmod_->factor = analysis_of(pattern, cholmod_->common);
   if (cholmod_->factor->is_super) cholmod_->fronts.emplace(pattern, supernodes(*cholmod_->factor));
 }
 

@@ -80,7 +80,7 @@ class ContactEquilibrium {
 
   Energy& energy_;
   Factors factors_;                              // for its zero_level
-  PivotedFactor pivoted_;
+  PivotedFactor pivoted_{true};
   int version_ = -1;                             // of the pattern that matrix_ was made for, with these contacts …
   Eigen::MatrixXd borders_;                      // … and so many directions held: with zeros for the contacts
   std::vector<HardForce> closed_;

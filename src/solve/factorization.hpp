@@ -1,5 +1,5 @@
 #pragma once
-// What a direct factorisation of sparse symmetric matrices does; CHOLMOD's is `cholesky`, MUMPS's and LAPACK's are `pivoted`.
+// What a direct factorisation of sparse symmetric matrices does; CHOLMOD's is `cholesky`, of indefinite ones there is `pivoted`.
 #include "core/types.hpp"
 
 namespace elamin {
@@ -22,7 +22,7 @@ class Factorization {
   /// The number of negative eigenvalues of the matrix factorised last. With borders that are independent, m of them belong to
   /// the borders: the others are those of H among the vectors orthogonal to Z.
   virtual int negative() const = 0;
-  /// (H + shift·I)⁻¹ b; with borders p of H p + Z μ = b, Zᵀ p = 0.
+  /// (H + shift·I)⁻¹ b; with borders p of H p + Z μ = b, Zᵀ p = 0. Of b with rows for the borders, too: the solution of the bordered matrix.
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& b) = 0;
   Vector solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
   /// Time spent in all calls so far, waiting for other threads included.

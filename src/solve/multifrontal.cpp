@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <new>
+#include <numeric>
 
 extern "C" {
 void dpotrf_(const char*, const int*, double*, const int*, int*);
@@ -15,6 +18,7 @@ void dtrsm_(const char*, const char*, const char*, const char*, const int*, cons
 void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*, double*, const int*);
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
             const double*, double*, const int*);
+void dsytrf_rk_(const char*, const int*, double*, const int*, double*, int*, double*, const int*, int*);
 }
 
 namespace elamin {
@@ -24,6 +28,8 @@ namespace {
 constexpr int tile = 256;                        // rows and columns of a tile
 constexpr double shared_from = 5e7;              // operations that are worth more than one thread: some milliseconds
 constexpr double branches = 64;                  // the largest subtree of one thread has such a part of all operations
+constexpr int strip = 64;                        // columns of a symmetric product that are made at once; of a panel in dsytrf_rk
+constexpr double growth = 8;                     // of diagonal entries, as much as a factor's rounding, limits::rounding, leaves room for
 constexpr double long_work = 1e10;               // operations that nobody waits for who interrupts: a third of a second
 
 using Block = Multifrontal::Block;
@@ -222,11 +228,77 @@ void Multifrontal::by_tiles(const Front& front) {
 void Multifrontal::whole(const Front& front) {
   assemble(front, 0, front.height);
   add_entries(front);
+  if (pivots_) return eliminate_block(front);
   if (!cholesky_of(front.left, front.columns)) failed_ = true;
   if (front.below() == 0 || failed_) return;
   const Block under{front.left.at + front.columns, front.height};
   divide(front.left, front.columns, under, front.below());
   subtract_product(front.rest, front.below(), front.below(), under, under, front.columns, leaf(front.s) ? 0 : 1);
+}
+
+void Multifrontal::eliminate_block(const Front& front) {
+  const int c = front.columns, below = front.below();
+  int* const order = &pivots_->order[of_.super[front.s]];
+  double* const beside = &pivots_->beside[of_.super[front.s]];
+  thread_local std::vector<double> work;
+  thread_local std::vector<int> place;
+  thread_local Vector taken;                                                  // Σ |L₂₁ D L₂₁ᵀ| of diagonal entries
+  const std::size_t room = std::size_t(std::max(strip, below)) * c;
+  if (work.size() < room) work.resize(room);
+  const int panel = strip * c;
+  int info = 0;
+  dsytrf_rk_("L", &c, front.left.at, &front.height, beside, order, work.data(), &panel, &info);
+  const auto diagonal = [&](int k) { return front.left.at[std::int64_t(k) * (front.height + 1)]; };
+  int negative = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < c; ++k) {
+    if (order[k] < 0) {                                        // 2×2, with eigenvalues of either sign
+      const double d = diagonal(k), e = diagonal(k + 1), b = beside[k];
+      least = std::min(least, std::abs(b * b - d * e) / std::max({std::abs(d), std::abs(e), std::abs(b)}));
+      ++negative, ++k;
+    } else {
+      least = std::min(least, std::abs(diagonal(k)));
+      negative += diagonal(k) < 0;
+    }
+  }
+  pivots_->negative[front.s] = negative;
+  if (info != 0 || !(least > growth * epsilon * largest_)) failed_ = true;
+  if (below == 0 || failed_) return;
+  // Y = A₂₁ Pᵀ L⁻ᵀ and L₂₁ = Y D⁻¹, with A₁₁ = Pᵀ L D Lᵀ P.
+  place.resize(c);
+  std::iota(place.begin(), place.end(), 0);
+  for (int k = 0; k < c; ++k) std::swap(place[k], place[std::abs(order[k]) - 1]);
+  const auto under = [&](int k) { return front.left.at + std::int64_t(k) * front.height + c; };
+  const Block y{work.data(), below};
+  for (int k = 0; k < c; ++k) std::copy(under(place[k]), under(place[k]) + below, y.at + std::int64_t(k) * below);
+  const double one = 1, minus = -1, beta = leaf(front.s) ? 0 : 1;
+  dtrsm_("R", "L", "T", "U", &below, &c, &one, front.left.at, &front.height, y.at, &below);
+  taken.setZero(below);
+  for (int k = 0; k < c; ++k) {
+    const double *const at = y.at + std::int64_t(k) * below, *const next = at + below;
+    if (order[k] < 0) {
+      const double d = diagonal(k), e = diagonal(k + 1), b = beside[k], f = d / b, g = e / b, by = 1 / (b * (f * g - 1));
+      double *const to = under(k), *const beyond = under(k + 1);
+      for (int i = 0; i < below; ++i) {
+        to[i] = by * (g * at[i] - next[i]), beyond[i] = by * (f * next[i] - at[i]);
+        taken[i] += std::abs(to[i] * at[i]) + std::abs(beyond[i] * next[i]);
+      }
+      ++k;
+    } else {
+      const double by = 1 / diagonal(k);
+      double* const to = under(k);
+      for (int i = 0; i < below; ++i) to[i] = by * at[i], taken[i] += std::abs(to[i] * at[i]);
+    }
+  }
+  const int* const row = &of_.rows[of_.pi[front.s] + c];
+  for (int i = 0; i < below; ++i)
+    if (!(taken[i] <= growth * diagonal_[row[i]])) failed_ = true;            // not a number, either
+  if (failed_) return;
+  for (int j = 0; j < below; j += strip) {
+    const int rows = below - j, columns = std::min(strip, rows);
+    dgemm_("N", "T", &rows, &columns, &c, &minus, front.left.at + c + j, &front.height, y.at + j, &below, &beta,
+           front.rest.at + std::int64_t(j) * (below + 1), &below);
+  }
 }
 
 // Whether there is any use in going on.
@@ -277,7 +349,29 @@ void Multifrontal::share_work() {
   }
 }
 
+bool Multifrontal::small_fronts() const {
+  for (int s = 0; s < of_.count(); ++s)
+    if (of_.height(s) > 2 * tile) return false;
+  return true;
+}
+
 bool Multifrontal::factorize(const SparseMatrix& h, double shift, double* l) {
+  pivots_ = nullptr;
+  return factorize_all(h, shift, l);
+}
+
+bool Multifrontal::factorize(const SparseMatrix& h, double shift, double* l, BlockPivots& pivots) {
+  assert(small_fronts());
+  const int n = of_.super.back();
+  pivots.order.resize(n), pivots.beside.resize(n), pivots.negative.resize(of_.count());
+  pivots_ = &pivots;
+  largest_ = std::max(Eigen::Map<const Vector>(h.valuePtr(), h.nonZeros()).cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  diagonal_.resize(n);
+  for (int i = 0; i < n; ++i) diagonal_[i] = std::abs(h.valuePtr()[h.outerIndexPtr()[of_.permutation[i]]] + shift);
+  return factorize_all(h, shift, l);
+}
+
+bool Multifrontal::factorize_all(const SparseMatrix& h, double shift, double* l) {
   values_ = h.valuePtr(), shift_ = shift, l_ = l;
   failed_ = out_of_memory_ = false;
   stoppable_ = all_operations_ > long_work && !interrupted();

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of a supernodal Cholesky factor, on all cores.
+// The numbers of a supernodal factor, on all cores.
 #include "core/types.hpp"
 
 #include <atomic>
@@ -22,6 +22,13 @@ struct Supernodes {
   int height(int s) const { return pi[s + 1] - pi[s]; }
 };
 
+/// The blocks of pivots of an indefinite matrix's factor, as LAPACK's dsytrf_rk leaves them.
+struct BlockPivots {
+  std::vector<int> order;                        // rows that are exchanged within a block; below zero: of a 2×2 pivot
+  std::vector<double> beside;                    // entries of 2×2 pivots beside the diagonal
+  std::vector<int> negative;                     // eigenvalues of each supernode's block
+};
+
 /// L by the multifrontal method (Duff & Reid 1983, ACM Trans. Math. Softw. 9): each supernode has a front, the dense matrix of its rows, to
 /// which the entries of H and what is left of its children's fronts are added; its columns are factorised, and the rest goes to its parent.
 /// Fronts of different branches of the tree are independent, large ones are cut into tiles that are. Everything is summed in an order that
@@ -39,6 +46,13 @@ class Multifrontal {
   /// Factorises H + shift·I into `l`, which has room for all supernodes. False if that is not positive definite to rounding, or if work is
   /// interrupted that takes more than a moment; `l` then means nothing. Throws OutOfMemory.
   [[nodiscard]] bool factorize(const SparseMatrix& h, double shift, double* l);
+  /// The same of an indefinite matrix: LDLᵀ with a block of D for each supernode, pivoted inside (Bunch & Kaufman, bounded; LAPACK's dsytrf_rk),
+  ///   A₁₁ = Pᵀ L₁₁ D L₁₁ᵀ P,   L₂₁ = A₂₁ Pᵀ L₁₁⁻ᵀ D⁻¹,   A₂₂ ← A₂₂ − L₂₁ D L₂₁ᵀ.
+  /// False also if that is not stable: where what a supernode takes from a diagonal entry, Σ |L₂₁ D L₂₁ᵀ|, is more than `growth` of it, where it is all of it
+  /// at most if H is positive definite; or a pivot is rounding.
+  [[nodiscard]] bool factorize(const SparseMatrix& h, double shift, double* l, BlockPivots& pivots);
+  /// Whether factors of indefinite matrices are made: fronts are small enough for one thread each.
+  bool small_fronts() const;
   /// Operations of a factorisation, ⅓ c³ + c² r + c r² of a supernode of c columns and r rows below them, multiplications and additions.
   double operations() const { return all_operations_; }
 
@@ -52,6 +66,8 @@ class Multifrontal {
   void add_entries(const Front& front);
   void by_tiles(const Front& front);
   void whole(const Front& front);
+  void eliminate_block(const Front& front);
+  bool factorize_all(const SparseMatrix& h, double shift, double* l);
   void share_work();
   bool alone(int s) const;
   bool leaf(int s) const { return child_start_[s] == child_start_[s + 1]; }
@@ -70,6 +86,9 @@ class Multifrontal {
   const double* values_ = nullptr;
   double shift_ = 0;
   double* l_ = nullptr;
+  BlockPivots* pivots_ = nullptr;                // none: positive definite
+  double largest_ = 0;                           // entry of H
+  std::vector<double> diagonal_;                 // of PHPᵀ + shift·I, absolute
   std::vector<std::unique_ptr<double[]>> rest_;  // of the front of each supernode
   std::unique_ptr<std::atomic<int>[]> waiting_;  // for so many children
   std::atomic<bool> failed_{false}, out_of_memory_{false};

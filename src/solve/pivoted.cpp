@@ -11,14 +11,21 @@ namespace elamin {
 
 void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
   const Timed timed(seconds_);
-  if (pattern.rows() + borders <= limits::dense) factor_ = std::make_unique<BunchKaufman>();
-  else factor_ = std::make_unique<Mumps>();
-  factor_->analyze(pattern, borders);
+  by_blocks_ = !anywhere_ && borders == 0;
+  if (by_blocks_) blocks_.analyze(pattern);
+  any_.reset(), factor_ = nullptr;
 }
 
 bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
-  assert(factor_);
   const Timed timed(seconds_);
+  factor_ = &blocks_;
+  if (by_blocks_ && blocks_.suits() && blocks_.factorize(hessian, shift, borders)) return true;
+  if (!any_) {
+    if (hessian.rows() + borders.cols() <= limits::dense) any_ = std::make_unique<BunchKaufman>();
+    else any_ = std::make_unique<Mumps>();
+    any_->analyze(hessian, static_cast<int>(borders.cols()));
+  }
+  factor_ = any_.get();
   return factor_->factorize(hessian, shift, borders);
 }
 

@@ -1,14 +1,17 @@
 #pragma once
-#include "solve/factorization.hpp"
+#include "solve/block_ldl.hpp"
 
 #include <memory>
 
 namespace elamin {
 
 /// LDLᵀ with 1×1 and 2×2 pivots: of indefinite matrices, with borders, with a reliable inertia (Sylvester's law). There is no factor of what is
-/// singular to rounding. Small matrices are factorised as dense ones (limits::dense), others by MUMPS.
+/// singular to rounding. By `block_ldl`; with borders, where that is not stable, or fronts are large, by MUMPS, or small matrices as dense ones (limits::dense).
 class PivotedFactor final : public Factorization {
  public:
+  /// anywhere: pivots are looked for in all of the matrix, as those of contacts' forces must be, which have no diagonal entries of their own.
+  explicit PivotedFactor(bool anywhere = false) : anywhere_(anywhere) {}
+
   void analyze(const SparseMatrix& pattern, int borders = 0) override;
   [[nodiscard]] bool factorize(const SparseMatrix& hessian, double shift = 0, const Eigen::MatrixXd& borders = {}) override;
   int negative() const override;
@@ -16,7 +19,10 @@ class PivotedFactor final : public Factorization {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) override;
 
  private:
-  std::unique_ptr<Factorization> factor_;        // of the last pattern
+  bool anywhere_, by_blocks_ = false;
+  BlockLdl blocks_;
+  std::unique_ptr<Factorization> any_;                   // for what that has no factor of, where it has been needed since the last pattern
+  Factorization* factor_ = nullptr;                      // which of them the last one is
 };
 
 }  // namespace elamin
