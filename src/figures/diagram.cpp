@@ -331,7 +331,7 @@ Diagram refinement_diagram(const Table& refine, const std::string& file) {
     if (!limit || !observed || *limit == 0 || d.curves.size() == most) continue;
     Curve curve{{}, Curve::Kind::points, static_cast<int>(d.curves.size())};
     for (int c = first; c < static_cast<int>(refine.columns.size()); ++c)
-      if (const auto level = number_in(row, c); level && *level != *limit) curve.points.emplace_back(c - first + 1, std::log10(std::abs(*level / *limit - 1)));
+      if (const auto level = number_in(row, c); level && *level != *limit) curve.points.emplace_back(c - first + 1, std::log10(std::abs((*level - *limit) / *limit)));
     d.names.push_back(fmt::format("{} at {}, order {:.2f}", text_in(row, quantity), text_in(row, at), *observed));
     d.curves.push_back(std::move(curve));
   }

@@ -222,7 +222,7 @@ bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
 void ArcSteps::carry_neutral(Equilibrium& e) {
   Stability& s = e.point.stability;
   if (neutral_.cols() == 0 || e.zero_modes.cols() >= neutral_.cols()) return;
-  const EigenPairs pairs = all_but_neutral(newton_, e, static_cast<int>(neutral_.cols()));
+  const EigenPairs pairs = nearly_neutral(newton_, e, static_cast<int>(neutral_.cols()));
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
     const Vector& v = pairs.vectors.col(j);
     if ((neutral_.transpose() * v).norm() < arc_steps::same_mode) continue;
@@ -303,7 +303,7 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
   for (const double stop : options_.stops) {
     if (last_stop_ && stop == *last_stop_) continue;
     const bool crosses = (from - stop) * (to - stop) <= 0;
-    if (!crosses && !stands_at(current_, stop) && !(!deciding(c) && stands_at(c.e, stop))) continue;
+    if (!crosses && !stands_at(current_, stop) && (deciding(c) || !stands_at(c.e, stop))) continue;
     if (!first || std::abs(stop - from) < std::abs(*first - from)) first = stop;
   }
   if (!first) return true;

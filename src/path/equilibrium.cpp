@@ -331,7 +331,7 @@ double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixX
   return std::isfinite(far) ? far : 0;
 }
 
-EigenPairs all_but_neutral(Newton& newton, const Equilibrium& e, int count) {
+EigenPairs nearly_neutral(Newton& newton, const Equilibrium& e, int count) {
   newton.energy().evaluate(e.point.state);
   const EigenPairs pairs = newton.factors().lowest(e.point.stability.negative + count + 1);
   EigenPairs found{Vector(0), Eigen::MatrixXd(pairs.vectors.rows(), 0)};

@@ -45,7 +45,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 [[nodiscard]] double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held);
 
 /// Eigenpairs of the Hessian whose stiffness is next to nothing beside the next one, at most `count` of them: as of an oval that rotates in a ring of links.
-[[nodiscard]] EigenPairs all_but_neutral(Newton& newton, const Equilibrium& e, int count);
+[[nodiscard]] EigenPairs nearly_neutral(Newton& newton, const Equilibrium& e, int count);
 
 /// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it. In a plane
 /// they are those of ∇c,  c = Σ_k q_k ω_k,  ω_k the angles' changes and q_k those that the mode makes, which supports do not enter: with

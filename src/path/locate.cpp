@@ -160,20 +160,20 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   const auto resolution = [&](double t) { return segment.resolution(t); };
   // A force that is left along the critical modes breaks the branch point: then there is none.
   const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
-  State nearer;                                                // an equilibrium a little before the zero
+  State just_before;                                           // an equilibrium on this side of the zero
   const auto between = [&](double t) { return interpolate(newton.energy().kinematics(), segment, a, b, segment.a, segment.b, t); };
   // free: nothing is held, as at a limit point. At a branch point the equations are regular with the critical modes held where the branch has them.
   const auto search = [&](bool free) -> std::optional<Sample> {
     const auto good = [&](const Equilibrium& e) { return e.point.report.converged() && (free || e.point.report.residual <= rounding); };
     Sample below = lower, above = upper;                        // the last ones on both sides of the zero
-    nearer = lower.e.point.state;
+    just_before = lower.e.point.state;
     const auto sample = [&](double t, const Sample& from, Equilibrium e) {
       e.zero_modes = known, e.lowest = from.e.lowest;
       const double value = critical_value(newton, e, index);
       const Sample s{t, value, std::move(e)};
       const bool ahead = (value < 0) == (lower.f < 0);
       (ahead ? below : above) = s;
-      if (ahead && std::abs(value) > locate::little_before * std::abs(lower.f)) nearer = s.e.point.state;
+      if (ahead && std::abs(value) > locate::little_before * std::abs(lower.f)) just_before = s.e.point.state;
       return s;
     };
     const auto held_at = [&](const Sample& from) {
@@ -221,7 +221,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   if (event.kind == EventKind::limit && !told)
     if (std::optional<Sample> free = search(true)) event = finished(*free, true), zero = std::move(free);
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
-  else event.passing = event.modes * (event.modes.transpose() * newton.energy().kinematics().difference(nearer, zero->e.point.state));
+  else event.passing = event.modes * (event.modes.transpose() * newton.energy().kinematics().difference(just_before, zero->e.point.state));
   return done(std::move(event), zero->t);
 }
 

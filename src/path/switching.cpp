@@ -130,10 +130,10 @@ bool images(const Kinematics& kinematics, const Equilibrium& at, const Beside& a
          std::abs(shape(a) - shape(b)) <= 1e3 * switching::same * shape(a);
 }
 
-// What costs all but nothing on a side branch within the span of the critical modes, orthonormal: the directions of a family.
+// What costs next to nothing on a side branch within the span of the critical modes, orthonormal: the directions of a family.
 Eigen::MatrixXd neutral(Newton& newton, const Beside& side, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& zero) {
   Eigen::MatrixXd found(modes.rows(), 0);
-  const Eigen::MatrixXd free = side_by_side(side.e.zero_modes, all_but_neutral(newton, side.e, static_cast<int>(modes.cols())).vectors);
+  const Eigen::MatrixXd free = side_by_side(side.e.zero_modes, nearly_neutral(newton, side.e, static_cast<int>(modes.cols())).vectors);
   for (Eigen::Index j = 0; j < free.cols(); ++j) {
     Vector v = modes * (modes.transpose() * free.col(j));
     if (zero.cols() > 0) v -= zero * (zero.transpose() * v);

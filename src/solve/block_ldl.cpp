@@ -13,25 +13,32 @@ extern "C" void dtrsm_(const char*, const char*, const char*, const char*, const
 
 namespace elamin {
 
+namespace {
+
+constexpr Eigen::Index most_unknowns = 50'000;   // beyond, sheets have fronts that are too large, and MUMPS would have the analysis made twice
+
+}  // namespace
+
 void BlockLdl::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders) {
   assert(borders == 0);
   ready_blas();
   fronts_.reset();
-  if (pattern.cols() == 0) return;
+  if (pattern.cols() == 0 || pattern.cols() > most_unknowns) return;
   cholmod_common common;
   cholmod_start(&common);
   common.print = 0, common.supernodal = CHOLMOD_SUPERNODAL;
   const OneThread one;
   cholmod_factor* factor = analysis_of(pattern, common);
   const Supernodes of = supernodes(*factor);
+  const bool small = of.small_fronts();
   const auto kept = [](std::span<const int> numbers) { return std::vector<int>(numbers.begin(), numbers.end()); };
-  super_ = kept(of.super), pi_ = kept(of.pi), px_ = kept(of.px), rows_ = kept(of.rows), permutation_ = kept(of.permutation);
+  if (small) super_ = kept(of.super), pi_ = kept(of.pi), px_ = kept(of.px), rows_ = kept(of.rows), permutation_ = kept(of.permutation);
   const std::size_t numbers = factor->xsize;
   cholmod_free_factor(&factor, &common);
   cholmod_finish(&common);
+  if (!small) return;
   fronts_.emplace(pattern, this->pattern());
-  if (fronts_->small_fronts()) l_.resize(numbers);
-  else fronts_.reset();
+  l_.resize(numbers);
 }
 
 bool BlockLdl::factorize(const SparseMatrix& hessian, double shift, [[maybe_unused]] const Eigen::MatrixXd& borders) {
@@ -49,10 +56,10 @@ void BlockLdl::divide_by_pivots(int s, Eigen::Ref<Eigen::MatrixXd> x) const {
   for (int k = 0; k < static_cast<int>(x.rows()); ++k) {
     const double d = l[std::int64_t(k) * (height + 1)];
     if (pivots_.order[super_[s] + k] < 0) {
-      const double b = pivots_.beside[super_[s] + k], f = d / b, g = l[std::int64_t(k + 1) * (height + 1)] / b, by = 1 / (b * (f * g - 1));
+      const PairInverse inverse(d, pivots_.beside[super_[s] + k], l[std::int64_t(k + 1) * (height + 1)]);
       for (Eigen::Index j = 0; j < x.cols(); ++j) {
         const double u = x(k, j), v = x(k + 1, j);
-        x(k, j) = by * (g * u - v), x(k + 1, j) = by * (f * v - u);
+        x(k, j) = inverse.by * (inverse.g * u - v), x(k + 1, j) = inverse.by * (inverse.f * v - u);
       }
       ++k;
     } else {

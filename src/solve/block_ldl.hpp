@@ -6,8 +6,8 @@
 
 namespace elamin {
 
-/// LDLᵀ of indefinite matrices without borders, pivoted inside of supernodes alone, by `multifrontal`: twice as fast as with all of MUMPS's pivots, and on
-/// chains six times. There is no factor where that is not stable, or the matrix singular to rounding.
+/// LDLᵀ of indefinite matrices without borders, pivoted inside of supernodes alone, by `multifrontal`: faster than with pivots from
+/// anywhere. There is no factor where that is not stable, or the matrix singular to rounding.
 class BlockLdl final : public Factorization {
  public:
   void analyze(const SparseMatrix& pattern, int borders = 0) override;

@@ -25,7 +25,7 @@ constexpr int patience = 12;
 /// the forces that are left.
 constexpr std::size_t most_rotations = 60;
 
-/// Unknowns up to which an indefinite matrix is factorised as a dense one. For a band of 11 and two solutions a factor, n³/3 operations take
+/// Unknowns up to which an indefinite matrix that `block_ldl` has no factor of is factorised as a dense one. For a band of 11 and two solutions a factor, n³/3 operations take
 /// as long as MUMPS's calls between 150 and 200 unknowns, a fifth of that for 50.
 constexpr int dense = 160;
 

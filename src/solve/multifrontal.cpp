@@ -277,10 +277,10 @@ void Multifrontal::eliminate_block(const Front& front) {
   for (int k = 0; k < c; ++k) {
     const double *const at = y.at + std::int64_t(k) * below, *const next = at + below;
     if (order[k] < 0) {
-      const double d = diagonal(k), e = diagonal(k + 1), b = beside[k], f = d / b, g = e / b, by = 1 / (b * (f * g - 1));
+      const PairInverse inverse(diagonal(k), beside[k], diagonal(k + 1));
       double *const to = under(k), *const beyond = under(k + 1);
       for (int i = 0; i < below; ++i) {
-        to[i] = by * (g * at[i] - next[i]), beyond[i] = by * (f * next[i] - at[i]);
+        to[i] = inverse.by * (inverse.g * at[i] - next[i]), beyond[i] = inverse.by * (inverse.f * next[i] - at[i]);
         taken[i] += std::abs(to[i] * at[i]) + std::abs(beyond[i] * next[i]);
       }
       ++k;
@@ -349,9 +349,9 @@ void Multifrontal::share_work() {
   }
 }
 
-bool Multifrontal::small_fronts() const {
-  for (int s = 0; s < of_.count(); ++s)
-    if (of_.height(s) > 2 * tile) return false;
+bool Supernodes::small_fronts() const {
+  for (int s = 0; s < count(); ++s)
+    if (height(s) > 2 * tile) return false;
   return true;
 }
 
@@ -361,7 +361,7 @@ bool Multifrontal::factorize(const SparseMatrix& h, double shift, double* l) {
 }
 
 bool Multifrontal::factorize(const SparseMatrix& h, double shift, double* l, BlockPivots& pivots) {
-  assert(small_fronts());
+  assert(of_.small_fronts());
   const int n = of_.super.back();
   pivots.order.resize(n), pivots.beside.resize(n), pivots.negative.resize(of_.count());
   pivots_ = &pivots;

@@ -20,6 +20,8 @@ struct Supernodes {
   int count() const { return static_cast<int>(super.size()) - 1; }
   int columns(int s) const { return super[s + 1] - super[s]; }
   int height(int s) const { return pi[s + 1] - pi[s]; }
+  /// Whether each front is small enough for one thread, as those of indefinite matrices must be.
+  bool small_fronts() const;
 };
 
 /// The blocks of pivots of an indefinite matrix's factor, as LAPACK's dsytrf_rk leaves them.
@@ -27,6 +29,12 @@ struct BlockPivots {
   std::vector<int> order;                        // rows that are exchanged within a block; below zero: of a 2×2 pivot
   std::vector<double> beside;                    // entries of 2×2 pivots beside the diagonal
   std::vector<int> negative;                     // eigenvalues of each supernode's block
+};
+
+/// The inverse of a 2×2 pivot [d b; b e]:  by [g −1; −1 f],  f = d/b, g = e/b, by = 1/(b (f g − 1)),  which no product of entries is in.
+struct PairInverse {
+  double f, g, by;
+  PairInverse(double d, double b, double e) : f(d / b), g(e / b), by(1 / (b * (f * g - 1))) {}
 };
 
 /// L by the multifrontal method (Duff & Reid 1983, ACM Trans. Math. Softw. 9): each supernode has a front, the dense matrix of its rows, to
@@ -51,8 +59,6 @@ class Multifrontal {
   /// False also if that is not stable: where what a supernode takes from a diagonal entry, Σ |L₂₁ D L₂₁ᵀ|, is more than `growth` of it, where it is all of it
   /// at most if H is positive definite; or a pivot is rounding.
   [[nodiscard]] bool factorize(const SparseMatrix& h, double shift, double* l, BlockPivots& pivots);
-  /// Whether factors of indefinite matrices are made: fronts are small enough for one thread each.
-  bool small_fronts() const;
   /// Operations of a factorisation, ⅓ c³ + c² r + c r² of a supernode of c columns and r rows below them, multiplications and additions.
   double operations() const { return all_operations_; }
 
