@@ -48,7 +48,7 @@ cached() { grep -qx "$1" "$build/CMakeCache.txt" 2>/dev/null; }
 # configure ON|OFF: with or without the tests and the Python module; nothing is done where it is so already. OFF leaves ON as it is.
 configure() {
   if [ -f "$build/build.ninja" ] && grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
-    [ "$1" = OFF ] || { cached "ELAMIN_TESTS:[A-Z]*=ON" && cached "ELAMIN_PYTHON:[A-Z]*=ON"; } ||
+    [ "$1" = OFF ] || { cached "ELAMIN_TESTS:[A-Z]*=ON" && cached "ELAMIN_PYTHON:[A-Z]*=ON" && cached "PETSC_FOUND:INTERNAL=1"; } ||
       (cd "$root" && quietly cmake --preset release -DELAMIN_TESTS=ON -DELAMIN_PYTHON=ON)
   else
     (cd "$root" && quietly cmake --preset release --fresh "-DELAMIN_TESTS=$1" "-DELAMIN_PYTHON=$1")

@@ -8,6 +8,7 @@
 #include "report/report.hpp"
 #include "results/terminal.hpp"
 #include "results/summary.hpp"
+#include "solve/ranks.hpp"
 #include "study/commands.hpp"
 #include "study/compare.hpp"
 #include "study/resume.hpp"
@@ -258,6 +259,8 @@ int answer(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (const std::string wrong = not_understood(app, file); !wrong.empty()) throw InputError(wrong);
+    const bool serves = ranks() && ranks()->rank() > 0;
+    if (serves) options.quiet = true;
     std::vector<Setting> settings;
     for (const std::string& s : set) settings.push_back(parse_setting(s));
     options.settings = energy.settings = comparison.settings = exported.settings = settings;
@@ -281,9 +284,10 @@ int answer(int argc, char** argv) {
       return result.exit_status;
     }
     if (file.empty()) return say("{}", app.help()), exit_wrong_input;
-    options.report = and_report;
+    options.report = and_report, options.by_ranks = true;
     if (!part.empty()) options.part = parse_part(part);
     const RunResult result = run(options);
+    if (serves) return result.exit_status;
     figure.directory = result.directory;
     if (options.part) {
       if (!options.quiet) say("next: elamin collect {}, when all parts have ended\n", result.directory);
@@ -307,11 +311,30 @@ int answer(int argc, char** argv) {
   }
 }
 
+// Under mpirun rank 0 answers, and the others serve it; a sweep all of them run.
+int answer_together(int argc, char** argv) {
+  using namespace elamin;
+  Ranks* all = nullptr;
+  try {
+    all = join_ranks();
+  } catch (const InputError& error) {
+    complain("{}\n", error.what());
+    return exit_wrong_input;
+  }
+  if (!all) return answer(argc, argv);
+  int status = exit_done;
+  if (all->rank() == 0) status = answer(argc, argv), all->release(Ranks::Release::end);
+  else
+    while (all->serve() == Ranks::Release::sweep) status = answer(argc, argv), all->close();
+  leave_ranks();
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   without_idle_threads(argv);
   open_standard_streams();
   take_signals();
-  return when_printed(answer(argc, argv));
+  return when_printed(answer_together(argc, argv));
 }

@@ -38,6 +38,7 @@ void describe(Keys& keys, SolverTable& t) {
   keys.word("method", t.method, solver_words, "auto: Newton's method, or what settles packings of loose grains");
   keys.may("tolerance", t.tolerance, "residual, relative to the largest internal force", Range{0, 1e-2, true});
   keys.may("max_iterations", t.max_iterations, "by default as many as suit the method", Range{1, most_steps});
+  keys.may("petsc", t.petsc, "under mpirun: options of PETSc and MUMPS, \"-mat_mumps_icntl_14 80\"");
   const std::string what = "the method " + t.method + "; it is for NLopt's";
   keys.either("method", {{{"auto", "newton", "ipopt", "fire"}, what.c_str(), !t.by_nlopt(), [] {}},
                          {nlopt_words(), "the method", t.by_nlopt(), [&] {
@@ -55,7 +56,7 @@ void describe(Keys& keys, SolverTable& t) {
 bool SolverTable::operator==(const SolverTable& other) const {
   const auto numbers = [](const SolverTable& t) {
     const NloptOptions& n = t.nlopt;
-    return std::tuple(t.method, t.tolerance, t.max_iterations, n.max_evaluations, n.polish, n.precondition, n.bounds, n.seed);
+    return std::tuple(t.method, t.tolerance, t.max_iterations, t.petsc, n.max_evaluations, n.polish, n.precondition, n.bounds, n.seed);
   };
   return numbers(*this) == numbers(other);
 }

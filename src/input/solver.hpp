@@ -12,6 +12,7 @@ struct SolverTable {
   std::string method = "auto";                  // or "newton", "ipopt", "fire", "nlopt:NAME"
   double tolerance = NewtonOptions{}.tolerance;
   std::optional<int> max_iterations;            // default: by method
+  std::string petsc;                            // options for the factorisations that ranks share
   NloptOptions nlopt = {};                      // but for the algorithm and the tolerance
   bool by_newton() const { return method == "auto" || method == "newton"; }
   bool by_nlopt() const { return method.rfind("nlopt:", 0) == 0; }

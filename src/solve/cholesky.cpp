@@ -4,6 +4,7 @@
 #include "core/timing.hpp"
 #include "solve/blas.hpp"
 #include "solve/cholmod.hpp"
+#include "solve/ranks.hpp"
 
 #include <fmt/format.h>
 
@@ -80,12 +81,13 @@ struct Cholesky::Cholmod {
   }
 };
 
-Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()) {}
+Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()), shared_(shared_factorization(true)) {}
 Cholesky::~Cholesky() = default;
 
 void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders) {
   assert(borders == 0);
   const Timed timed(seconds_);
+  if (shared_) return shared_->analyze(pattern);
   const OneThread one;
   cholmod_->release();
   if (pattern.cols() == 0) return;
@@ -96,9 +98,10 @@ void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders
 bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unused]] const Eigen::MatrixXd& borders) {
   assert(borders.cols() == 0);
   if (hessian.cols() == 0) return true;
-  assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   const Timed timed(seconds_);
   const Doing doing("factorising");
+  if (shared_) return shared_->factorize(hessian, shift);
+  assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   return cholmod_->fronts ? cholmod_->by_fronts(hessian, shift) : cholmod_->by_columns(hessian, shift);
 }
 
@@ -117,7 +120,17 @@ Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) {
   return Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(c.x->x), b.rows(), b.cols());
 }
 
-Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) { return solve(CHOLMOD_A, b); }
+Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
+  if (!shared_) return solve(CHOLMOD_A, b);
+  const Timed timed(seconds_);
+  return shared_->solve(b);
+}
+
+Eigen::MatrixXd Cholesky::lowest(int count) {
+  const Timed timed(seconds_);
+  return shared_ ? shared_->lowest(count) : Eigen::MatrixXd();
+}
+
 Vector Cholesky::root(const Vector& b) { return solve(CHOLMOD_Pt, solve(CHOLMOD_Lt, b)).col(0); }
 Vector Cholesky::root_transposed(const Vector& b) { return solve(CHOLMOD_L, solve(CHOLMOD_P, b)).col(0); }
 

@@ -5,8 +5,8 @@
 
 namespace elamin {
 
-/// LLᵀ by CHOLMOD, without borders; where supernodes pay their numbers come from `multifrontal`, on all cores. There is a factor if
-/// and only if the matrix is positive definite to rounding; of an indefinite one it knows no more.
+/// LLᵀ by CHOLMOD, without borders; where supernodes pay their numbers come from `multifrontal`, on all cores; where ranks share their
+/// factorisations, by them. There is a factor if and only if the matrix is positive definite to rounding; of an indefinite one it knows no more.
 class Cholesky final : public Factorization {
  public:
   Cholesky();
@@ -17,6 +17,11 @@ class Cholesky final : public Factorization {
   int negative() const override { return 0; }
   using Factorization::solve;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) override;
+  Eigen::MatrixXd lowest(int count) override;
+  bool iterates() const override { return shared_ && shared_->iterates(); }
+  void set_near_null(const Eigen::MatrixXd& motions) override { shared_->set_near_null(motions); }
+  /// Whether ranks share it; there is no root then.
+  bool shared() const { return shared_ != nullptr; }
   /// W b and Wᵀ b of a square root of the inverse, W Wᵀ = (H + shift·I)⁻¹: W = Qᵀ L⁻ᵀ, Q the ordering.
   Vector root(const Vector& b);
   Vector root_transposed(const Vector& b);
@@ -25,6 +30,7 @@ class Cholesky final : public Factorization {
   struct Cholmod;
   Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b);
   std::unique_ptr<Cholmod> cholmod_;
+  std::unique_ptr<Factorization> shared_;
 };
 
 }  // namespace elamin

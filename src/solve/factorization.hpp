@@ -25,6 +25,12 @@ class Factorization {
   /// (H + shift·I)⁻¹ b; with borders p of H p + Z μ = b, Zᵀ p = 0. Of b with rows for the borders, too: the solution of the bordered matrix.
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& b) = 0;
   Vector solve(const Vector& b) { return solve(Eigen::MatrixXd(b)).col(0); }
+  /// Eigenvectors to the `count` lowest eigenvalues of the positive definite matrix factorised last, dofs × up to count, where the factorisation has
+  /// a way of its own to them; they are near, not proven to be the lowest.
+  virtual Eigen::MatrixXd lowest([[maybe_unused]] int count) { return {}; }
+  /// Whether it solves by iterations, and wants to know before analyze of motions that cost next to nothing (dofs × any number), such as rigid ones.
+  virtual bool iterates() const { return false; }
+  virtual void set_near_null([[maybe_unused]] const Eigen::MatrixXd& motions) {}
   /// Time spent in all calls so far, waiting for other threads included.
   double seconds() const { return seconds_; }
 

@@ -2,6 +2,7 @@
 
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
+#include "model/rigid_motion.hpp"
 #include "solve/limits.hpp"
 #include "solve/ritz.hpp"
 
@@ -21,9 +22,26 @@ Factors::Factors(Energy& energy) : energy_(energy) {
         if (energy.kinematics().dof(p, c) >= 0) stiffest_ = std::max(stiffest_, 2 * model.bond_types[b.type].stiffness);
 }
 
+namespace {
+
+// What is glued together, moved as one, as if nothing were supported: dofs × so many.
+Eigen::MatrixXd rigid_motions(const Energy& energy) {
+  Model free = energy.model();
+  free.supports.clear();
+  const Kinematics& kinematics = energy.kinematics();
+  std::vector<Vector> motions;
+  for (const RigidMotion& m : free_rigid_motions(free, energy.evaluated())) motions.push_back(kinematics.restrict(m.velocity_field(kinematics.sites())));
+  Eigen::MatrixXd all(energy.dofs(), static_cast<Eigen::Index>(motions.size()));
+  for (std::size_t j = 0; j < motions.size(); ++j) all.col(static_cast<Eigen::Index>(j)) = motions[j];
+  return all;
+}
+
+}  // namespace
+
 template <class F> bool Factors::attempt(Analysed<F>& in, double shift, const Eigen::MatrixXd& borders) {
   ++factorizations_;
   if (in.version != energy_.pattern_version() || in.borders != borders.cols()) {
+    if (in.factor.iterates()) in.factor.set_near_null(rigid_motions(energy_));
     in.factor.analyze(energy_.hessian(), static_cast<int>(borders.cols()));
     in.version = energy_.pattern_version(), in.borders = borders.cols();
   }
@@ -172,7 +190,8 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
     if (!positive) return {Vector::Zero(count), orthonormal(x).leftCols(count)};
     shift = *positive;
   }
-  if (start.rows() == n) x.leftCols(std::min<Eigen::Index>(block, start.cols())) = start.leftCols(std::min<Eigen::Index>(block, start.cols()));
+  const Eigen::MatrixXd near = start.rows() == n ? start : cholesky().lowest(count);
+  if (near.rows() == n) x.leftCols(std::min<Eigen::Index>(block, near.cols())) = near.leftCols(std::min<Eigen::Index>(block, near.cols()));
   Vector values = Vector::Zero(block), before;
   const int settle = 3, most = 200;
   for (int k = 0; k < most && !interrupted(); ++k) {

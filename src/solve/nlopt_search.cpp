@@ -161,10 +161,11 @@ void NloptSearch::optimise(nlopt_opt optimiser) {
 void NloptSearch::local(const NloptAlgorithm& algorithm) {
   const int n = energy_.dofs();
   const bool derivatives = algorithm.kind == NloptAlgorithm::Kind::gradient;
-  space_ = options_.precondition ? Space::preconditioned : Space::scaled;
+  space_ = options_.precondition && !newton_.factors().cholesky().shared() ? Space::preconditioned : Space::scaled;
   whole_space_ = false, most_evaluations_ = options_.max_evaluations;
-  most_looks_ = derivatives ? (options_.precondition ? 100 : 2000) : 200 + 100 * n;
-  patience_ = !derivatives ? 20 + 20 * n : options_.precondition ? 30 : 500;
+  const bool preconditioned = space_ == Space::preconditioned;
+  most_looks_ = derivatives ? (preconditioned ? 100 : 2000) : 200 + 100 * n;
+  patience_ = !derivatives ? 20 + 20 * n : preconditioned ? 30 : 500;
   const double far = limits::lost * extent_;
   for (int idle = 0, rounds = 0;; ++rounds) {
     energy_.evaluate(best_);

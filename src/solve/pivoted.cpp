@@ -4,13 +4,17 @@
 #include "solve/bunch_kaufman.hpp"
 #include "solve/limits.hpp"
 #include "solve/mumps.hpp"
+#include "solve/ranks.hpp"
 
 #include <cassert>
 
 namespace elamin {
 
+PivotedFactor::PivotedFactor(bool anywhere) : anywhere_(anywhere), shared_(shared_factorization(false)) {}
+
 void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
   const Timed timed(seconds_);
+  if (shared_) return factor_ = shared_.get(), shared_->analyze(pattern, borders);
   by_blocks_ = !anywhere_ && borders == 0;
   if (by_blocks_) blocks_.analyze(pattern);
   any_.reset(), factor_ = nullptr;
@@ -18,6 +22,7 @@ void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
 
 bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
   const Timed timed(seconds_);
+  if (shared_) return shared_->factorize(hessian, shift, borders);
   factor_ = &blocks_;
   if (by_blocks_ && blocks_.suits() && blocks_.factorize(hessian, shift, borders)) return true;
   if (!any_) {

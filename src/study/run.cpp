@@ -5,6 +5,7 @@
 #include "results/terminal.hpp"
 #include "results/summary.hpp"
 #include "solve/blas.hpp"
+#include "solve/ranks.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
 
@@ -24,7 +25,8 @@ std::string default_directory(const std::string& file) {
   return file + ".results";
 }
 
-int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+// Of this machine, as many for each of the ranks that are on it.
+int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / (ranks() ? ranks()->on_this_machine() : 1)); }
 
 // What was found, what is doubtful of it, and how it ended.
 std::string closing(const Problem& problem, const SingleResult& result, const Ink& ink) {
@@ -41,6 +43,10 @@ std::string closing(const Problem& problem, const SingleResult& result, const In
 }
 
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
+  const ShareFactorizations shared;
+  const std::string& petsc = run.problem.solver.petsc;
+  if (Ranks* const all = ranks(); all && !petsc.empty() && !all->set_options(petsc))
+    throw InputError(fmt::format("{}: solver.petsc: PETSc does not read \"{}\"; options begin with a dash, as \"-mat_mumps_icntl_14 80\"", options.file, petsc));
   const SingleResult result = run_single(run.problem, run.model, {options.directory, options.force, Progress::style_for(stdout, options.quiet), options.record,
                                                                   options.checkpoint, options.resumes, run.models});
   if (!options.quiet) say("{}written: {}\n", closing(run.problem, result, Ink(stdout)), options.directory);
@@ -70,6 +76,7 @@ RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   if (options.report)
     for (PreparedRun& run : prepared.runs) keep_frames(run.problem);
   if (options.part) return run_sweep_part(prepared, options);
+  if (options.by_ranks && ranks() && is_sweep(prepared)) return run_sweep_by_ranks(prepared, options);
   if (prepared.bisection) return run_bisection(prepared, options);
   return is_sweep(prepared) ? run_sweep(prepared, options) : run_one(prepared.runs.front(), options);
 }

@@ -26,6 +26,7 @@ struct RunOptions {
   bool report = false;                 // a page is made of it: a path that says nothing of frames keeps 50, without films
   double checkpoint = 1;               // seconds between two checkpoints; 0: one wherever it could go on from
   bool resumes = false;                // it was stopped and goes on, if there is anything to go on from; else it begins
+  bool by_ranks = false;               // all ranks come here, and share the runs of a sweep
   std::optional<SweepPart> part = {};  // that part of a sweep alone
   std::optional<RunRecord> record = {};     // of what is asked for; none, as of a problem that a program has put together: the run cannot be resumed
 };

@@ -13,6 +13,7 @@
 #include "results/stored_run.hpp"
 #include "results/summary.hpp"
 #include "results/table.hpp"
+#include "solve/ranks.hpp"
 #include "study/refine.hpp"
 #include "study/resume.hpp"
 #include "study/single.hpp"
@@ -80,23 +81,30 @@ SingleResult run_part(const PreparedRun& run, const std::string& directory, cons
   return run_single(run.problem, run.model, single);
 }
 
-std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<PreparedRun>& runs, const std::vector<std::size_t>& which,
-                                                          const RunOptions& options,
+RunNumbers in_order(const std::vector<std::size_t>& which) {
+  return [which, i = std::size_t{0}]() mutable { return i < which.size() ? std::optional(which[i++]) : std::nullopt; };
+}
+
+std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<PreparedRun>& runs, const RunNumbers& next, std::size_t count, const RunOptions& options,
                                                           const std::function<void(std::size_t, const SingleResult&)>& ended) {
   const Stopwatch watch;
   std::vector<std::optional<SingleResult>> results(runs.size());
-  std::vector<std::exception_ptr> failures(which.size());
-  std::atomic<std::size_t> next{0}, finished{0};
-  std::mutex printing;
-  Progress progress(stdout, Progress::style_for(stdout, options.quiet), 0, static_cast<double>(which.size()));
+  std::vector<std::exception_ptr> failures(runs.size());
+  std::atomic<std::size_t> finished{0};
+  std::mutex printing, asking;
+  Progress progress(stdout, Progress::style_for(stdout, options.quiet), 0, static_cast<double>(count));
   const Heartbeat at_work(heartbeat, [&](const auto&) {
     const std::lock_guard lock(printing);
-    progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), which.size(), watch.seconds()));
+    progress.wait(fmt::format("{} of {} runs after {:.0f} s", finished.load(), count, watch.seconds()));
   });
   const auto work = [&, asked = stop_asked] {
     set_threads(1), stop_asked = asked;
-    for (std::size_t i; (i = next++) < which.size() && !interrupted();) {
-      const std::size_t k = which[i];
+    const auto asked_next = [&] {
+      const std::lock_guard lock(asking);
+      return next();
+    };
+    for (std::optional<std::size_t> number; !interrupted() && (number = asked_next());) {
+      const std::size_t k = *number;
       const std::string name = run_name(k + 1, runs.size(), runs[k].swept);
       try {
         SingleResult result = run_part(runs[k], options.directory + "/" + name, options, static_cast<int>(k));
@@ -104,17 +112,17 @@ std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<Prep
         const std::lock_guard lock(printing);
         ++finished;
         const std::size_t warnings = result.warnings.size();
-        progress.keep(fmt::format("run {} of {}: {}: {}{}", finished.load(), which.size(), name, result.why,
+        progress.keep(fmt::format("run {} of {}: {}: {}{}", finished.load(), count, name, result.why,
                                   warnings == 0 ? "" : fmt::format(" ({} warning{})", warnings, warnings == 1 ? "" : "s")));
         progress.show("", static_cast<double>(finished.load()));
         results[k] = std::move(result);
       } catch (...) {
-        failures[i] = std::current_exception();
+        failures[k] = std::current_exception();
       }
     }
   };
   std::vector<std::jthread> workers;
-  for (int t = 1; t < std::min<int>(options.threads, static_cast<int>(which.size())); ++t) workers.emplace_back(work);
+  for (int t = 1; t < std::min<int>(options.threads, static_cast<int>(count)); ++t) workers.emplace_back(work);
   work();
   workers.clear();
   set_threads(options.threads);
@@ -173,7 +181,7 @@ RunResult run_sweep(const PreparedRuns& prepared, const RunOptions& options) {
   SweepTable table(directory->file("sweep.csv"), sweep_columns(swept_keys(runs.front()), first, prepared.own));
   std::vector<std::size_t> all(runs.size());
   std::iota(all.begin(), all.end(), 0);
-  const auto results = run_side_by_side(runs, all, options, [&](std::size_t k, const SingleResult& result) {
+  const auto results = run_side_by_side(runs, in_order(all), all.size(), options, [&](std::size_t k, const SingleResult& result) {
     table.add(static_cast<int>(k), sweep_row_of(runs[k], result, first));
   });
   if (ended(results) == runs.size() && !interrupted()) remove_checkpoint(options.directory);
@@ -230,12 +238,31 @@ RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& given) 
   options.resumes = true;
   std::vector<std::size_t> own;
   for (auto k = static_cast<std::size_t>(options.part->number - 1); k < prepared.runs.size(); k += static_cast<std::size_t>(options.part->of)) own.push_back(k);
-  const auto results = run_side_by_side(prepared.runs, own, options);
+  const auto results = run_side_by_side(prepared.runs, in_order(own), own.size(), options);
   RunResult all = result_of_runs(prepared, results, options.directory);
   if (!options.quiet)
     say("{} of {} runs of part {}/{} in {:.2f} s\n", ended(results), own.size(),
                options.part->number, options.part->of, watch.seconds());
   return all;
+}
+
+RunResult run_sweep_by_ranks(const PreparedRuns& prepared, const RunOptions& given) {
+  Ranks& all = *ranks();
+  RunOptions options = given;
+  options.resumes = true;
+  if (all.rank() == 0) {
+    if (!options.record) throw InputError(options.file + ": only a sweep of a problem file can be run by many ranks");
+    join(options.directory, *options.record);
+    all.release(Ranks::Release::sweep), all.deal(static_cast<int>(prepared.runs.size()));
+  }
+  const RunNumbers dealt = [&] {
+    const std::optional<int> number = all.take();
+    return number ? std::optional(static_cast<std::size_t>(*number)) : std::nullopt;
+  };
+  const auto results = run_side_by_side(prepared.runs, dealt, prepared.runs.size(), options);
+  if (all.rank() > 0) return result_of_runs(prepared, results, options.directory);
+  all.close();
+  return collect({options.directory, options.quiet});
 }
 
 RunResult collect(const CollectOptions& options) {

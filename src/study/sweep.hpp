@@ -32,10 +32,12 @@ std::unique_ptr<ResultsDirectory> results_of_runs(const RunOptions& options, con
 /// One of many runs: what it came to if it goes on and has ended before, else the rest of it or all. number: RunRecord::run.
 SingleResult run_part(const PreparedRun& run, const std::string& directory, const RunOptions& options, int number);
 
-/// The runs of these numbers side by side, each on one thread: what each came to, nothing of others and of those that a signal kept from
-/// beginning. `ended` hears of each as it ends, from its thread. What one of them throws is thrown when all have ended.
-std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<PreparedRun>& runs, const std::vector<std::size_t>& which,
-                                                          const RunOptions& options,
+/// Numbers of runs, one at a call, until there is none; asked by one thread at a time.
+using RunNumbers = std::function<std::optional<std::size_t>()>;
+
+/// So many of these runs, as they are numbered, side by side, each on one thread: what each came to, nothing of others and of those that a signal
+/// kept from beginning. `ended` hears of each as it ends, from its thread. What one of them throws is thrown when all have ended.
+std::vector<std::optional<SingleResult>> run_side_by_side(const std::vector<PreparedRun>& runs, const RunNumbers& next, std::size_t count, const RunOptions& options,
                                                           const std::function<void(std::size_t, const SingleResult&)>& ended = {});
 
 /// How many there are.
@@ -65,6 +67,9 @@ SweepPart parse_part(const std::string& text);
 /// The runs K, K + N, K + 2N, … of a sweep into its directory, which parts share: what has ended there is not run again, what was
 /// stopped goes on. No sweep.csv is written. Throws InputError where the directory holds anything but parts of the same sweep.
 RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& options);
+
+/// The same of runs that are dealt out to all ranks, each as it gets one done; rank 0 then collects them. Called by all ranks.
+RunResult run_sweep_by_ranks(const PreparedRuns& prepared, const RunOptions& options);
 
 struct CollectOptions {
   std::string directory;
