@@ -9,7 +9,7 @@
 namespace {
 
 // The stages in the order of the flow; a file includes from its own stage and from lower ones.
-const std::vector<std::string> stages{"core", "laws", "model", "energy", "solve", "proof", "dynamics", "path", "lammps", "input", "results", "figures", "study", "report", "python"};
+const std::vector<std::string> stages{"core", "laws", "model", "energy", "solve", "proof", "dynamics", "path", "lammps", "input", "results", "figures", "study", "report", "python", "petsc"};
 
 std::size_t stage(const std::string& folder) {
   return static_cast<std::size_t>(std::find(stages.begin(), stages.end(), folder) - stages.begin());

@@ -2,7 +2,7 @@
 # that none is confused with a header of the program that includes it, and asks behind Eigen/Core for the alignment of the library.
 file(REMOVE_RECURSE ${staged}/elamin)
 file(GLOB_RECURSE headers RELATIVE ${source} ${source}/*.hpp)
-list(FILTER headers EXCLUDE REGEX "^python/")
+list(FILTER headers EXCLUDE REGEX "^(python|petsc)/")
 foreach(header ${headers})
   file(READ ${source}/${header} text)
   string(REGEX REPLACE "#include \"([^\"]+)\"" "#include <elamin/\\1>" text "${text}")

@@ -4,16 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace elamin {
 
 namespace {
 
 constexpr std::int64_t grain = 5000;               // elements and sites a thread
-constexpr std::int64_t grain_of_entries = 50'000;  // entries of the Hessian, each a few additions
+constexpr std::int64_t grain_of_blocks = 1000;     // sites, each with a few hundred additions
 
-// Both dofs of an entry of an element's Hessian, the larger first.
-struct Entry { int row, column; };
+// A part of a block: the place of an element's Hessian, the number of the rows' site among the element's, and that of the columns' site.
+static_assert(Assembler::most_sites <= 16);
+std::int64_t block_part(std::int64_t place, int rows, int columns) { return place << 8 | rows << 4 | columns; }
+
+// Adds it to a block, given by columns; of the block of a site with itself the lower triangle.
+void add_part(const std::vector<double>& hessians, std::int64_t part, double (&block)[3][3]) {
+  const double* const h = hessians.data() + (part >> 8);
+  const int r = static_cast<int>(part >> 4 & 15), c = static_cast<int>(part & 15);
+  for (int k = 0; k < 3; ++k) {
+    const double* const row = h + (r < c ? ElementGroup::packed(3 * c + k, 3 * r) : ElementGroup::packed(3 * r + k, 3 * c));
+    if (r < c) block[k][0] += row[0], block[k][1] += row[1], block[k][2] += row[2];
+    else
+      for (int b = 0; b < (r == c ? k + 1 : 3); ++b) block[b][k] += row[b];
+  }
+}
 
 // The free dof of a row of an element, −1: prescribed, or no site.
 int dof_of(const Kinematics& kinematics, const ElementGroup& group, int e, int row) {
@@ -40,95 +54,107 @@ Assembler::Assembler(const Kinematics& kinematics, const Groups& groups) : kinem
     h += std::int64_t(group->elements()) * group->hessian_size();
   }
   values_.resize(v), sums_.resize(groups_.size()), gradients_.resize(g), hessians_.resize(h);
+  build_site_gather();
+  build_blocks();
   build_pattern();
-  build_gathers();
+  if (kinematics_.driven()) build_drives();
 }
 
-// Columns of the lower triangle: every dof with itself, and the dof pairs of sites that share an element.
-void Assembler::build_pattern() {
-  std::vector<std::vector<int>> neighbours(kinematics_.sites());      // higher or equal sites, sorted, unique
-  for (int p = 0; p < kinematics_.sites(); ++p) neighbours[p].push_back(p);
+// A counting sort, by site.
+void Assembler::build_site_gather() {
+  std::vector<std::int64_t>& start = site_gather_.start;
+  start.assign(kinematics_.sites() + 1, 0);
   for (const auto& group : groups_)
     for (int e = 0; e < group->elements(); ++e)
       for (const int p : group->stencil(e))
-        for (const int q : group->stencil(e))
-          if (p >= 0 && q > p) neighbours[p].push_back(q);
-  parallel_for(kinematics_.sites(), grain, [&](std::int64_t p) {
-    std::sort(neighbours[p].begin(), neighbours[p].end());
-    neighbours[p].erase(std::unique(neighbours[p].begin(), neighbours[p].end()), neighbours[p].end());
-  });
-
-  hessian_.resize(kinematics_.dofs(), kinematics_.dofs());
-  std::vector<int> rows;
-  std::vector<int> start{0};
-  for (int j = 0; j < kinematics_.dofs(); ++j) {
-    for (const int q : neighbours[kinematics_.site_of(j)])
-      for (int c = 0; c < 3; ++c)
-        if (const int i = kinematics_.dof(q, c); i >= j) rows.push_back(i);
-    start.push_back(static_cast<int>(rows.size()));
-  }
-  hessian_.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
-  std::copy(start.begin(), start.end(), hessian_.outerIndexPtr());
-  std::copy(rows.begin(), rows.end(), hessian_.innerIndexPtr());
-  std::fill_n(hessian_.valuePtr(), rows.size(), 0.0);
-}
-
-void Assembler::build_gathers() {
-  // Counting sort of the contributions: by site for the gradient, by non-zero for the Hessian.
-  std::vector<std::int64_t>& site_start = site_gather_.start;
-  site_start.assign(kinematics_.sites() + 1, 0);
-  for (const auto& group : groups_)
-    for (int e = 0; e < group->elements(); ++e)
-      for (const int p : group->stencil(e))
-        if (p >= 0) ++site_start[p + 1];
-  for (std::size_t p = 1; p < site_start.size(); ++p) site_start[p] += site_start[p - 1];
-  site_gather_.index.resize(site_start.back());
-  std::vector<std::int64_t> next(site_start.begin(), site_start.end() - 1);
+        if (p >= 0) ++start[p + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  site_gather_.index.resize(start.back());
+  std::vector<std::int64_t> next(start.begin(), start.end() - 1);
   for (std::size_t k = 0; k < groups_.size(); ++k)
     for (int e = 0; e < groups_[k]->elements(); ++e)
       for (int i = 0; i < groups_[k]->sites(); ++i)
         if (const int p = groups_[k]->stencil(e)[i]; p >= 0)
           site_gather_.index[next[p]++] = gradient_offset_[k] + std::int64_t(e) * groups_[k]->gradient_size() + 3 * i;
+}
 
-  const auto entry = [&](const ElementGroup& group, int e, int r, int c) {
-    const int i = dof_of(kinematics_, group, e, r), j = dof_of(kinematics_, group, e, c);
-    return Entry{std::max(i, j), std::min(i, j)};
+// A counting sort of the parts by the site of their columns, then by that of their rows, which keeps the order of the elements.
+void Assembler::build_blocks() {
+  struct Part { int rows; std::int64_t code; };
+  const auto for_each_part = [&](const auto& body) {           // body(columns' site, rows' site, code)
+    for (std::size_t k = 0; k < groups_.size(); ++k)
+      for (int e = 0; e < groups_[k]->elements(); ++e) {
+        const std::span<const int> site = groups_[k]->stencil(e);
+        const std::int64_t place = hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size();
+        for (int i = 0; i < static_cast<int>(site.size()); ++i)
+          for (int j = 0; j <= i && site[i] >= 0; ++j) {
+            if (site[j] < 0) continue;
+            if (i > j && site[i] <= site[j]) body(site[i], site[j], block_part(place, j, i));
+            if (site[i] >= site[j]) body(site[j], site[i], block_part(place, i, j));
+          }
+      }
   };
-  const auto nonzero = [&](const Entry& at) {
-    const int* first = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[at.column];
-    const int* last = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[at.column + 1];
-    return std::lower_bound(first, last, at.row) - hessian_.innerIndexPtr();
-  };
-  // The place in hessian_ of every entry of the buffer, found once; −1: a prescribed dof is in it.
-  std::vector<std::int64_t> target(hessians_.size(), -1);
-  for (std::size_t k = 0; k < groups_.size(); ++k) {
-    const ElementGroup& group = *groups_[k];
-    parallel_for(group.elements(), grain, [&](std::int64_t e) {
-      std::int64_t place = hessian_offset_[k] + e * group.hessian_size();
-      for (int r = 0; r < group.gradient_size(); ++r)
-        for (int c = 0; c <= r; ++c, ++place)
-          if (const Entry at = entry(group, static_cast<int>(e), r, c); at.column >= 0) target[place] = nonzero(at);
-    });
+  const std::size_t sites = kinematics_.sites();
+  std::vector<std::int64_t> begin(sites + 1, 0);
+  for_each_part([&](int columns, int, std::int64_t) { ++begin[columns + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Part> parts(begin.back());
+  std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
+  for_each_part([&](int columns, int rows, std::int64_t code) { parts[next[columns]++] = {rows, code}; });
+  blocks_.first.assign(sites + 1, 0);
+  parallel_for(static_cast<std::int64_t>(sites), grain, [&](std::int64_t p) {
+    const auto from = parts.begin() + begin[p], to = parts.begin() + begin[p + 1];
+    std::stable_sort(from, to, [](const Part& a, const Part& b) { return a.rows < b.rows; });
+    std::int64_t count = from == to || from->rows != p;         // its own, though nothing be in it
+    for (auto it = from; it != to; ++it) count += it == from || it->rows != (it - 1)->rows;
+    blocks_.first[p + 1] = count;
+  });
+  std::partial_sum(blocks_.first.begin(), blocks_.first.end(), blocks_.first.begin());
+  blocks_.site.reserve(blocks_.first.back()), blocks_.start.reserve(blocks_.first.back() + 1);
+  blocks_.part.reserve(parts.size());
+  for (std::size_t p = 0; p < sites; ++p) {
+    blocks_.site.push_back(static_cast<int>(p)), blocks_.start.push_back(static_cast<std::int64_t>(blocks_.part.size()));
+    for (std::int64_t k = begin[p]; k < begin[p + 1]; ++k) {
+      if (parts[k].rows != blocks_.site.back())
+        blocks_.site.push_back(parts[k].rows), blocks_.start.push_back(static_cast<std::int64_t>(blocks_.part.size()));
+      blocks_.part.push_back(parts[k].code);
+    }
   }
-  std::vector<std::int64_t>& start = nonzero_gather_.start;
-  start.assign(hessian_.nonZeros() + 1, 0);
-  for (const std::int64_t t : target)
-    if (t >= 0) ++start[t + 1];
-  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  nonzero_gather_.index.resize(start.back());
-  next.assign(start.begin(), start.end() - 1);
-  for (std::size_t place = 0; place < target.size(); ++place)
-    if (target[place] >= 0) nonzero_gather_.index[next[target[place]]++] = static_cast<std::int64_t>(place);
+  blocks_.start.push_back(static_cast<std::int64_t>(blocks_.part.size()));
+}
 
-  if (!kinematics_.driven()) return;
-  for (std::size_t k = 0; k < groups_.size(); ++k)              // one dof free, the other driven: it feeds ∂g/∂λ
+// Columns of the lower triangle: every dof with itself, and the dof pairs of sites that share an element.
+void Assembler::build_pattern() {
+  const auto for_each_row = [&](int j, const auto& body) {
+    const int p = kinematics_.site_of(j);
+    for (std::int64_t k = blocks_.first[p]; k < blocks_.first[p + 1]; ++k)
+      for (int c = 0; c < 3; ++c)
+        if (const int i = kinematics_.dof(blocks_.site[k], c); i >= j) body(i);
+  };
+  hessian_.resize(kinematics_.dofs(), kinematics_.dofs());
+  int* const start = hessian_.outerIndexPtr();
+  for (int j = 0; j < kinematics_.dofs(); ++j) {
+    start[j + 1] = start[j];
+    for_each_row(j, [&](int) { ++start[j + 1]; });
+  }
+  hessian_.resizeNonZeros(start[kinematics_.dofs()]);
+  parallel_for(kinematics_.dofs(), grain, [&](std::int64_t j) {
+    int* row = hessian_.innerIndexPtr() + start[j];
+    for_each_row(static_cast<int>(j), [&](int i) { *row++ = i; });
+  });
+  std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
+}
+
+// Entries of which one dof is free and the other driven: they feed ∂g/∂λ.
+void Assembler::build_drives() {
+  for (std::size_t k = 0; k < groups_.size(); ++k)
     for_each_entry(*groups_[k], [&](int e, int r, int c) {
-      const Entry at = entry(*groups_[k], e, r, c);
-      if (at.column >= 0 || at.row < 0) return;
-      const int held = dof_of(kinematics_, *groups_[k], e, r) < 0 ? r : c, site = groups_[k]->stencil(e)[held / 3];
+      const int i = dof_of(kinematics_, *groups_[k], e, r), j = dof_of(kinematics_, *groups_[k], e, c);
+      if ((i >= 0) == (j >= 0)) return;
+      const int held = i < 0 ? r : c, site = groups_[k]->stencil(e)[held / 3];
       const double rate = site < 0 ? 0.0 : kinematics_.drive(site)[held % 3];
       if (rate != 0)
-        drives_.push_back({at.row, hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c), rate});
+        drives_.push_back({std::max(i, j), hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c), rate});
     });
 }
 
@@ -185,12 +211,20 @@ void Assembler::gather(const std::vector<double>& buffer, Field& g) const {
 }
 
 void Assembler::sum_hessian() {
-  double* value = hessian_.valuePtr();
-  parallel_for(hessian_.nonZeros(), grain_of_entries, [&](std::int64_t i) {
-    double sum = 0;
-    for (std::int64_t k = nonzero_gather_.start[i]; k < nonzero_gather_.start[i + 1]; ++k)
-      sum += hessians_[nonzero_gather_.index[k]];
-    value[i] = sum;
+  parallel_for(kinematics_.sites(), grain_of_blocks, [&](std::int64_t p) {
+    double* column[3] = {};                                   // where it goes on
+    int dof[3];
+    for (int b = 0; b < 3; ++b)
+      if ((dof[b] = kinematics_.dof(static_cast<int>(p), b)) >= 0) column[b] = hessian_.valuePtr() + hessian_.outerIndexPtr()[dof[b]];
+    for (std::int64_t k = blocks_.first[p]; k < blocks_.first[p + 1]; ++k) {
+      double block[3][3] = {};
+      for (std::int64_t i = blocks_.start[k]; i < blocks_.start[k + 1]; ++i) add_part(hessians_, blocks_.part[i], block);
+      for (int a = 0; a < 3; ++a) {
+        const int row = kinematics_.dof(blocks_.site[k], a);
+        for (int b = 0; b < 3; ++b)
+          if (column[b] && row >= dof[b]) *column[b]++ = block[b][a];
+      }
+    }
   });
 }
 

@@ -14,6 +14,15 @@ struct GatherList {
   std::vector<std::int64_t> index;
 };
 
+/// Which 3 × 3 blocks of the element Hessians add up to those of the lower triangle. Of the columns of site p there are blocks first[p] … first[p+1] − 1,
+/// that of p itself, then those of higher sites it shares an element with; block k has the rows of site[k], and is the sum of
+/// part[start[k]] … part[start[k+1] − 1] in this order: the place of an element's Hessian, and which two of its sites, see block_part.
+struct BlockGather {
+  std::vector<std::int64_t> first, start;
+  std::vector<int> site;
+  std::vector<std::int64_t> part;
+};
+
 /// Everything that depends on the topology alone is made once, here; evaluations overwrite values only.
 class Assembler {
  public:
@@ -53,15 +62,17 @@ class Assembler {
  private:
   void sum_values();
   void gather(const std::vector<double>& buffer, Field& out) const;
+  void build_site_gather();
+  void build_blocks();
   void build_pattern();
-  void build_gathers();
+  void build_drives();
 
   const Kinematics& kinematics_;
   const Groups& groups_;
   std::vector<std::int64_t> value_offset_, gradient_offset_, hessian_offset_;   // of each group in the buffers
   std::vector<double> values_, sums_, gradients_, hessians_, products_;
   GatherList site_gather_;              // per site: places of its 3 components in gradients_
-  GatherList nonzero_gather_;           // per non-zero: places in hessians_
+  BlockGather blocks_;
   struct Drive { int dof; std::int64_t place; double rate; };
   std::vector<Drive> drives_;           // ∂g_dof/∂λ += hessians_[place] · rate
   SparseMatrix hessian_;

@@ -1,5 +1,6 @@
 #include "path/branch.hpp"
 
+#include "core/factor_counts.hpp"
 #include "path/carry.hpp"
 #include "path/event_error.hpp"
 #include "path/limits.hpp"
@@ -144,6 +145,7 @@ bool Branch::contact_may_explain(const Candidate& c) const { return c.e.point.st
 
 // Contacts that nobody asks for are located only where no limit point and no branch point explains why the Morse index changes.
 bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why) {
+  const CountFor events(FactorsFor::events);
   bool explained = false;
   if (!contacts_ && !current_.slack && contact_may_explain(c)) {
     Candidate critical = c;

@@ -1,5 +1,6 @@
 #include "path/jump.hpp"
 
+#include "core/factor_counts.hpp"
 #include "path/limits.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@ using namespace limits;
 
 // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
 Report go_down(Newton& newton, State& state) {
+  const CountFor snap(FactorsFor::snaps);
   const Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
   return report.status == Status::not_converged ? newton.minimise(state) : report;
 }

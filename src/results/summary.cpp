@@ -80,6 +80,8 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   all["final"] = path.rows.empty() ? Json(nullptr) : object(path, path.rows.back());
   all["zero_modes"] = summary.zero_modes;
   all["times"] = object(summary.times);
+  const FactorCounts& counts = summary.factorizations;
+  all["factorizations"] = {{"points", counts.of[0]}, {"events", counts.of[1]}, {"snaps", counts.of[2]}, {"refused", counts.refused}};
   all["version"] = version();
   all["input"] = summary.input;
   all["input_sha256"] = summary.input_sha256;

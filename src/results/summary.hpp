@@ -1,6 +1,7 @@
 #pragma once
 // summary.json: how a run ended, and on what it stands.
 #include "core/archive.hpp"
+#include "core/factor_counts.hpp"
 #include "results/table.hpp"
 #include "solve/report.hpp"
 
@@ -27,6 +28,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> tolerances;
   std::vector<std::string> zero_modes;                         // of the last equilibrium, by name: rattlers, rigid motions
   double imperfection = 0;                                     // how far a particle was moved at most before all [length]; 0: none was
+  FactorCounts factorizations = {};
   int resumed = 0;                                             // how often the run was stopped and went on
   std::optional<EndCheck> check = {};                          // of equilibria
   std::vector<std::string> warnings = {};                      // what is doubtful about the model or the result, a sentence each
@@ -44,7 +46,7 @@ void write_broken_off(const std::string& file, const std::string& title, const s
 /// The version of this program.
 std::string version();
 
-/// Writes status, message, warnings, points, events (rows as objects), final (all columns of the last row, or null), times,
+/// Writes status, message, warnings, points, events (rows as objects), final (all columns of the last row, or null), times, factorizations,
 /// version, input_sha256, tolerances, where there is one the imperfection, and of a curve its points and, as objects, the rows that have a label. Numbers that are not finite become null. Throws OutputError if it cannot be
 /// written.
 void write_summary(const std::string& file, const Summary& summary, const Table& path, const Table& events, const Table& curve = {});

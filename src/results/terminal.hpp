@@ -4,6 +4,7 @@
 #include "path/point.hpp"
 #include "results/mode.hpp"
 #include "results/table.hpp"
+#include "solve/ranks.hpp"
 
 #include <fmt/color.h>
 #include <sys/ioctl.h>
@@ -18,10 +19,10 @@ namespace elamin {
 
 // Words that a terminal shows in colour.
 
-/// Whether lines can be overwritten there: a terminal that is not dumb.
+/// Whether lines can be overwritten there: a terminal that is not dumb, and not one that mpirun puts between a program and its file.
 inline bool is_terminal(std::FILE* out) {
   const char* kind = std::getenv("TERM");
-  return isatty(fileno(out)) && kind && *kind && std::string(kind) != "dumb";
+  return !ranks() && isatty(fileno(out)) && kind && *kind && std::string(kind) != "dumb";
 }
 
 /// Characters of a line that does not reach the last column; 79 where there is no terminal.

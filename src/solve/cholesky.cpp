@@ -1,5 +1,6 @@
 #include "solve/cholesky.hpp"
 
+#include "core/factor_counts.hpp"
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "solve/blas.hpp"
@@ -100,9 +101,9 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unus
   if (hessian.cols() == 0) return true;
   const Timed timed(seconds_);
   const Doing doing("factorising");
-  if (shared_) return shared_->factorize(hessian, shift);
+  if (shared_) return counted(shared_->factorize(hessian, shift));
   assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
-  return cholmod_->fronts ? cholmod_->by_fronts(hessian, shift) : cholmod_->by_columns(hessian, shift);
+  return counted(cholmod_->fronts ? cholmod_->by_fronts(hessian, shift) : cholmod_->by_columns(hessian, shift));
 }
 
 // One of CHOLMOD's systems with the factor: A x = b, or a part of it.

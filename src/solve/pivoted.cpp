@@ -1,5 +1,6 @@
 #include "solve/pivoted.hpp"
 
+#include "core/factor_counts.hpp"
 #include "core/timing.hpp"
 #include "solve/bunch_kaufman.hpp"
 #include "solve/limits.hpp"
@@ -22,16 +23,16 @@ void PivotedFactor::analyze(const SparseMatrix& pattern, int borders) {
 
 bool PivotedFactor::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
   const Timed timed(seconds_);
-  if (shared_) return shared_->factorize(hessian, shift, borders);
+  if (shared_) return counted(shared_->factorize(hessian, shift, borders));
   factor_ = &blocks_;
-  if (by_blocks_ && blocks_.suits() && blocks_.factorize(hessian, shift, borders)) return true;
+  if (by_blocks_ && blocks_.suits() && counted(blocks_.factorize(hessian, shift, borders))) return true;
   if (!any_) {
     if (hessian.rows() + borders.cols() <= limits::dense) any_ = std::make_unique<BunchKaufman>();
     else any_ = std::make_unique<Mumps>();
     any_->analyze(hessian, static_cast<int>(borders.cols()));
   }
   factor_ = any_.get();
-  return factor_->factorize(hessian, shift, borders);
+  return counted(factor_->factorize(hessian, shift, borders));
 }
 
 int PivotedFactor::negative() const { return factor_->negative(); }

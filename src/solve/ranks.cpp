@@ -23,11 +23,12 @@ bool started_with_others() {
   return false;
 }
 
-// The module stands beside the program where that was built, or in the folder of its own where it is installed.
+// The module stands beside the program where that was built, above its tests, or in a folder of its own where it is installed.
 std::filesystem::path module_file() {
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path beside = program.parent_path() / ELAMIN_MODULE;
-  return std::filesystem::exists(beside) ? beside : program.parent_path() / ELAMIN_MODULES / ELAMIN_MODULE;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const char* const place : {".", ".."})
+    if (const auto file = folder / place / ELAMIN_MODULE; std::filesystem::exists(file)) return file;
+  return folder / ELAMIN_MODULES / ELAMIN_MODULE;
 }
 
 }  // namespace

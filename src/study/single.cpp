@@ -79,6 +79,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   std::optional<LowestEigenvalues> lowest;                     // of a path that has them, in the stage
   double setup = 0, checking = 0, before = 0;                 // seconds; of the sessions before this one
 
+  factor_counts() = {};
   Summary summary;
   PathOfLandscape path_of_landscape(problem);
   std::optional<PathPoint> event;                              // that a curve begins at
@@ -92,7 +93,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     if (!a.reads() && lowest) own(*lowest);
     std::string eigenvalues = own.bytes();
     if (!a.reads()) carry_results(a, results);                 // which have been read as they were made
-    a(path_of_landscape, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check);
+    a(path_of_landscape, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check, factor_counts());
     if (a.reads()) before = seconds, of_lowest = std::move(eigenvalues);
   };
   if (stopped) carry(archive);
@@ -207,6 +208,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     summary.title = problem.title, summary.status = status_name(outcome.status), summary.message = outcome.why;
     summary.input = problem.file, summary.input_sha256 = problem.sha256;
     summary.imperfection = model.imperfection;
+    summary.factorizations = factor_counts();
     summary.times = {{"setup", setup}, {"check", checking}, {"total", before + total.seconds()}};
     summary.resumed = resumed;
     summary.tolerances = {{"residual", problem.solver.tolerance}};

@@ -1,11 +1,13 @@
 // What Newton's method does in one iteration on a large sheet: one line of the table that tests/bench/scale prints.
 //
 //     scale ROWS THREADS [FACTOR]
+//     mpirun -n RANKS scale ROWS THREADS
 //
 // A clamped square sheet, of ROWS particles along a row, under its own weight. Prints the particles, the dofs, seconds for the making of the
 // energy and for an assembly of gradient and Hessian, the analysis, a factorisation and a solution, each the best of three (the energy and
 // the analysis are made once), the rate of the factorisation, its share of the rate that dgemm has on as many threads, measured here, the
-// peak of the memory, and what a factor is estimated to take. FACTOR 0: neither analysis nor factor.
+// peak of the memory, and what a factor is estimated to take. FACTOR 0: neither analysis nor factor. Under mpirun the factor is that of all ranks, its
+// analysis a part of the first factorisation, which is not told, and the memory that of rank 0.
 #include "clamped_sheet.hpp"
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
@@ -13,6 +15,7 @@
 #include "solve/blas.hpp"
 #include "solve/cholesky.hpp"
 #include "solve/ordering.hpp"
+#include "solve/ranks.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -80,12 +83,15 @@ double peak_memory() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+namespace {
+
+void measure(int argc, char** argv) {
   const int rows = argc > 1 ? std::atoi(argv[1]) : 100, threads = argc > 2 ? std::atoi(argv[2]) : 1;
   const bool factorise = argc <= 3 || std::atoi(argv[3]) != 0;
   set_threads(threads);
   ready_blas();
-  const double rate = dgemm_rate(threads);
+  const double rate = dgemm_rate(ranks() ? ranks()->size() : threads);
+  const ShareFactorizations shared;
   const Model model = sheet_under_weight(rows);
   const Stopwatch making;
   Energy energy(model);
@@ -109,4 +115,13 @@ int main(int argc, char** argv) {
     size = factor_size(energy.hessian());
   }
   std::printf(" %8.3f %8.3f\n", memory * 1e-9, size.bytes() * 1e-9);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Ranks* const all = join_ranks();
+  if (all && all->rank() > 0) return all->serve(), leave_ranks(), 0;
+  measure(argc, argv);
+  if (all) all->release(Ranks::Release::end), leave_ranks();
 }

@@ -15,16 +15,21 @@ struct Answer {
   std::string text;        // standard output and error
 };
 
-/// Runs `elamin ARGUMENTS` through the shell; `seconds` of processor time at the most, unless 0; with the sanitizers `slower` times as many.
-inline Answer elamin_says(const std::string& arguments, int seconds = 0) {
+/// Runs a command of the shell.
+inline Answer shell_says(const std::string& command) {
   Answer answer;
-  const std::string limit = seconds > 0 ? "ulimit -t " + std::to_string(slower * seconds) + "; " : "";
-  std::FILE* pipe = popen((limit + "'" ELAMIN_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer;
   for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) answer.text.append(buffer.data(), n);
   const int status = pclose(pipe);
   answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return answer;
+}
+
+/// Runs `elamin ARGUMENTS`; `seconds` of processor time at the most, unless 0; with the sanitizers `slower` times as many.
+inline Answer elamin_says(const std::string& arguments, int seconds = 0) {
+  const std::string limit = seconds > 0 ? "ulimit -t " + std::to_string(slower * seconds) + "; " : "";
+  return shell_says(limit + "'" ELAMIN_PROGRAM "' " + arguments);
 }
 
 /// Rows of a CSV file without quoted cells, header first.
