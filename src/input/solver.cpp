@@ -69,6 +69,8 @@ std::optional<int> standard_iterations(const SolverTable& t) {
 
 void check_solver(Problem& problem, Mistakes& mistakes) {
   SolverTable& s = problem.solver;
+  if (!s.petsc.empty() && s.petsc.front() != '-')
+    mistakes.add(s.place, "petsc", "must be options as PETSc has them, each with a dash before it, as \"-mat_mumps_icntl_14 80\", is " + in_quotes(s.petsc));
   const bool newton = s.by_newton();
   if (!newton && problem.study == StudyType::modes)
     mistakes.add(s.place, "method", "must be \"auto\" or \"newton\" in a study of modes, is " + in_quotes(s.method));

@@ -79,11 +79,11 @@ class PetscRanks final : public Ranks {
     ask({Task::begin, which, definite});
     return std::make_unique<OfAll>(*this, which, definite);
   }
-  bool set_options(const std::string& text) override {
+  void set_options(const std::string& text) override {
     ask({Task::options, 0, static_cast<int>(text.size())});
     std::string copy = text;
     MPI_Bcast(copy.data(), static_cast<int>(copy.size()), MPI_CHAR, 0, PETSC_COMM_WORLD);
-    return read_options(copy);
+    read_options(copy);
   }
   void release(Release to) override { ask({Task::release, 0, static_cast<int>(to)}); }
 
@@ -157,12 +157,7 @@ class PetscRanks final : public Ranks {
     return number < numbers_ ? number : -1;
   }
   static void wish(int leaves) { MPI_Send(&leaves, 1, MPI_INT, 0, number_wanted, PETSC_COMM_WORLD); }
-  static bool read_options(const std::string& text) {
-    PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
-    const bool read = PetscOptionsInsertString(nullptr, text.c_str()) == 0;
-    PetscPopErrorHandler();
-    return read;
-  }
+  static void read_options(const std::string& text) { must(PetscOptionsInsertString(nullptr, text.c_str())); }
   static Message heard() {
     Message message{};
     MPI_Request request;

@@ -26,8 +26,8 @@ class Ranks {
   /// A factorisation that all ranks share; `definite`: of positive definite matrices alone, as Cholesky's. LDLᵀ by MUMPS, or what
   /// PETSc's options say.
   virtual std::unique_ptr<Factorization> factorization(bool definite) = 0;
-  /// Options in PETSc's words, "-mat_mumps_icntl_14 80", for the factorisations from now on; false: PETSc does not read them.
-  [[nodiscard]] virtual bool set_options(const std::string& options) = 0;
+  /// Options in PETSc's words, "-mat_mumps_icntl_14 80", for the factorisations from now on.
+  virtual void set_options(const std::string& options) = 0;
   /// The others leave serve().
   virtual void release(Release to) = 0;
   /// From now on each of the numbers 0 … count − 1 is for the rank that takes it.

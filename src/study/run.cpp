@@ -44,9 +44,7 @@ std::string closing(const Problem& problem, const SingleResult& result, const In
 
 RunResult run_one(const PreparedRun& run, const RunOptions& options) {
   const ShareFactorizations shared;
-  const std::string& petsc = run.problem.solver.petsc;
-  if (Ranks* const all = ranks(); all && !petsc.empty() && !all->set_options(petsc))
-    throw InputError(fmt::format("{}: solver.petsc: PETSc does not read \"{}\"; options begin with a dash, as \"-mat_mumps_icntl_14 80\"", options.file, petsc));
+  if (Ranks* const all = ranks(); all && !run.problem.solver.petsc.empty()) all->set_options(run.problem.solver.petsc);
   const SingleResult result = run_single(run.problem, run.model, {options.directory, options.force, Progress::style_for(stdout, options.quiet), options.record,
                                                                   options.checkpoint, options.resumes, run.models});
   if (!options.quiet) say("{}written: {}\n", closing(run.problem, result, Ink(stdout)), options.directory);

@@ -35,7 +35,7 @@ using elamin::RunOptions;
 
 using Files = std::map<std::string, std::string>;
 
-/// Every file but log.txt; of summaries all but the times and how often the run was resumed.
+/// Every file but log.txt; of summaries all but the times, the factorisations (a run that goes on may do one again) and how often the run was resumed.
 Files files_of(const std::string& directory) {
   Files files;
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
@@ -43,7 +43,7 @@ Files files_of(const std::string& directory) {
     std::string text = text_of(entry.path().string());
     if (entry.path().filename() == "summary.json") {
       auto all = nlohmann::ordered_json::parse(text);
-      all.erase("times"), all.erase("resumed");
+      all.erase("times"), all.erase("factorizations"), all.erase("resumed");
       text = all.dump();
     }
     files[fs::relative(entry.path(), directory).string()] = text;
