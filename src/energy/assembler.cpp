@@ -53,11 +53,11 @@ Assembler::Assembler(const Kinematics& kinematics, const Groups& groups) : kinem
     g += std::int64_t(group->elements()) * group->gradient_size();
     h += std::int64_t(group->elements()) * group->hessian_size();
   }
-  values_.resize(v), sums_.resize(groups_.size()), gradients_.resize(g), hessians_.resize(h);
   build_site_gather();
   build_blocks();
   build_pattern();
   if (kinematics_.driven()) build_drives();
+  values_.resize(v), sums_.resize(groups_.size()), gradients_.resize(g), hessians_.resize(h);       // the largest last, when what has made the lists is gone
 }
 
 // A counting sort, by site.

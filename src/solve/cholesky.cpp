@@ -5,9 +5,8 @@
 #include "core/timing.hpp"
 #include "solve/blas.hpp"
 #include "solve/cholmod.hpp"
+#include "solve/mumps.hpp"
 #include "solve/ranks.hpp"
-
-#include <fmt/format.h>
 
 #include <cassert>
 #include <fstream>
@@ -20,6 +19,7 @@ namespace elamin {
 namespace {
 
 constexpr double checked_from = 1e9;             // bytes that are looked for before they are asked for
+constexpr double with_fronts = 1.1;                  // times the factor: with the fronts under way, as measured on sheets of 10⁵ and 3·10⁵ particles
 
 // What programs can have without taking it from others [bytes]; infinity where the system does not tell.
 double free_memory() {
@@ -69,26 +69,27 @@ struct Cholesky::Cholmod {
     if (!ok && common.status < 0) cholmod_failed("factorisation", common.status);
     return common.status == CHOLMOD_OK && factor->minor == factor->n;
   }
-  // For the numbers of the factor. A system that grants more memory than there is would end the program when they are written.
-  void make_room() {
-    const double room = 8.0 * static_cast<double>(factor->xsize);
-    if (const double free = room >= checked_from ? free_memory() : room; room > free)
-      throw OutOfMemory(fmt::format("there is not enough memory: a factor of the Hessian takes {:.1f} GB, {:.1f} GB are free", room / 1e9, free / 1e9));
-    if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common)) cholmod_failed("factorisation", common.status);
+  // Whether its numbers, with the fronts under way, take more than the memory that is free. A system that grants more
+  // memory than there is would end the program when they are written.
+  bool lacks_room() const {
+    if (!fronts || factor->xtype != CHOLMOD_PATTERN) return false;
+    const double room = with_fronts * 8 * static_cast<double>(factor->xsize);
+    return room >= checked_from && room > free_memory();
   }
   bool by_fronts(const SparseMatrix& hessian, double shift) {
-    if (factor->xtype == CHOLMOD_PATTERN) make_room();
+    if (factor->xtype == CHOLMOD_PATTERN && !cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common)) cholmod_failed("factorisation", common.status);
     return fronts->factorize(hessian, shift, static_cast<double*>(factor->x));
   }
 };
 
-Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()), shared_(shared_factorization(true)) {}
+Cholesky::Cholesky() : cholmod_(std::make_unique<Cholmod>()), instead_(shared_factorization(true)) { shared_ = instead_ != nullptr; }
 Cholesky::~Cholesky() = default;
 
 void Cholesky::analyze(const SparseMatrix& pattern, [[maybe_unused]] int borders) {
   assert(borders == 0);
   const Timed timed(seconds_);
-  if (shared_) return shared_->analyze(pattern);
+  if (!shared_) instead_.reset();
+  if (instead_) return instead_->analyze(pattern);
   const OneThread one;
   cholmod_->release();
   if (pattern.cols() == 0) return;
@@ -101,7 +102,8 @@ bool Cholesky::factorize(const SparseMatrix& hessian, double shift, [[maybe_unus
   if (hessian.cols() == 0) return true;
   const Timed timed(seconds_);
   const Doing doing("factorising");
-  if (shared_) return counted(shared_->factorize(hessian, shift));
+  if (!instead_ && cholmod_->lacks_room()) instead_ = std::make_unique<Mumps>(Mumps::Kind::definite_on_disk), instead_->analyze(hessian);
+  if (instead_) return counted(instead_->factorize(hessian, shift));
   assert(cholmod_->factor && cholmod_->factor->n == static_cast<std::size_t>(hessian.cols()));    // analysed
   return counted(cholmod_->fronts ? cholmod_->by_fronts(hessian, shift) : cholmod_->by_columns(hessian, shift));
 }
@@ -122,14 +124,14 @@ Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) {
 }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) {
-  if (!shared_) return solve(CHOLMOD_A, b);
+  if (!instead_) return solve(CHOLMOD_A, b);
   const Timed timed(seconds_);
-  return shared_->solve(b);
+  return instead_->solve(b);
 }
 
 Eigen::MatrixXd Cholesky::lowest(int count) {
   const Timed timed(seconds_);
-  return shared_ ? shared_->lowest(count) : Eigen::MatrixXd();
+  return instead_ ? instead_->lowest(count) : Eigen::MatrixXd();
 }
 
 Vector Cholesky::root(const Vector& b) { return solve(CHOLMOD_Pt, solve(CHOLMOD_Lt, b)).col(0); }

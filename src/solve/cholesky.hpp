@@ -6,7 +6,7 @@
 namespace elamin {
 
 /// LLᵀ by CHOLMOD, without borders; where supernodes pay their numbers come from `multifrontal`, on all cores; where ranks share their
-/// factorisations, by them. There is a factor if and only if the matrix is positive definite to rounding; of an indefinite one it knows no more.
+/// factorisations, by them, and where there is not enough memory by MUMPS, on disk. There is a factor if and only if the matrix is positive definite to rounding; of an indefinite one it knows no more.
 class Cholesky final : public Factorization {
  public:
   Cholesky();
@@ -18,10 +18,10 @@ class Cholesky final : public Factorization {
   using Factorization::solve;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) override;
   Eigen::MatrixXd lowest(int count) override;
-  bool iterates() const override { return shared_ && shared_->iterates(); }
-  void set_near_null(const Eigen::MatrixXd& motions) override { shared_->set_near_null(motions); }
-  /// Whether ranks share it; there is no root then.
-  bool shared() const { return shared_ != nullptr; }
+  bool iterates() const override { return instead_ && instead_->iterates(); }
+  void set_near_null(const Eigen::MatrixXd& motions) override { instead_->set_near_null(motions); }
+  /// Whether root() and root_transposed() can be asked for: the factor is in this process alone, in memory.
+  bool has_root() const { return !instead_; }
   /// W b and Wᵀ b of a square root of the inverse, W Wᵀ = (H + shift·I)⁻¹: W = Qᵀ L⁻ᵀ, Q the ordering.
   Vector root(const Vector& b);
   Vector root_transposed(const Vector& b);
@@ -30,7 +30,8 @@ class Cholesky final : public Factorization {
   struct Cholmod;
   Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b);
   std::unique_ptr<Cholmod> cholmod_;
-  std::unique_ptr<Factorization> shared_;
+  bool shared_;                                          // by ranks
+  std::unique_ptr<Factorization> instead_;               // of CHOLMOD's
 };
 
 }  // namespace elamin

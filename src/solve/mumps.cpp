@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -23,6 +25,7 @@ constexpr int fortran_communicator = -987654;              // MPI_COMM_WORLD of 
 [[noreturn]] void mumps_failed(const std::string& what, int infog) {
   for (const int out_of_memory : {-5, -7, -8, -9, -13, -19})                    // of integers, reals, pointers; workspace too small
     if (infog == out_of_memory) throw OutOfMemory("there is not enough memory for a factor of the Hessian (MUMPS, " + what + ")");
+  if (infog == -90) throw OutOfMemory("there is not enough room on disk for a factor of the Hessian, or it cannot be written (MUMPS, " + what + ")");
   throw std::runtime_error("MUMPS: the " + what + " failed, INFOG(1) = " + std::to_string(infog));
 }
 
@@ -34,6 +37,8 @@ std::recursive_mutex& one_at_a_time() {
 }
 
 struct Mumps::Instance {
+  explicit Instance(Kind of_kind) : kind(of_kind) {}
+  Kind kind;
   DMUMPS_STRUC_C id{};
   std::vector<int> rows, columns;
   std::vector<double> values;
@@ -50,7 +55,7 @@ struct Mumps::Instance {
   }
 };
 
-Mumps::Mumps() : instance_(std::make_unique<Instance>()) {}
+Mumps::Mumps(Kind kind) : instance_(std::make_unique<Instance>(kind)) {}
 
 Mumps::~Mumps() {
   const std::lock_guard lock(one_at_a_time());
@@ -71,13 +76,20 @@ void Mumps::analyze(const SparseMatrix& pattern, int borders) {
   m.values.assign(m.rows.size(), 0.0);
   m.id = {};
   m.id.comm_fortran = fortran_communicator;
-  m.id.par = 1, m.id.sym = 2;
+  m.id.par = 1, m.id.sym = m.kind == Kind::indefinite ? 2 : 1;
   m.call(-1);
   m.started = true;
   for (int i = 1; i <= 4; ++i) m.icntl(i) = i == 4 ? 0 : -1;   // silent
   m.icntl(13) = 1;                                         // no parallel root: its pivots would not be counted
   m.icntl(14) = 50;                                        // % of memory for delayed pivots
   m.icntl(10) = 0;                                         // Newton on exact residuals refines, not the solver
+  if (m.kind == Kind::definite_on_disk) {
+    m.icntl(22) = 1;
+    if (!std::getenv("MUMPS_OOC_TMPDIR")) {
+      const char* const folder = std::getenv("TMPDIR");
+      std::snprintf(m.id.ooc_tmpdir, sizeof m.id.ooc_tmpdir, "%s", folder ? folder : "/var/tmp");
+    }
+  }
   m.id.n = n + borders;
   m.id.nnz = static_cast<std::int64_t>(m.rows.size());
   m.id.irn = m.rows.data(), m.id.jcn = m.columns.data(), m.id.a = m.values.data();
@@ -100,15 +112,15 @@ bool Mumps::factorize(const SparseMatrix& hessian, double shift, const Eigen::Ma
     const Eigen::Index i = m.columns[k] - 1, b = m.rows[k] - 1 - hessian.rows();
     m.values[k] = i < hessian.rows() ? largest * borders(i, b) : 0.0;
   }
-  const Doing doing("factorising");
+  const Doing doing(m.kind == Kind::indefinite ? "factorising" : "factorising, on disk");
   for (int attempt = 0; attempt < 6; ++attempt) {
     m.call(2);
     if (m.id.infog[0] != -8 && m.id.infog[0] != -9) break;   // workspace too small for the delayed pivots
     m.icntl(14) *= 3;
   }
-  if (m.id.infog[0] == -10) return false;                  // numerically singular
+  if (m.id.infog[0] == -10 || m.id.infog[0] == -40) return false;         // numerically singular; not positive definite
   if (m.id.infog[0] < 0) mumps_failed("factorisation", m.id.infog[0]);
-  return true;
+  return m.kind == Kind::indefinite || m.id.infog[11] == 0;
 }
 
 int Mumps::negative() const { return instance_->id.infog[11]; }

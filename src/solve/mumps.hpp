@@ -12,7 +12,10 @@ std::recursive_mutex& one_at_a_time();
 /// LDLᵀ with 1×1 and 2×2 pivots of sparse matrices, by MUMPS, which serves one caller at a time; calls from several threads wait for each other.
 class Mumps final : public Factorization {
  public:
-  Mumps();
+  /// definite: only of positive definite matrices, without pivoting, and in memory what is being eliminated alone; the rest in files under
+  /// $MUMPS_OOC_TMPDIR, $TMPDIR or /var/tmp, which go with the factor.
+  enum class Kind { indefinite, definite_on_disk };
+  explicit Mumps(Kind kind = Kind::indefinite);
   ~Mumps() override;
 
   void analyze(const SparseMatrix& pattern, int borders = 0) override;

@@ -161,7 +161,7 @@ void NloptSearch::optimise(nlopt_opt optimiser) {
 void NloptSearch::local(const NloptAlgorithm& algorithm) {
   const int n = energy_.dofs();
   const bool derivatives = algorithm.kind == NloptAlgorithm::Kind::gradient;
-  space_ = options_.precondition && !newton_.factors().cholesky().shared() ? Space::preconditioned : Space::scaled;
+  space_ = options_.precondition && newton_.factors().cholesky().has_root() ? Space::preconditioned : Space::scaled;
   whole_space_ = false, most_evaluations_ = options_.max_evaluations;
   const bool preconditioned = space_ == Space::preconditioned;
   most_looks_ = derivatives ? (preconditioned ? 100 : 2000) : 200 + 100 * n;

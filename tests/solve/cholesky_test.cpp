@@ -2,11 +2,15 @@
 #include "catch.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
+#include "scratch_directory.hpp"
 #include "solve/cholesky.hpp"
+#include "solve/mumps.hpp"
 #include "solve/ordering.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <random>
 #include <vector>
 
@@ -149,4 +153,30 @@ TEST_CASE("what a factor takes is told beforehand", "[solve][cholesky]") {
   CHECK(factor_size(chain).entries == 2 * n - 1);                              // a chain from its ends
   CHECK(factor_size(chain).operations == 4 * (n - 1) + 1);
   CHECK(factor_size(SparseMatrix(0, 0)).entries == 0);
+}
+
+TEST_CASE("a factor on disk solves as one in memory, refuses what is not positive definite, and leaves no files", "[solve][cholesky]") {
+  const ScratchDirectory scratch;
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  const std::string folder = scratch / "factors";
+  std::filesystem::create_directory(folder);
+  setenv("TMPDIR", folder.c_str(), 1);
+  const auto files = [&] { return std::distance(std::filesystem::directory_iterator(folder), {}); };
+  const SparseMatrix h = grid(40, 2, 3);
+  const Vector b = Vector::LinSpaced(h.rows(), -1, 1), x = solution(h, b, 1);
+  {
+    Mumps disk(Mumps::Kind::definite_on_disk);
+    disk.analyze(h);
+    REQUIRE(disk.factorize(h));
+    CHECK(files() > 0);
+    // Both are backward stable: errors of n ε at the most times the condition, ‖H‖₁ over the smallest eigenvalue, 1.
+    double largest = 0;
+    for (int j = 0; j < h.cols(); ++j) largest = std::max(largest, h.col(j).cwiseAbs().sum());
+    CHECK((disk.solve(b) - x).norm() <= static_cast<double>(h.rows()) * epsilon * largest * x.norm());
+    CHECK_FALSE(disk.factorize(h, -h.diagonal().mean()));
+    REQUIRE(disk.factorize(h));
+  }
+  CHECK(files() == 0);
+  before ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
 }
