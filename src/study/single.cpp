@@ -82,6 +82,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   factor_counts() = {};
   Summary summary;
   PathOfLandscape path_of_landscape(problem);
+  std::optional<std::pair<Model, PathPoint>> ending;           // what is checked when the path has gone, whose factors may take half of the memory
   std::optional<PathPoint> event;                              // that a curve begins at
   StrainWatch strains;
   std::vector<Mode> found;
@@ -124,11 +125,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     }
     strains.look(energy->model(), point.state, fmt::format("load factor {:.7g}", point.state.load_factor));
     summary.zero_modes = point.stability.zero_modes;
-    if (last && point.report.status != Status::interrupted && std::isfinite(point.energy.total())) {
-      const Doing doing("checking");
-      const Timed timed(checking);
-      summary.check = check_end(energy->model(), point, problem.solver.tolerance);
-    }
+    if (last && point.report.status != Status::interrupted && std::isfinite(point.energy.total())) ending.emplace(energy->model(), point);
     teller.found(point, touches);
   };
   const Sink sink{
@@ -187,6 +184,12 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   };
   try {
     if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
+    if (ending) {
+      const Doing doing("checking");
+      const Timed timed(checking);
+      summary.check = check_end(ending->first, ending->second, problem.solver.tolerance);
+      ending.reset();
+    }
     if (problem.curve && outcome.status == Status::converged) outcome = follow_curve();
     if (problem.landscape && outcome.status == Status::converged) {
       teller.begin("the landscape");
