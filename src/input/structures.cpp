@@ -59,7 +59,7 @@ void add_own_values(const TablePlace& place, const std::string& file, const Stru
 namespace {
 
 /// Room that a particle takes in the model and its energy, as measured (`elamin check` of 10⁶ in a row, 7·10⁴ in a sheet, 10⁵ grains in a heap) [bytes].
-constexpr double room_in_row = 2800, room_in_sheet = 7200, room_of_grain = 4300;
+constexpr double room_in_row = 1700, room_in_sheet = 4000, room_of_grain = 4300;
 
 double memory() {
   rlimit limit;

@@ -1,6 +1,7 @@
 #include "solve/cholesky.hpp"
 
 #include "core/factor_counts.hpp"
+#include "core/free_memory.hpp"
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "solve/blas.hpp"
@@ -8,15 +9,8 @@
 #include "solve/mumps.hpp"
 #include "solve/ranks.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <fstream>
-#include <limits>
 #include <optional>
-#include <string>
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace elamin {
 
@@ -24,24 +18,6 @@ namespace {
 
 constexpr double checked_from = 1e9;             // bytes that are looked for before they are asked for
 constexpr double with_fronts = 1.1;                  // times the factor: with the fronts under way, as measured on sheets of 10⁵ and 3·10⁵ particles
-
-// What this program can have without taking it from others, or beyond its limit (ulimit -v) [bytes]; infinity where the system does not tell.
-double free_memory() {
-  std::ifstream file("/proc/meminfo");
-  double free = 0, number = 0;
-  std::string word;
-  bool known = false;
-  while (file >> word) {
-    if (word != "MemAvailable:" && word != "SwapFree:") continue;
-    if (file >> number) free += 1024 * number, known = true;
-  }
-  if (!known) free = std::numeric_limits<double>::infinity();
-  rlimit limit;
-  double pages = 0;
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && std::ifstream("/proc/self/statm") >> pages)
-    free = std::min(free, static_cast<double>(limit.rlim_cur) - pages * static_cast<double>(sysconf(_SC_PAGE_SIZE)));
-  return free;
-}
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "study/commands.hpp"
 
+#include "core/free_memory.hpp"
 #include "core/say.hpp"
 #include "input/lammps.hpp"
 #include "solve/ordering.hpp"
@@ -46,7 +47,8 @@ std::string describe(const Problem& problem, const Model& model) {
                                  model.angles.size(), energy.dofs(), problem.plane.empty() ? "" : ", plane " + problem.plane);
   if (energy.dofs() >= told_from) {
     const FactorSize factor = factor_size(energy.hessian());
-    text += fmt::format("a factor of the Hessian takes about {:.2g} GB and {:.2g} operations\n", factor.bytes() / 1e9, factor.operations);
+    text += fmt::format("a factor of the Hessian takes about {:.2g} GB and {:.2g} operations; {:.2g} GB are free{}\n", factor.bytes() / 1e9, factor.operations,
+                        free_memory() / 1e9, factor.bytes() > free_memory() ? ": it goes on disk" : "");
   }
   if (problem.constants) {
     std::vector<std::string> numbers;

@@ -1,0 +1,30 @@
+#include "core/free_memory.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace elamin {
+
+double free_memory() {
+  std::ifstream file("/proc/meminfo");
+  double free = 0, number = 0;
+  std::string word;
+  bool known = false;
+  while (file >> word) {
+    if (word != "MemAvailable:" && word != "SwapFree:") continue;
+    if (file >> number) free += 1024 * number, known = true;
+  }
+  if (!known) free = std::numeric_limits<double>::infinity();
+  rlimit limit;
+  double pages = 0;
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && std::ifstream("/proc/self/statm") >> pages)
+    free = std::min(free, static_cast<double>(limit.rlim_cur) - pages * static_cast<double>(sysconf(_SC_PAGE_SIZE)));
+  return free;
+}
+
+}  // namespace elamin
