@@ -142,15 +142,14 @@ Report settle(Newton& newton, State& state, int most) {
     report.factorizations += factors.factorizations() - before;
     return there;
   };
-  int stages = 1;
-  for (double part = first; part < 1 && !interrupted(); part *= limits::stiffer, ++stages) {
+  bool falls = false;                                           // without end: in stiffer contacts as well
+  for (double part = first; part < 1 && !falls && !interrupted(); part *= limits::stiffer) {
     const Model soft = softened(model, part);
     Energy in(soft);
     Factors factors(in);
-    const bool there = descend(in, factors, std::max(newton.tolerance(), limits::softened_tolerance));
-    if (!there && !falling(in).empty()) break;                  // what falls without end falls in stiffer contacts as well
+    falls = !descend(in, factors, std::max(newton.tolerance(), limits::softened_tolerance)) && !falling(in).empty();
   }
-  if (falling(energy).empty()) descend(energy, newton.factors(), newton.tolerance());
+  if (!falls) descend(energy, newton.factors(), newton.tolerance());
   Report last = newton.minimise(state);
   report.history.insert(report.history.end(), last.history.begin(), last.history.end());
   last.history = std::move(report.history);

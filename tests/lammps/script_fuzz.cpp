@@ -1,4 +1,5 @@
-// Scripts that are damaged in every way: each becomes a model, or is refused with a sentence; none crashes, hangs or fills the memory.
+// Scripts that are damaged in every way, with what they include: each becomes a model, or is refused with a sentence; none crashes, hangs, fills the memory
+// or reads a file outside of its folder.
 #include "catch.hpp"
 #include "lammps/script_reading.hpp"
 #include "processor_time.hpp"
@@ -25,18 +26,36 @@ std::string without_remarks(const std::string& toml) {
   return text;
 }
 
-/// Reads one text after another; what is read becomes a problem, and that a model.
+/// A script and what lies beside it, by name.
+struct Files {
+  std::string main;
+  std::map<std::string, std::string> parts;
+
+  std::string text() const {
+    std::string all = main;
+    for (const auto& [name, part] : parts) all += "# " + name + "\n" + part;
+    return all;
+  }
+};
+
+/// Reads one script after another; what is read becomes a problem, and that a model.
 struct ScriptAttempts {
-  int read = 0, refused = 0, refused_problems = 0;
+  int read = 0, refused = 0, refused_problems = 0, of_several_files = 0;
   bool models = false;                          // are built
   double slowest = 0;                           // [s] of one
   std::size_t particles = 0;                    // of the last one
   ScratchDirectory scratch;
 
-  ScriptAttempts() { scratch.file("strip.data", text_of(lammps_scripts + "strip.data")); }
+  ScriptAttempts() {
+    for (const char* folder : {"folder/inner", "outside"}) std::filesystem::create_directories(scratch / folder);
+    scratch.file("folder/strip.data", text_of(lammps_scripts + "strip.data"));
+    scratch.file("outside/secret.lmp", "kept_outside\n");
+    std::filesystem::create_symlink(scratch / "outside/secret.lmp", scratch / "folder/link.lmp");
+  }
 
-  void operator()(const std::string& text) {
-    const std::string file = scratch.file("in.lmp", text);       // where it lies after a crash
+  void operator()(const Files& files) {
+    const std::string text = files.text(), file = scratch.file("folder/in.lmp", files.main);   // where it lies after a crash
+    for (const auto& [name, part] : files.parts) scratch.file("folder/" + name, part);
     const std::clock_t begin = std::clock();
     particles = 0;
     try {
@@ -45,11 +64,16 @@ struct ScriptAttempts {
     } catch (const InputError& e) {
       REQUIRE_FALSE(e.mistakes().empty());
       REQUIRE(e.mistakes().size() <= 21);
-      for (const Mistake& m : e.mistakes()) REQUIRE_FALSE(m.what.empty());
+      for (const Mistake& m : e.mistakes()) {
+        REQUIRE_FALSE(m.what.empty());
+        REQUIRE(m.what.find("kept_outside") == std::string::npos);
+        REQUIRE((m.file.empty() || is_inside(m.file)));
+      }
       ++refused;
     } catch (const std::exception& e) {
       FAIL(e.what() << "\n" << text);
     }
+    for (const auto& [name, part] : files.parts) std::filesystem::remove(scratch / ("folder/" + name));
     const double seconds = processor_seconds(begin);
     slowest = std::max(slowest, seconds);
     INFO(text);
@@ -57,12 +81,22 @@ struct ScriptAttempts {
   }
 
  private:
+  /// Whether a file that was read lies in the scripts' folder.
+  bool is_inside(const std::string& name) const {
+    return std::filesystem::weakly_canonical(name).string().starts_with(std::filesystem::canonical(scratch / "folder").string() + "/");
+  }
+
   void attempt(const std::string& file) {
     script::ReadingOptions options;
     options.skip = (read + refused) % 2;
     options.most_commands = 5000;
     const script::Reading r = script::read_script(file, options);
-    REQUIRE_FALSE(script::report(r, {}).empty());
+    const std::string told = script::report(r, {});
+    REQUIRE_FALSE(told.empty());
+    REQUIRE(told.find("kept_outside") == std::string::npos);
+    for (const auto* read_files : {&r.files, &r.data_files})
+      for (const std::string& name : *read_files) REQUIRE(is_inside(name));
+    of_several_files += r.files.size() > 1;
     for (const script::Pass& p : r.passes) {
       particles += p.world.atoms.size();
       const script::Translated t = script::translated(r, p, {}, "p.data");
@@ -73,8 +107,8 @@ struct ScriptAttempts {
       }
       REQUIRE(t.data.find(" nan") == std::string::npos);
       if (!models) continue;
-      scratch.file("p.data", t.data);
-      const std::string problem = scratch.file("p.toml", t.toml);
+      scratch.file("folder/p.data", t.data);
+      const std::string problem = scratch.file("folder/p.toml", t.toml);
       try {
         build_model(read_problem(problem));
       } catch (const InputError& e) {
@@ -93,6 +127,11 @@ const Words odd_words{
     "&\n", "#", "\n", "NULL", "INF", "EDGE", "SELF", "delete", "\t", "\xff", "1e-320", "loop", "region", "label", "run 5", "units",
     "1e20", "clear", "group all id 1", "fix 1 all nve", "$(xcm(all,x))", "$(x[1])", "$(v_n)", "${n}", "1000000", "2147483647",
     "-2147483648", "../a", "/etc/passwd", "strip.data", "in.lmp", "add", "append", "none"};
+
+/// Names of files that a script may ask for: some are there, some are none, some lie outside.
+const Words odd_files{"in.lmp",        "part_1.lmp",  "part_2.lmp",     "link.lmp",  "../outside/secret.lmp",          "inner/../../outside/secret.lmp",
+                      "inner",         ".",           "..",             "",          "inner/../part_1.lmp",            "../folder/part_1.lmp",
+                      "nothing.lmp",   "strip.data",  "/dev/stdin",     "/dev/zero", "link.lmp/../../outside/secret.lmp", "${n}.lmp"};
 
 Lines lines_of_text(const std::string& text) {
   Lines lines;
@@ -115,7 +154,7 @@ std::string text_of_lines(const Lines& lines) {
   return text;
 }
 
-/// Changes scripts at their words, numbers, lines and bytes.
+/// Changes scripts at their words, numbers, lines and bytes, and puts parts of them into files that they include.
 class Damage {
  public:
   explicit Damage(unsigned seed) : random_(seed) {
@@ -126,18 +165,36 @@ class Damage {
     }
   }
 
-  std::string next() {
+  Files next() {
     Lines lines = some(scripts_);
     for (std::size_t changes = 1 + pick(4); changes > 0; --changes) change(lines);
-    std::string text = text_of_lines(lines);
-    if (pick(4) == 0 && !text.empty()) text[pick(text.size())] = static_cast<char>(random_());
-    if (pick(16) == 0) text.resize(pick(text.size() + 1));
-    return text.empty() ? "\n" : text;
+    Files files;
+    if (pick(3) == 0) take_out(lines, 1, files);
+    files.main = spoilt(text_of_lines(lines));
+    return files;
   }
 
  private:
   std::size_t pick(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
   template <class T> const T& some(const std::vector<T>& list) { return list[pick(list.size())]; }
+
+  std::string spoilt(std::string text) {
+    if (pick(4) == 0 && !text.empty()) text[pick(text.size())] = static_cast<char>(random_());
+    if (pick(16) == 0) text.resize(pick(text.size() + 1));
+    return text.empty() ? "\n" : text;
+  }
+
+  /// Some lines become a file, and of these some another one; instead of each the script has `include` and, mostly, its name.
+  void take_out(Lines& lines, int number, Files& files) {
+    if (lines.empty()) return;
+    const std::string name = "part_" + std::to_string(number) + ".lmp";
+    const std::size_t from = pick(lines.size()), count = pick(lines.size() - from) + 1;
+    const auto begin = lines.begin() + static_cast<std::ptrdiff_t>(from), end = begin + static_cast<std::ptrdiff_t>(count);
+    Lines part(begin, end);
+    lines.insert(lines.erase(begin, end), Words{pick(8) == 0 ? "jump" : "include", pick(4) == 0 ? some(odd_files) : name});
+    if (number < 3 && pick(2) == 0) take_out(part, number + 1, files);
+    files.parts[name] = spoilt(text_of_lines(part));
+  }
 
   /// One that a number is near, or far from.
   std::string number(const std::string& old) {
@@ -225,6 +282,7 @@ TEST_CASE("damaged scripts are read or refused", "[script][fuzz]") {
   }
   CHECK(attempt.read > 400);                      // both ends are reached
   CHECK(attempt.refused > 400);
+  CHECK(attempt.of_several_files > 30);
 }
 
 // ELAMIN_FUZZ=100000 ELAMIN_SEED=1 elamin_tests "damaged scripts, as many as asked for"
@@ -236,6 +294,6 @@ TEST_CASE("damaged scripts, as many as asked for", "[.]") {
   attempt.models = true;
   Damage damage(setting("ELAMIN_SEED", 1));
   for (unsigned k = 0; k < setting("ELAMIN_FUZZ", 1000); ++k) attempt(damage.next());
-  WARN(attempt.read << " read, " << attempt.refused << " refused, "
+  WARN(attempt.read << " read, of these " << attempt.of_several_files << " of several files, " << attempt.refused << " refused, "
                     << attempt.refused_problems << " refused as problems, the slowest in " << attempt.slowest << " s");
 }

@@ -145,6 +145,29 @@ TEST_CASE("what lies outside of the script's folder is not read", "[script]") {
   CHECK(script::read_script(scratch.file("inner/in.lmp", small_script_head + "include ../secret.txt\n"), anywhere).passes.at(0).world.atoms.size() == 1);
 }
 
+TEST_CASE("a command that includes a file and is wrong otherwise, and a file that is not there, are mistakes like others", "[script]") {
+  const ScratchDirectory scratch;
+  scratch.file("row.txt", "this is wrong, too\n");
+  const auto told = [&](const std::string& text) {
+    try {
+      script::read_script(scratch.file("in.lmp", small_script_head + text), {});
+    } catch (const InputError& e) {
+      return e.mistakes();
+    }
+    return std::vector<Mistake>();
+  };
+  const std::vector<Mistake> both = told("if \"1\" then \"include row.txt\" \"foo\"\n");
+  REQUIRE(both.size() == 2);
+  CHECK((both[0].line == 13 && both[0].file == scratch / "in.lmp"));
+  CHECK((both[1].line == 1 && both[1].file == scratch / "row.txt"));
+  std::string wrong;
+  for (int k = 0; k < 19; ++k) wrong += "foo\n";
+  const std::vector<Mistake> many = told(wrong + "include nothing.txt\nfoo\nfoo\n");
+  REQUIRE(many.size() == 21);
+  CHECK((many[19].line == 32 && many[19].key == "include"));
+  CHECK(many[20].what == "20 mistakes; there may be more");
+}
+
 TEST_CASE("every mistake of a script is told at its place, all at once", "[script]") {
   const std::string head = small_script_head;           // 12 lines
   const auto lines = [&](const std::string& text) { return script_mistakes(head + text); };

@@ -72,6 +72,23 @@ TEST_CASE("a packing settles on its floor, in any units and however stiff its gr
     }
 }
 
+TEST_CASE("a packing settles alike whatever its energy was asked before", "[solve][settle]") {
+  const Model m = heap(30, 1, 1e5);
+  State flying = m.start;
+  for (int i = 0; i < m.particles(); ++i) flying.position(2, i) += 100 + 2 * i;
+  std::vector<std::string> told;                                 // with the number of steps
+  for (const bool asked : {false, true}) {
+    Energy energy(m);
+    if (asked) energy.evaluate(flying);
+    Newton newton(energy);
+    State state = m.start;
+    const Report report = minimise(newton, state, AutoOptions{});
+    CHECK(report.converged());
+    told.push_back(report.why);
+  }
+  CHECK(told[0] == told[1]);
+}
+
 TEST_CASE("a packing without a floor falls, which is said", "[solve][settle]") {
   Model m = heap(25, 1, 1e4);
   m.walls.erase(m.walls.begin());

@@ -113,8 +113,12 @@ void condition_of_if(Interpreter& in) {
       ++i;
     } else {
       if (take) in.execute(w, where);
-      if (in.ended || in.label || in.frames.size() != first_frame) return;       // a jump leaves the rest
+      if (in.ended || in.label || in.frames.size() < first_frame) return;        // a jump leaves the rest
       ++i;
+      if (in.frames.size() == first_frame) continue;
+      const bool last = i == words.size() || (!words[i].quoted && (words[i].text == "elif" || words[i].text == "else"));
+      if (!last) throw Wrong(i, "a command behind an include in the same if would come before what is included; put it into a line of its own");
+      return;
     }
   }
 }

@@ -67,6 +67,7 @@ class Reader {
   }
 
   void step() {
+    load_files();
     Interpreter::Frame& frame = in_.frames.back();
     const File& file = *files_[static_cast<std::size_t>(frame.file)];
     if (in_.label) {
@@ -100,7 +101,6 @@ class Reader {
       in_.words = words_of(line, by);
       if (in_.words.empty()) return;
       in_.run_command();
-      load_files();
     } catch (const NeedsPositions& needs) {
       stop(needs, file);
     } catch (const Silent&) {
@@ -165,7 +165,7 @@ class Reader {
     in_.world = World();
   }
 
-  /// Frames of files that a command has opened.
+  /// Frames of files that the last command has opened, though something else of it was wrong.
   void load_files() {
     for (Interpreter::Frame& f : in_.frames) {
       if (f.file < static_cast<int>(files_.size())) continue;
