@@ -13,19 +13,12 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-std::uint64_t hashed(const Cell& c) {
-  std::uint64_t h = 0;
-  for (const std::int64_t k : c) {
-    h ^= static_cast<std::uint64_t>(k) + 0x9E3779B97F4A7C15ull + (h << 6) + (h >> 2);
-    h *= 0xBF58476D1CE4E5B9ull, h ^= h >> 29;
-  }
-  return h;
-}
+constexpr double wider = 1 + 1.0 / 64;           // cells: quotients of coordinates are rounded, by less than that up to 2⁴⁶ cells
 
-// Balls of about one size: sorted by the hash of their cell. Two cells may share a hash; distances are checked anyway.
+// Balls of about one size, sorted by their cells: those of three cells in a row along z stand side by side.
 struct Grid {
-  double cell = 0;
-  std::vector<std::pair<std::uint64_t, int>> balls;
+  double cell = 0;                                              // no less than twice the largest radius: neighbours lie in 27 cells
+  std::vector<std::pair<Cell, int>> balls;
 
   Cell cell_of(const Vec3& x) const {
     Cell c;
@@ -40,11 +33,14 @@ std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double
                                   const std::function<bool(int, int)>& wanted) {
   const int n = static_cast<int>(centers.cols());
   std::map<int, Grid> grids;                                    // by the power of two of the radius
-  for (int i = 0; i < n; ++i)
-    if (radii[i] > 0) grids[std::ilogb(radii[i])].balls.push_back({0, i});
+  for (int i = 0; i < n; ++i) {
+    if (!(radii[i] > 0)) continue;
+    Grid& grid = grids[std::ilogb(radii[i])];
+    grid.balls.push_back({{}, i});
+    grid.cell = std::max(grid.cell, wider * 2 * radii[i]);
+  }
   for (auto& [power, grid] : grids) {
-    grid.cell = std::ldexp(4.0, power);                         // ≥ twice the largest radius: neighbours lie in 27 cells
-    for (auto& [hash, i] : grid.balls) hash = hashed(grid.cell_of(centers.col(i)));
+    for (auto& [cell, i] : grid.balls) cell = grid.cell_of(centers.col(i));
     std::sort(grid.balls.begin(), grid.balls.end());
   }
   // The smaller one of two looks for the larger one; of one size, each for the other, once.
@@ -57,10 +53,10 @@ std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double
     for (auto level = grids.lower_bound(own); level != grids.end(); ++level) {
       const Grid& grid = level->second;
       const Cell middle = grid.cell_of(x);
-      for (int k = 0; k < 27; ++k) {
-        const std::uint64_t hash = hashed({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
-        auto ball = std::lower_bound(grid.balls.begin(), grid.balls.end(), std::pair(hash, -1));
-        for (; ball != grid.balls.end() && ball->first == hash; ++ball) {
+      for (int k = 0; k < 9; ++k) {
+        const Cell first{middle[0] + k / 3 - 1, middle[1] + k % 3 - 1, middle[2] - 1}, last{first[0], first[1], middle[2] + 1};
+        auto ball = std::lower_bound(grid.balls.begin(), grid.balls.end(), std::pair(first, -1));
+        for (; ball != grid.balls.end() && ball->first <= last; ++ball) {
           const int j = ball->second;
           if (j == i || (level->first == own && j < i)) continue;
           const double sum = radii[i] + radii[j];

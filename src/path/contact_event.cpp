@@ -130,8 +130,8 @@ bool vanishes(Energy& energy, const ContactKey& key, double before, const State&
 }
 
 // Whether a contact is closed at an equilibrium by no more of a force than is left there.
-bool rounding_bears(Newton& newton, const ContactKey& key, const State& state) {
-  const double part = borne(newton.energy(), key, state);
+bool rounding_bears(Newton& newton, const ContactKey& key, const std::vector<Touch>& touches) {
+  const double part = borne(newton.energy(), key, touches);
   return part >= 0 && part <= newton.tolerance();
 }
 
@@ -278,7 +278,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     const double ga = gap(*first, a.point.state);
     const bool just_made = ga < 0 && first->feature < 0 && -ga <= contact_event::exact_rounding * size_of(energy.model(), first->particle);
     const bool makes = ga > 0;
-    const double after = !just_made && rounding_bears(newton, *first, a.point.state) ? -contact_event::along_chord
+    const double after = !just_made && rounding_bears(newton, *first, energy.touches(a.point.state)) ? -contact_event::along_chord
                        : (just_made ? 1 : -1) * contact_event::together_in_step;
     double t = segment.a;
     const auto closed_from = [&](State state) {
@@ -359,15 +359,17 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
   ContactKey first{};
   ContactSet candidates = before;
   double least = std::numeric_limits<double>::infinity();
-  for (const Touch& t : energy.touches(from, step_bound))
+  const std::vector<Touch> touches = energy.touches(from, step_bound);
+  const State onward = moved_by(kinematics, from, way, load_change, 1e-3);
+  for (const Touch& t : touches)
     for (const bool within : {false, true}) {
       const ContactKey key{t.particle, t.other, t.wall, t.feature, within};
       if (within && (t.feature < 0 || attraction_range(model, energy.body_rules(), t.key()) == 0)) continue;
       candidates.insert(key);
-      const double here = gap(energy, key, from), there = gap(energy, key, moved_by(kinematics, from, way, load_change, 1e-3));
+      const double here = gap(energy, key, from), there = gap(energy, key, onward);
       const bool closed = before.count(key) > 0;
       // What is closed may overlap by no more than that everywhere: it changes here if it bears nothing.
-      const bool bears = closed && here < 0 && key.feature < 0 && !rounding_bears(newton, key, from);
+      const bool bears = closed && here < 0 && key.feature < 0 && !rounding_bears(newton, key, touches);
       const bool opens = closed && here < 0 && key.feature >= 0 && there - here > contact_event::rounding * size_of(model, key.particle);
       const bool at = !bears && !opens && std::abs(here) <= contact_event::together * size_of(model, key.particle);
       const bool stays = (there < 0) == closed ||

@@ -87,9 +87,11 @@ bool slope(const Energy& energy, const ContactKey& key, const State& state, doub
   return row.allFinite() && std::isfinite(by_load);
 }
 
-double borne(Energy& energy, const ContactKey& key, const State& state) {
-  for (const Touch& t : energy.touches(state))
-    if (t.key() == touch_key(key)) return t.gap < 0 ? t.force.norm() / std::max(energy.force_scale(), std::numeric_limits<double>::min()) : -1.0;
+double borne(Energy& energy, const ContactKey& key, const State& state) { return borne(energy, key, energy.touches(state)); }
+
+double borne(const Energy& energy, const ContactKey& key, const std::vector<Touch>& touches) {
+  for (const Touch& t : touches)
+    if (t.gap < 0 && t.key() == touch_key(key)) return t.force.norm() / std::max(energy.force_scale(), std::numeric_limits<double>::min());
   return -1;
 }
 

@@ -29,6 +29,8 @@ double coordinate_rounding(const ContactKey& key, const State& state);
 
 /// What a contact bears at an equilibrium, in parts of the largest force there; less than 0 where it is open.
 double borne(Energy& energy, const ContactKey& key, const State& state);
+/// The same of what is known to touch there, which what does not may be among.
+double borne(const Energy& energy, const ContactKey& key, const std::vector<Touch>& touches);
 
 /// A state moved by a part of a way (dofs), prescribed coordinates by their part of the change of the load factor.
 State moved_by(const Kinematics& kinematics, const State& from, const Vector& way, double load_change, double part);

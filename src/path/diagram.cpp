@@ -2,14 +2,20 @@
 #include "path/continuation.hpp"
 #include "path/deflation.hpp"
 #include "path/hard_contact_steps.hpp"
+#include "path/limits.hpp"
 #include "path/path.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
+#include <limits>
+#include <set>
 
 namespace elamin {
+
+using namespace limits;
 
 namespace {
 
@@ -18,19 +24,23 @@ namespace {
 class Diagram final : public Path {
  public:
   Diagram(Newton& newton, const State& start, const PathOptions& options) : newton_(newton), options_(options) {
+    if (options.deflate > 0) options_.stops.insert(options_.stops.end(), options.deflate_at.begin(), options.deflate_at.end());
+    std::set<double> compared(options_.deflate_at.begin(), options_.deflate_at.end());
+    compared.insert(options.to);
+    for (const double load_factor : compared) rivals_.push_back({load_factor});
     if (any_hard(newton.energy().model())) {
-      now_ = std::make_unique<HardContactSteps>(newton, start, options, &numbering());
+      now_ = std::make_unique<HardContactSteps>(newton, start, options_, &numbering());
       if (options.branches > 0 || options.deflate > 0 || options.method == PathMethod::arc_length)
         note("with hard contacts a path goes by load steps, without switching branches and without deflation");
       options_.branches = options_.deflate = 0;
     } else {
-      now_ = std::make_unique<Continuation>(newton, start, options, &numbering());
+      now_ = std::make_unique<Continuation>(newton, start, options_, &numbering());
     }
   }
 
   void carry(Archive& archive) override {
     Path::carry(archive);
-    archive(metric_, side_, done_, deflated_, known_, switched_, waiting_, arrivals_, points_, worst_, why_);
+    archive(metric_, side_, done_, deflated_, known_, switched_, waiting_, arrivals_, points_, rivals_, worst_, why_);
     if (archive.reads() && side_) begin_side({}, "");
     archive(*now_);
   }
@@ -39,6 +49,7 @@ class Diagram final : public Path {
   void advance() override {
     if (std::optional<PathPoint> point = now_->next()) {
       if (options_.deflate > 0) points_.push_back(point->state);
+      compare(*point, side_);
       pass_notes();
       return take(std::move(*point));
     }
@@ -56,6 +67,36 @@ class Diagram final : public Path {
     SideBranch side;
     void carry(Archive& archive) { archive(point, side.at, side.direction, side.leaving, side.step); }
   };
+  /// The minimum that the first branch has at a load factor, and the lowest of the other equilibria that are known there.
+  struct Rivals {
+    double load_factor = 0;
+    double energy = std::numeric_limits<double>::infinity(), other = energy;
+    double size = 0;                     // of the terms that they are sums of
+    std::string label;                   // of the other one
+    void carry(Archive& archive) { archive(load_factor, energy, other, size, label); }
+  };
+
+  void compare(const PathPoint& point, bool is_other) {
+    const double same = continuation::same_load * std::abs(options_.to - options_.from), energy = point.energy.total();
+    for (Rivals& r : rivals_) {
+      if (std::abs(point.state.load_factor - r.load_factor) > same || !point.report.converged()) continue;
+      if (is_other ? !(energy < r.other) : !(point.stability.stable && energy < r.energy)) continue;
+      r.size = std::max(r.size, point.energy.size());
+      if (!is_other) r.energy = energy;
+      else r.other = energy, r.label = point.label.empty() ? fmt::format("branch {}", point.branch) : point.label;
+    }
+  }
+
+  // How the path ends, and where its minimum is not the lowest equilibrium known. Energies of springs at rest are those of rounded places.
+  void end_all() {
+    const Energy& energy = newton_.energy();
+    const double at_rest = 16 * epsilon * energy.force_floor() * energy.kinematics().mean_size() * energy.dofs();
+    for (const Rivals& r : rivals_)
+      if (std::isfinite(r.energy) && r.other < r.energy - equilibrium::energy_rounding * r.size - at_rest)
+        why_ += fmt::format("; at load factor {:.10g} its minimum is not the lowest: {} has the energy {:.7g}, the path {:.7g}", r.load_factor,
+                            r.label, r.other, r.energy);
+    end(worst_, why_);
+  }
 
   void pass_notes() {
     for (std::string& sentence : now_->notes()) note(std::move(sentence));
@@ -105,12 +146,13 @@ class Diagram final : public Path {
   }
 
   void look_for_others() {
-    if (options_.deflate == 0 || deflated_) return end(worst_, why_);
+    if (options_.deflate == 0 || deflated_) return end_all();
     deflated_ = true;
     std::vector<std::string> sentences;
     parent_.clear();
     for (PathPoint& point : deflate(newton_, points_, options_, sentences)) {
       branch_ = ++numbering().branches;
+      compare(point, true);
       emit(std::move(point));
     }
     for (std::string& sentence : sentences) note(std::move(sentence));
@@ -126,6 +168,7 @@ class Diagram final : public Path {
   std::deque<Waiting> waiting_;
   std::vector<std::pair<std::size_t, Vector>> arrivals_;
   std::vector<State> points_;
+  std::vector<Rivals> rivals_;
   Status worst_ = Status::converged;
   std::string why_;
 };

@@ -204,6 +204,9 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     const auto carry = [&](Archive& archive) { archive(numbers, held, headway, *run->path, run->energy, run->newton.factors()); };
     if (here) sink.stage(run->stage, run->energy), carry(*stopped);
     const auto enough = [&] { return held && sink.enough && sink.enough(*held); };
+    const auto tell_notes = [&] {
+      for (const std::string& note : run->path->notes()) sink.note(note);
+    };
     while (std::optional<PathPoint> point = broken.empty() && !enough() ? run->path->next() : std::nullopt) {
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
@@ -218,10 +221,11 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       if (!begun && k > first) point->label.clear();       // "initial" is the first of all
       begun = true;
       held = numbers.among_all(std::move(*point));
-      for (const std::string& note : run->path->notes()) sink.note(note);
+      tell_notes();
       // What is found while it is to stop need not be what would be found otherwise.
       if (sink.checkpoint && broken.empty() && !interrupted()) sink.checkpoint([&](Archive& archive) { archive(starts), carry(archive); });
     }
+    tell_notes();
     outcome = {run->path->status(), run->path->why()};
     if (enough()) outcome = {Status::converged, "the path ends at " + held->label};
     if (!broken.empty()) outcome = {Status::not_converged, broken};

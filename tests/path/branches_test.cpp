@@ -97,19 +97,30 @@ TEST_CASE("a column in space buckles at a double branch point; of the circle of 
   CHECK(t.points.back().energy.total() == Approx(s["U_total"].get<double>()).epsilon(1e-11));
 }
 
-TEST_CASE("deflation finds the states that the branch does not reach", "[path]") {
-  // A two-bar truss without load rests up and down, and flat in unstable equilibrium.
+namespace {
+
+// Two bars of length 1 that rest with their joint at the height h, or at -h; a force pulls it down.
+Model two_bars(double h, double force) {
   Model m = chain(3, 1, 0, 1);
   m.angles.clear(), m.angle_types.clear();
-  const double h = 0.3, b = std::sqrt(1 - h * h);
+  const double b = std::sqrt(1 - h * h);
   m.start.position = Field::Zero(3, 3);
   m.start.position(0, 0) = -b, m.start.position(1, 1) = h, m.start.position(0, 2) = b;
   m.start.low.setZero();
   m.plane_normal = 2;
   hold(m, 0, 0), hold(m, 2, 2);
   Load load;
-  load.particles = {1}, load.force = Vec3(0, -1, 0);
+  load.particles = {1}, load.force = Vec3(0, -force, 0);
   m.loads = {load};
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("deflation finds the states that the branch does not reach", "[path]") {
+  // Without load the truss rests up and down, and flat in unstable equilibrium.
+  const double h = 0.3, b = std::sqrt(1 - h * h);
+  const Model m = two_bars(h, 1);
   Energy energy(m);
   Newton newton(energy);
   PathOptions options;
@@ -128,6 +139,26 @@ TEST_CASE("deflation finds the states that the branch does not reach", "[path]")
     CHECK(std::min(std::abs(y), std::abs(std::abs(y) - h)) < 1e-12);
   }
   CHECK(heights == std::multiset<int>{-1, 0});
+}
+
+TEST_CASE("the end of a path says that a lower minimum is known", "[path]") {
+  // Of the two wells of the truss the one that the force points to is the lower one; without force they are as low as each other.
+  const auto [force, is_lowest] = GENERATE(std::pair{1.0, false}, std::pair{-1.0, true});
+  const Model m = two_bars(0.3, force);
+  Energy energy(m);
+  Newton newton(energy);
+  PathOptions options;
+  options.to = 0.001, options.steps = 2, options.deflate = 4, options.deflate_at = {0, 0.0007, 0.001};
+  const Trace t = trace(newton, m.start, options);
+  CAPTURE(t.why, t.notes);
+  REQUIRE(t.status == Status::converged);
+  int below = 0;
+  for (const PathPoint& p : t.labelled("deflated")) below += p.state.position(1, 1) < -0.29;
+  CHECK(below >= 3);
+  const auto told = [&](const std::string& at) { return t.why.find("at load factor " + at + " its minimum is not the lowest") != std::string::npos; };
+  CHECK(!told("0"));
+  CHECK(told("0.0007") == !is_lowest);
+  CHECK(told("0.001") == !is_lowest);
 }
 
 TEST_CASE("a watch is located and may end the path", "[path]") {
