@@ -183,6 +183,8 @@ std::optional<Branch::Candidate> ArcSteps::reach(const Arc& arc, double s, std::
   }
   if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
   if (!stays_on_branch(arc, s, e, why)) return {};
+  if (!e.slack) e.soft_values = newton_.factors().soft_values(std::min(equilibrium::softest, newton_.energy().dofs()));
+  if (softens()) see_softest(newton_, e, current_.softest, -branch::little * s * arc.load_rate(e));
   carry_neutral(e);
   return Candidate{.parameter = s, .e = std::move(e)};
 }
@@ -207,13 +209,18 @@ bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, s
   return true;
 }
 
-// Of a branch that leaves a branch point: whether the index is the same right behind it as at the candidate.
+// Of a branch that leaves a branch point: whether the index and the sign of dλ/ds are the same right behind it as at the candidate. There rounding may be more than
+// the rate, of slender structures; then it is not what the change of the load factor tells:  s dλ/ds = m Δλ, m = 1 of a line, 2 of a parabola, 4 of a symmetric cusp.
 bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
   const Equilibrium near = arc.at(arc_steps::just_beyond * c.parameter, current_);
   if (!near.point.report.converged()) return false;
   const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, arc.direction()).load >= 0; };
-  if (near.point.stability.negative != c.e.point.stability.negative || rises(near) != rises(c.e)) return false;
-  negative_ = near.point.stability.negative, sign_ = rises(near) ? 1 : -1;
+  const auto told = [&](const Equilibrium& e) {
+    const double m = arc.position(e.point.state) * arc.load_rate(e) / (e.point.state.load_factor - current_.point.state.load_factor);
+    return m > arc_steps::least_order && m < arc_steps::largest_order;
+  };
+  if (near.point.stability.negative != c.e.point.stability.negative || (rises(near) != rises(c.e) && (told(near) || !told(c.e)))) return false;
+  negative_ = near.point.stability.negative, sign_ = rises(c.e) ? 1 : -1;
   return true;
 }
 

@@ -5,9 +5,9 @@
 #include "path/event_error.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
-#include "path/root.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -24,7 +24,7 @@ Branch::Branch(Newton& newton, Departure from, bool contacts, bool event_errors,
 }
 
 void Branch::carry(Archive& archive) {
-  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, status_, why_);
+  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, soft_before_, status_, why_);
 }
 
 const Event* Branch::deciding(const Candidate& c) {
@@ -99,38 +99,94 @@ bool Branch::stop_where_contact_passes(const Segment& segment, Candidate& c) {
   return true;
 }
 
-namespace {
-
-// Where between two samples of dλ/dt Hermite's cubic of λ has its least rate, if that is little beside the rates at both ends; and how much of them it is.
-//   λ' = ra + 2u (3Δλ − 2ra − rb) + 3u² (ra + rb − 2Δλ)
-struct Slowest { double t, by; };
-std::optional<Slowest> slowest(const Sample& a, const Sample& b) {
-  const double width = b.t - a.t, ra = width * a.f, rb = width * b.f, change = b.e.point.state.load_factor - a.e.point.state.load_factor;
-  const double h = 3 * change - 2 * ra - rb, k = ra + rb - 2 * change, u = -h / (3 * k);
-  const double by = std::copysign(1.0, rb) * (ra + u * h) / std::min(std::abs(ra), std::abs(rb));      // where the rate is least h + 3uk = 0
-  if (!(u > 0 && u < 1 && by < branch::slowed)) return {};
-  return Slowest{a.t + u * width, by};
+// Looks between the ends of a step where `where` tells, up to a few times nearer, for a state that is `wanted`: then the candidate becomes that.
+bool Branch::look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const {
+  double ta = segment.a, tb = segment.b;
+  Equilibrium a = current_, b = c.e;
+  std::optional<Place> next = where(ta, a, tb, b);
+  for (int k = 0; next && k < branch::most_looks; ++k) {
+    const double t = next->t;
+    Equilibrium e = segment.at(t, a);
+    if (!e.point.report.converged()) return false;
+    if (wanted(e)) return c.parameter = t, c.e = std::move(e), c.events.clear(), true;
+    const std::optional<Place> before = where(ta, a, t, e), behind = where(t, e, tb, b);
+    const bool first = before && (!behind || before->by <= behind->by);
+    (first ? tb : ta) = t, (first ? b : a) = std::move(e);
+    next = first ? before : behind;
+  }
+  return false;
 }
 
-}  // namespace
-
 // Where the load factor goes back between the ends of a step, at both of which it goes on, two limit points lie between: the candidate becomes a state between
-// them, which is looked for where the load factor changes least. False if it went back over the whole step, which proves two limit points, and none was found.
+// them. It is looked for where Hermite's cubic of λ has its least rate, if that is little beside the rates at both ends:
+//   λ' = ra + 2u (3Δλ − 2ra − rb) + 3u² (ra + rb − 2Δλ)
+// False if it went back over the whole step, which proves two limit points, and none was found.
 bool Branch::stop_where_load_goes_back(const Segment& segment, Candidate& c) {
-  Sample a{segment.a, singular_ ? 0.0 : segment.load_rate(current_), current_}, b{segment.b, segment.load_rate(c.e), c.e};
+  const auto slowest = [&](double ta, const Equilibrium& a, double tb, const Equilibrium& b) -> std::optional<Place> {
+    const double width = tb - ta, ra = singular_ && ta == segment.a ? 0.0 : width * segment.load_rate(a), rb = width * segment.load_rate(b);
+    const double change = b.point.state.load_factor - a.point.state.load_factor;
+    const double h = 3 * change - 2 * ra - rb, k = ra + rb - 2 * change, u = -h / (3 * k);
+    const double by = std::copysign(1.0, rb) * (ra + u * h) / std::min(std::abs(ra), std::abs(rb));      // where the rate is least h + 3uk = 0
+    if (!(u > 0 && u < 1 && by < branch::slowed)) return {};
+    return Place{ta + u * width, by};
+  };
   const double change = c.e.point.state.load_factor - current_.point.state.load_factor;
-  std::optional<Slowest> where = slowest(a, b);
-  for (int k = 0; where && k < branch::most_looks; ++k) {
-    Sample e{where->t, 0, segment.at(where->t, a.e)};
-    if (!e.e.point.report.converged()) break;
-    e.f = segment.load_rate(e.e);
-    if (e.f * sign_ < 0) return c.parameter = e.t, c.e = std::move(e.e), c.events.clear(), true;
-    const std::optional<Slowest> before = slowest(a, e), behind = slowest(e, b);
-    const bool first = before && (!behind || before->by <= behind->by);
-    where = first ? before : behind;
-    (first ? b : a) = std::move(e);
+  return look_between(segment, c, slowest, [&](Equilibrium& e) { return segment.load_rate(e) * sign_ < 0; }) ||
+         -sign_ * change <= branch::load_rounding * std::abs(current_.point.state.load_factor);
+}
+
+// Whether an eigenvalue may vanish twice, or two of them in opposite ways, on the step from here: on the step before, which was half as long or longer, |μ| has then
+// fallen by a factor of 1.5 (a straight line with its zero at the end of this step) or more (2.25: a parabola).
+bool Branch::softens() const {
+  const Vector &before = soft_before_, &here = current_.soft_values;
+  return before.size() == 0 || here.size() != before.size() || (here.array() * branch::softened < before.array()).any();
+}
+
+// Where an eigenvalue changes its sign twice between the ends of a step, or two of them in opposite ways, two branch points lie between that the Morse index does
+// not tell at the ends: the candidate becomes a state between them. It is looked for where Hermite's cubics of the softest eigenvalues, of modes that are alike at
+// both ends, make another index than at the ends: in the middle of where first; or where one is least beside its values at both ends, if that is little.
+void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
+  const auto look_at = [&](Equilibrium& e, const Equilibrium& neighbour) {
+    see_softest(newton_, e, neighbour.softest, branch::little * (segment.b - segment.a) * segment.load_rate(e));
+  };
+  if (current_.softest.values.size() == 0 && c.e.softest.values.size() > 0) {       // behind an event, or where the branch begins, or nothing has softened yet
+    newton_.energy().evaluate(current_.point.state);
+    newton_.factors().factorize_holding(current_.zero_modes);
+    look_at(current_, c.e);
+    Vector& values = current_.softest.values;
+    if (singular_) values = (values.array().abs() <= branch::vanished * infinity_norm(values)).select(0, values);
   }
-  return -sign_ * change <= branch::load_rounding * std::abs(current_.point.state.load_factor);
+  const auto softest = [&](double ta, const Equilibrium& a, double tb, const Equilibrium& b) -> std::optional<Place> {
+    if (a.softest.values.size() == 0 || b.softest.values.size() == 0) return {};
+    const double width = tb - ta, la = width * segment.load_rate(a), lb = width * segment.load_rate(b);
+    const Eigen::MatrixXd alike = (a.softest.vectors.transpose() * b.softest.vectors).cwiseAbs();
+    std::array<int, branch::samples> negative{};
+    int before = 0;
+    Place least{0, branch::slowed};
+    for (Eigen::Index i = 0; i < alike.rows(); ++i) {
+      Eigen::Index j = 0;
+      if (alike.row(i).maxCoeff(&j) < branch::same_mode) continue;
+      const double from = a.softest.values[i], to = b.softest.values[j], ra = la * a.softening[i], rb = lb * b.softening[j];
+      before += from < 0 || (from == 0 && ra < 0);
+      for (int k = 1; k < branch::samples; ++k) {
+        const double u = static_cast<double>(k) / branch::samples, v = 1 - u;
+        const double value = v * v * ((1 + 2 * u) * from + u * ra) + u * u * ((3 - 2 * u) * to - v * rb);
+        negative[k] += value < 0;
+        const double by = std::copysign(1.0, from) * value / std::min(std::abs(from), std::abs(to));
+        if (from * to > 0 && by < least.by) least = {ta + u * width, by};
+      }
+    }
+    int first = 1, last = 1;
+    while (first < branch::samples && negative[first] == before) last = ++first;
+    while (last < branch::samples && negative[last] != before) ++last;
+    if (first < last && last < branch::samples) return Place{ta + (first + last - 1) * width / (2 * branch::samples), -1};
+    if (least.by < branch::slowed) return least;
+    return {};
+  };
+  look_between(segment, c, softest, [&](Equilibrium& e) {
+    if (e.point.stability.negative != negative_) return true;
+    return look_at(e, current_), false;
+  });
 }
 
 // Whether contacts are closed, or open, at a change that is none of theirs, and were not where the step begins.
@@ -195,6 +251,8 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   const bool kink = !c.events.empty() && c.events.front().beyond;               // it may be where the branch stands
   if (!c.natural && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_load_goes_back(segment, c))
     return why = "the load factor goes back between two states at which it goes on", false;
+  segment.b = c.parameter;
+  if (!c.natural && c.events.empty() && c.e.point.stability.negative == negative_ && rises(c.e) == sign_) stop_where_index_goes_back(segment, c);
   segment.b = c.parameter;
   const int after = c.e.point.stability.negative;
   const bool stays_stable = !c.events.empty() && negative_ == 0 && after == 0;      // up to a contact, behind which the tangent may be any other one
@@ -265,6 +323,7 @@ void Branch::take(const Candidate& c) {
   if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
   closed_ = std::move(closed);
   pass_user_events(user_events_, c.events, c.e.point.state, side_);
+  soft_before_ = c.events.empty() ? current_.soft_values : Vector();
   current_ = event && event->beyond ? *event->beyond : c.e;
   current_.point.label.clear();
   if (c.events.empty()) return;

@@ -77,7 +77,12 @@ class Branch {
   bool changes_before(const ContactChange& change);
   bool contact_may_explain(const Candidate& c) const;
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
+  struct Place { double t, by; };      // on a segment, and how likely: the less the more
+  using Where = std::function<std::optional<Place>(double ta, const Equilibrium& a, double tb, const Equilibrium& b)>;
+  bool look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const;
   bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
+  void stop_where_index_goes_back(const Segment& segment, Candidate& c);
+  bool softens() const;
   /// What happens on the way to a candidate, which is then where that is.
   [[nodiscard]] bool find_events(const Segment& segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);
@@ -97,6 +102,7 @@ class Branch {
   bool contacts_, event_errors_;
   std::vector<UserEvent> user_events_;
   std::vector<double> side_;
+  Vector soft_before_;                 // Equilibrium::soft_values a step before; empty: not known
 
  private:
   Status status_ = Status::converged;

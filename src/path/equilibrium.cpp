@@ -7,9 +7,11 @@
 #include "path/limits.hpp"
 #include "path/push.hpp"
 #include "solve/contact_equilibrium.hpp"
+#include "solve/ritz.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace elamin {
 
@@ -230,6 +232,26 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     if (f.dot(newton.factors().solve_holding(f)) < 0) --s.negative_rigid;
   }
   return e;
+}
+
+void see_softest(Newton& newton, Equilibrium& e, const EigenPairs& neighbour, double change) {
+  Energy& energy = newton.energy();
+  const int block = std::min(equilibrium::softest + 1, energy.dofs()), count = std::min(equilibrium::softest, block);
+  if (count == 0 || e.slack || !e.point.state.hard.empty() || change == 0) return;
+  const Eigen::Index known = neighbour.vectors.cols();
+  const EigenPairs pairs = newton.factors().soft_pairs(side_by_side(neighbour.vectors, starting_block(energy.dofs(), block - static_cast<int>(known))),
+                                                       known > 0 ? 1 : equilibrium::softest_rounds);
+  std::vector<int> order(block);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return std::abs(pairs.values[i]) < std::abs(pairs.values[j]); });
+  order.resize(count);
+  e.softest = {pairs.values(order), pairs.vectors(Eigen::all, order)};
+  State beside = e.point.state;
+  energy.kinematics().prescribe(beside, beside.load_factor + change);
+  energy.kinematics().retract(beside, e.tangent, change);
+  energy.evaluate(beside);
+  e.softening.resize(count);
+  for (int j = 0; j < count; ++j) e.softening[j] = (energy.quadratic_form(e.softest.vectors.col(j)) - e.softest.values[j]) / change;
 }
 
 bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {

@@ -14,6 +14,9 @@ struct Equilibrium {
   std::vector<RigidMotion> motions = {};   // the rigid ones that they have been told to be
   Eigen::MatrixXd soft = {};           // modes that the inertia had to resolve (dofs × count), where it had to
   EigenPairs lowest;                   // eigenpairs as far as they were asked for: where the search at a neighbour begins
+  Vector soft_values = {};             // |μ| of the eigenvalues nearest to zero, roughly, where the next step asks for them
+  EigenPairs softest = {};             // these eigenpairs, as see_softest() tells them, …
+  Vector softening = {};               // … and dμ/dλ along the branch
   /// Nothing bears a force, and something may touch: what floats is pushed as far as it must, and what touches it may as well not.
   bool slack = false;
   /// Something that nothing holds is there and no contact bears a force, though other things may: it is pushed in the same way; and it touches something.
@@ -22,6 +25,10 @@ struct Equilibrium {
 
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
 Equilibrium assess(Newton& newton, const State& state, const Report& report);
+
+/// Tells the softest eigenpairs of an equilibrium that assess() or with_tangent() has just told, from those of a neighbour (none: from nothing), and how they
+/// change from there to where the load factor is another by `change`:  dμ/dλ = vᵀ(dH/dλ)v.
+void see_softest(Newton& newton, Equilibrium& e, const EigenPairs& neighbour, double change);
 
 /// Follows the branch from one equilibrium to the load factor λ: tangent predictor, Newton's corrector or another one.
 /// Converged only if it is on the same branch, as far as can be told; beyond a contact that is made on the way it cannot.

@@ -20,6 +20,8 @@ constexpr double just_touching = 1e-9;  // of the smallest size
 constexpr double largest_part = 0.45, least_cosine = 0.5;
 constexpr double same_end = 1e-3;  // of the way: a step and its parts meet
 constexpr double energy_rounding = 1e-13;  // of the sum of its terms' sizes
+constexpr int softest = 3;  // eigenpairs that are followed from step to step, …
+constexpr int softest_rounds = 3;  // … and rounds of inverse iteration that find them from nothing
 constexpr double rigid = 1e-6;  // of what a mode moves: by how much it may change angles
 constexpr int most_shifts = 6;  // along a neutral mode, until its phase is kept
 constexpr double drifted = 1e-13;  // of the phase: rounding [rad]
@@ -48,6 +50,11 @@ namespace branch {
 constexpr double coincide = 1e-10;  // of a segment: events that are at one place
 constexpr double slowed = 0.3;  // of the rates of the load factor at both ends of a step: less between, as far as a cubic tells, may be none
 constexpr int most_looks = 4;  // … how often that is looked at
+constexpr double softened = 1.4;  // factor by which |μ| falls on a step before one on which it may vanish twice: 1.5, but for how roughly it is known
+constexpr double vanished = 1e-6;  // of the largest of the softest eigenvalues: at a limit point or branch point one that has vanished
+constexpr int samples = 32;  // of cubics between two equilibria
+constexpr double same_mode = 0.7;  // cosine between eigenvectors at both ends of a step: more than with all others
+constexpr double little = 1e-4;  // of the step: over which the change of eigenvalues is taken
 constexpr double load_rounding = 1e-10;  // of the load factor: where hardly anything changes it
 constexpr double first_past = 1e-5, least_past = 1e-7;  // of the way over which the other side of a contact is looked for
 }
@@ -61,6 +68,7 @@ constexpr double largest_departure = 0.5;  // of the corrector, in parts of the 
 constexpr double largest_defect = 0.2;  // of the chord from the sum of the tangents, in parts of the chord
 constexpr double told_by_load = 0.1;  // of a load step: what is less may be rounding, where hardly anything changes the load factor
 constexpr double least_part = 1e-12;  // of the first step: shorter ones are given up
+constexpr double least_order = 0.5, largest_order = 5;  // of the load factor over the arc length from a branch point, as far as rates and changes tell one order
 constexpr double just_beyond = 0.125;  // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;  // of the way: an event leads there
 constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step: the longest and the shortest that is tried over a contact …

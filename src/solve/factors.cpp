@@ -157,6 +157,28 @@ EigenPairs Factors::nearest_zero(const Eigen::MatrixXd& start, const Eigen::Matr
   return {values, x};
 }
 
+EigenPairs Factors::soft_pairs(Eigen::MatrixXd x, int rounds) {
+  for (int k = 0; k < rounds; ++k) {
+    for (Eigen::Index j = 0; j < x.cols(); ++j) x.col(j) = solve_holding(x.col(j).normalized());
+    x = orthonormal(x);
+    rotate_to_ritz(energy_, x);
+  }
+  Vector values(x.cols());
+  for (Eigen::Index j = 0; j < x.cols(); ++j) values[j] = energy_.quadratic_form(x.col(j));
+  return {values, x};
+}
+
+Vector Factors::soft_values(int count) {
+  if (count == 0 || (!holder_ && !resolved_)) return {};
+  Eigen::MatrixXd x = starting_block(energy_.dofs(), count);
+  for (int twice = 0; twice < 2; ++twice) {
+    x = orthonormal(x);
+    if (!resolved_) x = holder_->solve(x);
+    else for (int j = 0; j < count; ++j) x.col(j) = solve_resolved(x.col(j));
+  }
+  return singular_values(triangle(x)).values.cwiseInverse();
+}
+
 void Factors::refine(EigenPairs& pairs) {
   Eigen::MatrixXd& x = pairs.vectors;
   double before = std::numeric_limits<double>::infinity();

@@ -51,6 +51,11 @@ class Factors {
   /// The eigenpairs nearest to zero in the space orthogonal to `held`, as many as `start` has columns, by block inverse
   /// iteration with the factor of the Hessian itself: where eigenvalues all but vanish a step or two give all digits.
   EigenPairs nearest_zero(const Eigen::MatrixXd& start, const Eigen::MatrixXd& held);
+  /// The same as far as a few rounds tell with the factors that solve_holding has.
+  EigenPairs soft_pairs(Eigen::MatrixXd start, int rounds);
+  /// Of the eigenvalues nearest to zero the absolute values, ascending, by two rounds of it from fixed vectors: to a factor of two or so, but as smooth in the
+  /// state as the Hessian.
+  Vector soft_values(int count);
   /// Takes out of such pairs what the rounding of the factor, E ~ ε‖H‖, has put in of other soft modes, E/μ of a mode of stiffness μ and E²/μ of its energy:
   /// R = HX − XS has none of it, and X − H⊥⁻¹R but (E/μ)², by iterative refinement (see inertia.cpp); right after nearest_zero.
   void refine(EigenPairs& pairs);

@@ -73,3 +73,36 @@ TEST_CASE("the path of a two-bar truss goes through its limit points and over it
     CHECK(told > 2);
   }
 }
+
+// With E = Σ K (r − q)² it sways where r³ − q r² + q b² = 0: at a double root r = √3 b for q = 3√3/2 b, and at two beside it where q is a little larger.
+TEST_CASE("two branch points next to each other are found whatever the steps are", "[path]") {
+  const int steps = GENERATE(3, 4, 10, 30, 100);
+  const double more = GENERATE(-1e-3, 1e-2, 1e-3, 1e-4, 1e-5);
+  const double b = 1, K = 1, q = 1.5 * std::sqrt(3.0) * b * (1 + more);
+  const auto sways = [&](double r) { return r * r * (r - q) + q * b * b; };
+  const auto load = [&](double r) { return 4 * K * std::sqrt(r * r - b * b) * (q / r - 1); };
+  const auto root = [&](double from, double to) {
+    for (int k = 0; k < 200; ++k) {
+      const double r = (from + to) / 2;
+      ((sways(r) < 0) == (sways(from) < 0) ? from : to) = r;
+    }
+    return from;
+  };
+  const double limit = std::cbrt(q * b * b), least = 2 * q / 3;
+  std::vector<double> down{load(limit)};
+  if (sways(least) < 0) down = {load(root(q, least)), load(root(b, least)), load(limit)};
+  const Model model = truss({{"b", b}, {"q0", q}, {"K", K}, {"B", 0.0}}, std::sqrt(q * q - b * b));
+  Energy energy(model);
+  Newton newton(energy);
+  const Trace t = trace(newton, model.start, arcs(1.5 * load(limit), steps));
+  CAPTURE(steps, more, t.why, t.points.size());
+  REQUIRE(t.status == Status::converged);
+  std::vector<double> found;
+  for (const PathPoint& p : t.points)
+    if (p.label.starts_with("limit:") || p.label.starts_with("branch:")) found.push_back(p.state.load_factor);
+  REQUIRE(found.size() == 2 * down.size());
+  for (std::size_t k = 0; k < down.size(); ++k) {
+    CHECK(found[k] == Approx(down[k]).epsilon(1e-9));
+    CHECK(found[found.size() - 1 - k] == Approx(-down[k]).epsilon(1e-9));
+  }
+}
