@@ -13,6 +13,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace elamin {
 
@@ -118,7 +119,7 @@ class PetscRanks final : public Ranks {
     return number < 0 ? std::nullopt : std::optional(number);
   }
   void close() override {
-    if (rank_ > 0 && !told_none_) wish(1);
+    if (rank_ > 0 && !std::exchange(told_none_, true)) wish(1);
     dealer_ = {};                                          // joins
   }
 

@@ -248,6 +248,10 @@ RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& given) 
 
 RunResult run_sweep_by_ranks(const PreparedRuns& prepared, const RunOptions& given) {
   Ranks& all = *ranks();
+  struct Closing {                                              // whatever happens: the others wait for it
+    Ranks& all;
+    ~Closing() { all.close(); }
+  } closing{all};
   RunOptions options = given;
   options.resumes = true;
   if (all.rank() == 0) {
