@@ -16,8 +16,8 @@
 
 namespace {
 
-// Open MPI starts nothing as root, or on fewer cores than ranks, unless it is told to.
-const std::string by_ranks = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" ELAMIN_MPIRUN "' --oversubscribe --bind-to none -n ";
+// Open MPI starts nothing as root, or on fewer cores than ranks, unless it is told to; in a container one process may not read from another one's memory.
+const std::string by_ranks = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none '" ELAMIN_MPIRUN "' --oversubscribe --bind-to none -n ";
 
 Answer ranks_say(int ranks, const std::string& arguments) {
   return shell_says(by_ranks + std::to_string(ranks) + " '" ELAMIN_PROGRAM "' " + arguments);
