@@ -20,7 +20,7 @@ struct Segment {
   std::function<bool(const Equilibrium& from, const Equilibrium& to)> leads;
   /// How well a parameter tells a state, where coordinates are rounded; none: to its own last digits.
   std::function<double(double parameter)> rounding = {};
-  double resolution(double t) const { return std::max(limits::segment::rounding * std::abs(b - a), rounding ? rounding(t) : 0.0); }
+  double resolution(double t, double part = limits::segment::rounding) const { return std::max(part * std::abs(b - a), rounding ? rounding(t) : 0.0); }
 };
 
 /// A point between two equilibria of a segment, and dx/dt (dofs), dλ/dt there: Hermite's cubic, with dx/dt = dλ/dt dx/dλ at the ends.
