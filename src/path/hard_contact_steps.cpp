@@ -399,7 +399,8 @@ std::optional<HardContactSteps::Vanishing> HardContactSteps::crossing(const Equi
     return sample(e);
   });
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
-  if (!zero || !(std::abs(zero->f) <= hard_contact_steps::vanished * scale)) return {};
+  const double nothing = std::max(hard_contact_steps::vanished * scale, std::min(4 * equilibrium_.zero_level(), locate::vanished * scale));
+  if (!zero || !(std::abs(zero->f) <= nothing)) return {};
   return Vanishing{assess(newton_, zero->e.point.state, zero->e.point.report), scale};
 }
 

@@ -42,6 +42,8 @@ class ContactEquilibrium {
   /// where K is singular with a critical mode that is not orthogonal to v, and smooth along the branch.   Source: Govaerts 2000, Numerical
   /// Methods for Bifurcations of Dynamical Equilibria, §3.3.
   double curvature(const State& state, const Vector& mode, const Eigen::MatrixXd& held);
+  /// Of eigenvalues and curvatures that are no larger rounding may make the sign.
+  double zero_level() const { return factors_.zero_level(); }
 
   /// The same, and the right contacts: those that would pull are let go, those that would overlap are taken in, until no gap is
   /// negative and no force either, within rounding; State::hard then holds those that bear a force.

@@ -71,10 +71,13 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
-    def open(self, file):
+    def open(self, file, still=True):
+        """The page, drawn. still: not again, for without a graphics card drawing takes nearly all of the time, and no number depends on it."""
         self.messages.clear()
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         self.until("document.readyState === 'complete' && typeof page === 'object' && page.run")
+        if still:
+            self.run("shape && (shape.render = () => {})")
 
     def run(self, script):
         """The value of an expression on the page."""

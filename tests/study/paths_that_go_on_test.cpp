@@ -541,7 +541,10 @@ TEST_CASE("a shell that bears forces of its own floats until it is caught", "[pa
     CHECK(away.path.size() <= 2 * n + 20u);                      // it does not creep
     const Run pinched("shell_floats", {in_steps(n)});
     CHECK_ENDS_AT(pinched, 1);
-    CHECK(pinched.path.back()["energy"] > away.path.front()["energy"]);
+    // Where grains that roll it about catch it, and where it slips out between them, rounding decides: free it has its own energy, pinched more.
+    const bool slipped = pinched.path.back()["contact"] == 0;
+    CHECK(slipped == (pinched.path.back()["energy"] == Approx(away.path.front()["energy"]).epsilon(1e-12)));
+    CHECK((slipped || pinched.path.back()["energy"] > away.path.front()["energy"]));
     CHECK(pinched.path.back()["negative"] == 0);
     CHECK(pinched.path.size() <= 2 * n + 20u);
   }
