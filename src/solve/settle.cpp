@@ -25,9 +25,11 @@ Model softened(const Model& model, double part) {
   return soft;
 }
 
-// The forces on grains that are not those of contact, and the part of their moduli at which grains under those of one layer of a heap
-// overlap by the wanted part of their size: F = E √R δ^{3/2}.
-double first_part(const Energy& energy, const State& state) {
+// What drives loose grains, the mean force on one that is not of contact; and the part of their moduli at which grains under those of one layer
+// of a heap overlap by the wanted part of their size: F = E √R δ^{3/2}.
+struct Drive { double force = 0, part = 1; };
+
+Drive drive_of(const Energy& energy, const State& state) {
   const Model& model = energy.model();
   Model alone = model;
   alone.contacts.clear(), alone.walls.clear();
@@ -37,9 +39,9 @@ double first_part(const Energy& energy, const State& state) {
   for (const int d : energy.unbonded_dofs()) force += std::abs(outside.gradient()[d]), size = std::max(size, model.diameter[energy.kinematics().site_of(d)]);
   for (const PairContact& c : model.contacts) modulus = std::max(modulus, c.effective_modulus);
   for (const Wall& w : model.walls) modulus = std::max(modulus, w.effective_modulus);
-  const double layer = force / std::pow(std::max(unbonded_grains(energy), 1), 2.0 / 3);
+  const double grains = std::max(unbonded_grains(energy), 1), layer = force / std::pow(grains, 2.0 / 3);
   const double part = layer / (modulus * size * size) / std::pow(limits::wanted_overlap, 1.5);
-  return std::isfinite(part) && part > 0 ? std::min(part, 1.0) : 1.0;
+  return {force / grains, std::isfinite(part) && part > 0 ? std::min(part, 1.0) : 1.0};
 }
 
 // A descent, and the longest step that it may take [length].
@@ -48,14 +50,14 @@ class Descend {
   Descend(Energy& energy, Factors& factors, double farthest, Report& report)
       : energy_(energy), factors_(factors), farthest_(farthest), step_bound_(farthest), report_(report) {}
 
-  // Whether the residual gets below the tolerance.
-  bool to(State& state, double tolerance, int most) {
+  // Whether the residual gets below the tolerance, and every force below `force`.
+  bool to(State& state, double tolerance, double force, int most) {
     energy_.evaluate(state);
     lately_ = {energy_.last_terms().total()};
     for (int k = 0, refused = 0; k < most && !interrupted(); ++k) {
       const double residual = energy_.relative(energy_.gradient());
       report_.history.push_back({energy_.last_terms().total(), residual, moved_, shift_});
-      if (residual <= tolerance) return true;
+      if (residual <= tolerance && infinity_norm(energy_.gradient()) <= force) return true;
       at_iteration(++report_.iterations, residual);
       if (step(state)) refused = 0;
       else if (++refused > limits::most_refused) return false;
@@ -133,29 +135,33 @@ Report settle(Newton& newton, State& state, int most) {
   Energy& energy = newton.energy();
   const Model& model = energy.model();
   Report report;
-  double smallest = std::numeric_limits<double>::infinity();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double smallest = infinite;
   for (const int d : energy.unbonded_dofs()) smallest = std::min(smallest, model.diameter[energy.kinematics().site_of(d)]);
-  const double farthest = limits::settling_step * smallest, first = first_part(energy, state);
-  const auto descend = [&](Energy& in, Factors& factors, double tolerance) {
+  const double farthest = limits::settling_step * smallest;
+  const Drive drive = drive_of(energy, state);
+  const auto descend = [&](Energy& in, Factors& factors, double tolerance, double force) {
     const int before = factors.factorizations();
-    const bool there = Descend(in, factors, farthest, report).to(state, tolerance, most);
+    const bool there = Descend(in, factors, farthest, report).to(state, tolerance, force, most);
     report.factorizations += factors.factorizations() - before;
     return there;
   };
   bool falls = false;                                           // without end: in stiffer contacts as well
-  for (double part = first; part < 1 && !falls && !interrupted(); part *= limits::stiffer) {
+  for (double part = drive.part; part < 1 && !falls && !interrupted(); part *= limits::stiffer) {
     const Model soft = softened(model, part);
     Energy in(soft);
     Factors factors(in);
-    falls = !descend(in, factors, std::max(newton.tolerance(), limits::softened_tolerance)) && !falling(in).empty();
+    // Beside bonds that bear far more than a grain weighs a small residual tells nothing of what still falls.
+    const double enough = drive.force > 0 ? limits::softened_tolerance * drive.force : infinite;
+    falls = !descend(in, factors, std::max(newton.tolerance(), limits::softened_tolerance), enough) && !falling(in).empty();
   }
-  if (!falls) descend(energy, newton.factors(), newton.tolerance());
+  if (!falls) descend(energy, newton.factors(), newton.tolerance(), infinite);
   Report last = newton.minimise(state);
   report.history.insert(report.history.end(), last.history.begin(), last.history.end());
   last.history = std::move(report.history);
   last.iterations += report.iterations, last.evaluations += report.evaluations, last.factorizations += report.factorizations;
   last.seconds = watch.seconds();
-  last.why = fmt::format("loose grains settled in {} steps, contacts from {:.1g} of their stiffness on; ", report.iterations, first) + last.why;
+  last.why = fmt::format("loose grains settled in {} steps, contacts from {:.1g} of their stiffness on; ", report.iterations, drive.part) + last.why;
   return last;
 }
 
