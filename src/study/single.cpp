@@ -184,7 +184,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   };
   try {
     if (!stopped || stopped->phase != Phase::ending) outcome = trace(problem, model, stored, sink, stopped ? &archive : nullptr);
-    if (ending) {
+    if (ending && outcome.status != Status::interrupted) {
       const Doing doing("checking");
       const Timed timed(checking);
       summary.check = check_end(ending->first, ending->second, problem.solver.tolerance);
