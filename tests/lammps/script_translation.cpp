@@ -331,6 +331,13 @@ TEST_CASE("what needs positions behind a run ends an import, and goes on with th
   CHECK(p.model.start.position(0, 3) == 0.4);
   CHECK(p.model.bonds.size() == 5);                             // 1-3, 1-4 and 2-4 besides
   CHECK(p.problem.stages.empty());
+  std::string staged = text_of(state);                          // of several stages: with what is made only later
+  for (const auto& [from, to] : {std::pair("3 atoms", "4 atoms"), {"\n\nBonds\n", "\n9 2 7 7 7 0.05 2 0\n\nBonds\n"}})
+    staged.replace(staged.find(from), std::string(from).size(), to);
+  options.after = {other.file("staged.data", staged)};
+  const Reading of_stages = script::read_script(file, options);
+  CHECK(holds(script::report(of_stages, {}), "holds 1 atoms, from 9 on, that are not there behind this run"));
+  CHECK(imported(of_stages).model.start.position == p.model.start.position);
   options.after = {scratch.file("other.data", "none\n1 atoms\n1 atom types\n\nAtoms # sphere\n\n9 1 0.1 1 0 0 0\n")};
   CHECK_THROWS_AS(script::read_script(file, options), InputError);
 }

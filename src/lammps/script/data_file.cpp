@@ -165,16 +165,18 @@ void take_positions(Interpreter& in, const std::string& file) {
   const LammpsData data = read_lammps_data(file, "");
   World& w = in.world;
   std::vector<bool> found(w.atoms.size());
+  std::vector<int> later;                          // a state of several stages holds what a later one makes, too
   for (std::size_t k = 0; k < data.id.size(); ++k) {
     const int id = data.id[k];
     const int i = id < static_cast<int>(w.of_id.size()) ? w.of_id[static_cast<std::size_t>(id)] : -1;
-    if (i < 0) throw Wrong(0, fmt::format("{} holds an atom {} that is not there behind this run", in_quotes(file), id));
-    w.atoms[static_cast<std::size_t>(i)].x = data.position.col(static_cast<Eigen::Index>(k));
-    found[static_cast<std::size_t>(i)] = true;
+    if (i < 0) later.push_back(id);
+    else w.atoms[static_cast<std::size_t>(i)].x = data.position.col(static_cast<Eigen::Index>(k)), found[static_cast<std::size_t>(i)] = true;
   }
   for (std::size_t i = 0; i < w.atoms.size(); ++i)
     if (World::there(w.atoms[i]) && !found[i] && !w.atoms[i].is_body)
       throw Wrong(0, fmt::format("{} does not hold the atom {}, which is there behind this run", in_quotes(file), w.atoms[i].id));
+  if (!later.empty())
+    in.note(fmt::format("{} holds {} atoms, from {} on, that are not there behind this run: they are left out", in_quotes(file), later.size(), later.front()));
 }
 
 }  // namespace elamin::script

@@ -158,7 +158,7 @@ class Reader {
     if (in_.world.runs.empty()) return tell({file.path, in_.where.line, 1, command, "needs positions behind a run that is not there"});
     in_.note(fmt::format(
         "{} needs to know where particles are behind the run of {}; the import ends here. Run the problem, then give its last state: "
-        "--after DIR/states/final.data",
+        "--after DIR/states/final.data, or of several runs each one's: --after DIR/states/run1.data --after DIR/states/final.data",
         command, in_.reading.place(needs.run)));
     in_.world.last_run = needs.run;
     in_.reading.passes.push_back({in_.world, {}, in_.where});
