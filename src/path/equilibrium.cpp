@@ -213,8 +213,8 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   if (slack) inertia.zero += inertia.negative, inertia.negative = 0;            // what forces that are none make of it
   s.negative = inertia.negative, s.zero = inertia.zero + static_cast<int>(energy.null_dofs().size());
   name_null_dofs(energy, s.zero_modes);
-  bool named = true;
-  if (inertia.zero > 0) {
+  bool named = inertia.zero == 0;
+  if (!named && inertia.negative <= equilibrium::most_unstable && inertia.zero <= static_cast<int>(equilibrium::most_motions)) {
     const EigenPairs lowest = newton.factors().lowest(inertia.negative + inertia.zero);
     e.zero_modes = lowest.vectors.rightCols(inertia.zero);
     named = name_zero_modes(energy, e);

@@ -14,6 +14,7 @@ namespace equilibrium {
 constexpr int most_iterations = 12;  // of a corrector that stays on its branch
 constexpr int most_in_contact = 40;  // an overlap that the tangent runs into shrinks to a third a step: 21 for ten decades of stiffness
 constexpr std::size_t most_motions = 600;  // of parts against each other, among which zero modes are looked for: a dense matrix
+constexpr int most_unstable = 40;  // negative eigenvalues beside which zero modes are looked for, a block of all of them at once: with more a state has only been broken off at
 constexpr std::size_t most_names = 20;  // of loose particles that are told
 constexpr double just_touching = 1e-9;  // of the smallest size
 /// Of the way between two equilibria, what their tangents do not tell of it; a parabola from its vertex has 0.5. And the cosine between the tangents.

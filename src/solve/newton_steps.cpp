@@ -189,7 +189,9 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   energy_.evaluate(state);
   if (!factors_.make_positive_from(-2 * energy_.quadratic_form(direction) / direction.squaredNorm())) return false;
   Step step;
-  const double rotation = distortion(energy_, state, direction), unit = rotation > 0 ? rotation : movement(energy_, direction);
+  Vector loose = Vector::Zero(direction.size());                // a slide of grains that turns hardly a bond: as far as grains may go
+  for (const int d : energy_.unbonded_dofs()) loose[d] = direction[d];
+  const double turn = std::max(distortion(energy_, state, direction), movement(energy_, loose)), unit = turn > 0 ? turn : movement(energy_, direction);
   if (!(unit > 0)) return false;
   step.p = direction / unit;
   step.g = energy_.gradient();

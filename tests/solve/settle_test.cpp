@@ -109,6 +109,29 @@ TEST_CASE("a bond beside a packing that bears far more than its grains weigh doe
   CHECK(steps[1] <= 1.2 * steps[0]);                             // where they ended with the first force that is small beside the bond's: 2.9 times as many
 }
 
+TEST_CASE("a grain that stands on the top of a stiff column falls down, however little the column bends", "[solve][settle]") {
+  for (const double B : {1e3, 1e9}) {
+    INFO("bending stiffness " << B);
+    Model m = chain(4, 10 * B, B, 1);
+    hold(m, 0, 1);
+    add_grains(m, {{"grain", Vec3(0, 0, 4), {1.0}, 1}});
+    PairContact contact;
+    contact.particles = {numbers(4), {4}}, contact.effective_modulus = 1e5;
+    m.contacts.push_back(contact);
+    Wall floor;
+    floor.particles = {4}, floor.effective_modulus = 1e5, floor.region.center = Vec3(0, 0, -0.5), floor.region.normal = Vec3::UnitZ();
+    m.walls.push_back(floor);
+    weigh(m, 1);
+    Energy energy(m);
+    Newton newton(energy);
+    State state = m.start;
+    const Report report = newton.minimise(state);
+    INFO(report.why);
+    CHECK(report.converged());
+    CHECK(std::abs(state.position(2, 4)) < 1e-3);
+  }
+}
+
 TEST_CASE("a packing without a floor falls, which is said", "[solve][settle]") {
   Model m = heap(25, 1, 1e4);
   m.walls.erase(m.walls.begin());
