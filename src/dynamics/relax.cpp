@@ -4,6 +4,8 @@
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "dynamics/forces.hpp"
+#include "energy/step_limits.hpp"
+#include "solve/limits.hpp"
 
 #include <fmt/format.h>
 
@@ -102,7 +104,7 @@ class Relaxation {
  private:
   bool converging() const {
     at_iteration(report_.iterations, residual_);
-    return std::isfinite(residual_) && residual_ > options_.tolerance && report_.iterations < options_.max_steps && !interrupted();
+    return std::isfinite(residual_) && residual_ > options_.tolerance && report_.iterations < options_.max_steps && gone_.empty() && !interrupted();
   }
 
   // The exact forces and the stiffness at the state.
@@ -111,6 +113,7 @@ class Relaxation {
     ++report_.evaluations;
     residual_ = energy_.relative(energy_.gradient());
     mass_ = masses(energy_);
+    gone_ = escaped(energy_.model(), state_, limits::lost * extent_);
   }
 
   void record(double step) {
@@ -134,6 +137,8 @@ class Relaxation {
   Fire fire_;
   Vector v_, mass_;
   double longest_, residual_ = 0;
+  const double extent_ = extent(energy_.model());
+  std::string gone_;                             // what moves away without end
 };
 
 void Relaxation::fast() {
@@ -222,7 +227,7 @@ void Relaxation::finish() {
     report_.why = fmt::format("interrupted after {} steps at a residual of {:.1e}", report_.iterations, report_.residual);
   } else {
     report_.status = Status::not_converged;
-    report_.why = std::isfinite(report_.residual)
+    report_.why = !gone_.empty() ? gone_ : std::isfinite(report_.residual)
                       ? fmt::format("residual {:.1e} is above {:.1e} after {} steps", report_.residual, options_.tolerance, report_.iterations)
                       : fmt::format("the energy is not finite after {} steps", report_.iterations);
   }

@@ -66,11 +66,12 @@ double extent(const Model& model) {
 }
 
 std::string escaped(const Model& model, const State& state, double far) {
+  const auto told = [&](int entity) { return called(model, entity) + " moves away without end; hold it with a [[support]], or with a wall"; };
   for (int p = 0; p < model.particles(); ++p)
-    if ((state.position.col(p) - model.start.position.col(p)).cwiseAbs().maxCoeff() > far) return called(model, p);
+    if ((state.position.col(p) - model.start.position.col(p)).cwiseAbs().maxCoeff() > far) return told(p);
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     if ((state.bodies[b].position.hi - model.start.bodies[b].position.hi).cwiseAbs().maxCoeff() > far)
-      return called(model, model.particles() + static_cast<int>(b));
+      return told(model.particles() + static_cast<int>(b));
   return "";
 }
 

@@ -15,7 +15,7 @@ double movement(const Energy& energy, const Vector& step);
 /// single step should be longer. [length]
 double extent(const Model& model);
 
-/// What has moved farther than that from the start, "particle 7 of 'grains'"; else "".
+/// What has moved farther than that from the start, "particle 7 of 'grains' moves away without end; …" with what to do; else "".
 std::string escaped(const Model& model, const State& state, double far);
 
 /// The first grain that a force drives and no stiffness holds, at the last evaluation with Hessian; else "".

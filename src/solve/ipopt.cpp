@@ -97,9 +97,7 @@ void run(Energy& energy, ContactEquilibrium& equilibrium, State& state, const Ip
     }
     if (problem->stale() && idle < limits::ipopt::most_rounds_without_gain && report.iterations < options.max_iterations) continue;
     report.status = Status::not_converged;
-    report.why = problem->escaped().empty()
-                     ? told(status)
-                     : problem->escaped() + " moves away without end; hold it with a [[support]], or with a wall";
+    report.why = problem->escaped().empty() ? told(status) : problem->escaped();
     report.why += fmt::format("; the residual is {:.2g}", report.residual);
     return;
   }

@@ -76,7 +76,7 @@ std::optional<Newton::Halt> Newton::must_halt(const State& state, const Report& 
     return Halt{Status::not_converged, "the energy is not finite here: particles coincide, or do not fit into a curved wall"};
   if (interrupted()) return Halt{Status::interrupted, "interrupted"};
   if (const std::string gone = escaped(energy_.model(), state, limits::lost * extent_); !gone.empty())
-    return Halt{Status::not_converged, gone + " moves away without end; hold it with a [[support]], or with a wall"};
+    return Halt{Status::not_converged, gone};
   most = std::min(most, options_.max_iterations);
   if (report.iterations < most) return {};
   const std::string grain = falling(energy_);

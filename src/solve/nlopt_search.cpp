@@ -177,8 +177,7 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
     if (report_.residual <= options_.tolerance)
       return end(Status::converged, fmt::format("the residual is below {:g} after {} rounds of {}", options_.tolerance, rounds, algorithm.name));
     if (interrupted()) return end(Status::interrupted, "interrupted");
-    if (const std::string gone = escaped(energy_.model(), best_, far); !gone.empty())
-      return end(Status::not_converged, gone + " moves away without end; hold it with a [[support]], or with a wall");
+    if (const std::string gone = escaped(energy_.model(), best_, far); !gone.empty()) return end(Status::not_converged, gone);
     if (report_.evaluations >= options_.max_evaluations)
       return end(Status::not_converged, fmt::format("{} evaluations were not enough for {}; the residual is {:.2g}", options_.max_evaluations,
                                                     algorithm.name, report_.residual));

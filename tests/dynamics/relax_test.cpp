@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include "chain.hpp"
 #include "dynamics/relax.hpp"
+#include "model/grains.hpp"
 #include "plate.hpp"
 #include "solve/newton.hpp"
 
@@ -92,6 +93,24 @@ TEST_CASE("relax says when it may take no more steps", "[dynamics][relax]") {
   CHECK(report.status == Status::not_converged);
   CHECK(report.iterations == 10);
   CHECK(report.why.find("after 10 steps") != std::string::npos);
+}
+
+TEST_CASE("relax says what moves away without end, long before its last step", "[dynamics][relax]") {
+  Model m;
+  Field x = Field::Zero(3, 2);
+  x(0, 1) = 2;
+  add_grains(m, {{"grains", x, {1, 1}, 1}});
+  PairContact contact;
+  contact.particles = {numbers(2), numbers(2)}, contact.effective_modulus = 100;
+  m.contacts.push_back(contact);
+  hold(m, 0, 0);
+  weigh(m, 1);
+  Energy energy(m);
+  State state = m.start;
+  const Report report = relax(energy, state);
+  CHECK(report.status == Status::not_converged);
+  CHECK(report.iterations < 10'000);                             // 100 extents of 3 or so, a twentieth of a diameter each
+  CHECK(report.why.find("grains 2 moves away without end") != std::string::npos);
 }
 
 TEST_CASE("a heap of bodies comes to rest", "[dynamics][bodies]") {
