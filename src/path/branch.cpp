@@ -202,12 +202,11 @@ bool Branch::contact_may_explain(const Candidate& c) const { return c.e.point.st
 // Contacts that nobody asks for are located only where no limit point and no branch point explains why the Morse index changes.
 bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why) {
   const CountFor events(FactorsFor::events);
-  bool explained = false;
-  if (!contacts_ && !current_.slack && contact_may_explain(c)) {
-    Candidate critical = c;
-    if ((explained = find_critical(segment, critical, why))) c = std::move(critical);
-  }
-  return (explained || (find_contact(segment, c, why) && find_critical(segment, c, why))) && find_user_events(segment, c, why);
+  std::optional<Candidate> critical;
+  if (!contacts_ && !current_.slack && contact_may_explain(c)) critical = c;
+  if (critical && find_critical(segment, *critical, why)) c = std::move(*critical);
+  else if (!find_contact(segment, c, why) || (critical && c.events.empty()) || !find_critical(segment, c, why)) return false;      // not twice the same
+  return find_user_events(segment, c, why);
 }
 
 bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {

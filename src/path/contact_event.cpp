@@ -307,7 +307,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
         const Equilibrium e = segment.at(u, from.e);
         if (!e.point.report.converged()) return {};
         return sample(u, e);
-      }, root::leap);
+      }, contact_event::together * size_of(energy.model(), first->particle));
       if (!zero || !near(*first, zero->e.point.state)) return ContactChange{};      // a gap that jumps: two branches
       at = zero->e, change.at_parameter = zero->t, found = zero->e.point.state;
       if (closed_from(found)) change.at_parameter = t, at.reset();                  // to the last digit

@@ -104,7 +104,7 @@ constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents a
 
 /// Bracketed root finding.
 namespace root {
-constexpr double leap = 0.1, narrow = 1e-4;  // of the values at both ends, on so little of the way: more is left where a branch leaps to another one
+constexpr double leap = 0.125, narrow = 1.0 / 256;  // of what values are apart, on so little of the way, where √t has 1/16: more is left where a branch leaps to another one
 constexpr double rounding = 16 * epsilon;  // of a segment: a user's value may be next to nothing beside what it goes through on the segment
 constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2⁻²⁰; the rest converge superlinearly
 }

@@ -2,18 +2,19 @@
 
 #include "path/limits.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace elamin {
 
 using namespace limits;
 
 std::optional<Sample> find_zero(Sample a, Sample b, const std::function<double(double)>& resolution,
-                                const std::function<std::optional<Sample>(double, const Sample&)>& evaluate, double leap) {
+                                const std::function<std::optional<Sample>(double, const Sample&)>& evaluate, double next_to_none) {
   assert((a.f <= 0) != (b.f <= 0) || a.f == 0 || b.f == 0);
-  double weight_a = a.f, weight_b = b.f;
-  const double whole = std::abs(b.t - a.t), least_a = leap * std::abs(a.f), least_b = leap * std::abs(b.f);
+  double weight_a = a.f, weight_b = b.f, whole = std::abs(b.t - a.t), rise = std::abs(b.f - a.f);
   for (int k = 0; k < root::most_evaluations; ++k) {
     const double width = b.t - a.t;
     double t = a.t - weight_a * width / (weight_b - weight_a);
@@ -30,7 +31,10 @@ std::optional<Sample> find_zero(Sample a, Sample b, const std::function<double(d
       b = std::move(*c), weight_b = b.f;
     }
     if (a.f == 0 || b.f == 0) break;
-    if (std::abs(b.t - a.t) < root::narrow * whole && std::abs(a.f) > least_a && std::abs(b.f) > least_b) return {};
+    if (std::abs(b.t - a.t) > root::narrow * whole) continue;
+    const double before = std::exchange(rise, std::abs(b.f - a.f));
+    if (rise > std::max(root::leap * before, next_to_none)) return {};
+    whole = std::abs(b.t - a.t);
   }
   return std::abs(a.f) < std::abs(b.f) ? a : b;
 }
