@@ -115,5 +115,9 @@ class Browser:
             self.call("Browser.close")
         except RuntimeError:
             pass
-        self.process.wait(20)
+        try:
+            self.process.wait(20)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
         shutil.rmtree(self.profile, ignore_errors=True)
