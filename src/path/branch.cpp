@@ -205,7 +205,7 @@ bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why)
   std::optional<Candidate> critical;
   if (!contacts_ && !current_.slack && contact_may_explain(c)) critical = c;
   if (critical && find_critical(segment, *critical, why)) c = std::move(*critical);
-  else if (!find_contact(segment, c, why) || (critical && c.events.empty()) || !find_critical(segment, c, why)) return false;      // not twice the same
+  else if (!find_contact(segment, c, why) || (critical && c.events.empty()) || !find_critical(segment, c, why)) return false;      // a search that has failed would fail again
   return find_user_events(segment, c, why);
 }
 

@@ -14,7 +14,7 @@ namespace equilibrium {
 constexpr int most_iterations = 12;  // of a corrector that stays on its branch
 constexpr int most_in_contact = 40;  // an overlap that the tangent runs into shrinks to a third a step: 21 for ten decades of stiffness
 constexpr std::size_t most_motions = 600;  // of parts against each other, among which zero modes are looked for: a dense matrix
-constexpr int most_unstable = 40;  // negative eigenvalues beside which zero modes are looked for, a block of all of them at once: with more a state has only been broken off at
+constexpr int most_unstable = 40;  // negative eigenvalues up to which zero modes are looked for, in one block with them; only where a solver has given up there are more
 constexpr std::size_t most_names = 20;  // of loose particles that are told
 constexpr double just_touching = 1e-9;  // of the smallest size
 /// Of the way between two equilibria, what their tangents do not tell of it; a parabola from its vertex has 0.5. And the cosine between the tangents.
@@ -104,8 +104,8 @@ constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents a
 
 /// Bracketed root finding.
 namespace root {
-constexpr double leap = 0.125, narrow = 1.0 / 256;  // of what values are apart, on so little of the way, where √t has 1/16: more is left where a branch leaps to another one
-constexpr double rounding = 16 * epsilon;  // of a segment: a user's value may be next to nothing beside what it goes through on the segment
+constexpr double leap = 0.125, narrow = 1.0 / 256;  // of a bracket that gets narrower by 1/256 the values' difference falls to 1/256, of √t to 1/16; where more than 1/8 is left the branch leaps to another one
+constexpr double rounding = 16 * epsilon;  // of a segment: a user's value may be much smaller than the observable's change on the segment
 constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2⁻²⁰; the rest converge superlinearly
 }
 

@@ -189,9 +189,9 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   energy_.evaluate(state);
   if (!factors_.make_positive_from(-2 * energy_.quadratic_form(direction) / direction.squaredNorm())) return false;
   Step step;
-  Vector loose = Vector::Zero(direction.size());                // a slide of grains that turns hardly a bond: as far as grains may go
+  Vector loose = Vector::Zero(direction.size());                // grains that slide rotate hardly any bond: their way counts, in diameters
   for (const int d : energy_.unbonded_dofs()) loose[d] = direction[d];
-  const double turn = std::max(distortion(energy_, state, direction), movement(energy_, loose)), unit = turn > 0 ? turn : movement(energy_, direction);
+  const double change = std::max(distortion(energy_, state, direction), movement(energy_, loose)), unit = change > 0 ? change : movement(energy_, direction);
   if (!(unit > 0)) return false;
   step.p = direction / unit;
   step.g = energy_.gradient();

@@ -72,7 +72,8 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
     def open(self, file, still=True):
-        """The page, drawn. still: not again, for without a graphics card drawing takes nearly all of the time, and no number depends on it."""
+        """Opens a page, which draws its shape. still: it does so only once; without a graphics card drawing takes nearly all of the time, and no
+        number that is checked depends on it."""
         self.messages.clear()
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         self.until("document.readyState === 'complete' && typeof page === 'object' && page.run")
