@@ -399,8 +399,7 @@ std::optional<HardContactSteps::Vanishing> HardContactSteps::crossing(const Equi
     return sample(e);
   });
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
-  const double nothing = std::max(hard_contact_steps::vanished * scale, std::min(4 * equilibrium_.zero_level(), locate::vanished * scale));
-  if (!zero || !(std::abs(zero->f) <= nothing)) return {};
+  if (!zero || !(std::abs(zero->f) <= vanished_below(scale, equilibrium_.zero_level()))) return {};
   return Vanishing{assess(newton_, zero->e.point.state, zero->e.point.report), scale};
 }
 

@@ -112,6 +112,7 @@ constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2�
 /// Eigenvalues that vanish.
 namespace locate {
 constexpr int most_iterations = 16;  // of a corrector between two equilibria
+constexpr double next_to_nothing = 1e-9;  // of the eigenvalues at both ends: zero
 constexpr double vanished = 1e-2;  // of the eigenvalues at both ends: where rounding hides which is zero
 constexpr double steepest = 4;  // times the mean rate of a segment: more is a leap
 constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
@@ -238,7 +239,7 @@ constexpr int most_along = 30;  // equilibria on the way to a limit point
 constexpr double turns_little = 1.2;  // 1/cos of the angle between the tangent and the way
 constexpr double most_bend = 0.2;  // of the way, over which tangents tell it; √λ from its vertex has 0.5
 constexpr double at_the_limit = 1e-6;  // of the way ahead: a load factor that does not grow further
-constexpr double vanished = 1e-9;  // of its size where the step begins: a curvature, a slope
+constexpr double vanished = 1e-9;  // of its size where the step begins: a slope
 constexpr double rounding = 1e-12;  // of a diameter, of the largest force
 constexpr double near_by = 1e-3;  // of the smallest size: gaps that are looked at
 constexpr double together = 1e-10;  // of the path: changes of contacts that are so near are one

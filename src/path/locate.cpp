@@ -158,8 +158,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
   const auto resolution = [&](double t) { return segment.resolution(t); };
-  // Small beside both ends, too: of slender chains all that decides is below the zero level.
-  const double next_to_none = std::max(1e-9 * scale, std::min(4 * newton.factors().zero_level(), locate::vanished * scale));
+  const double nothing = vanished_below(scale, newton.factors().zero_level());
   // A force that is left along the critical modes breaks the branch point: then there is none.
   const double rounding = 1e-13 + 100 * std::max(a.point.report.residual, b.point.report.residual);
   State just_before;                                           // an equilibrium on this side of the zero
@@ -195,8 +194,8 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
       if (!good(e)) e = segment.at(t, from.e);
       if (!good(e)) return {};
       return sample(t, from, std::move(e));
-    }, next_to_none);
-    const bool small = zero && (std::abs(zero->f) <= next_to_none ||
+    }, nothing);
+    const bool small = zero && (std::abs(zero->f) <= nothing ||
                                 (segment.rounding && std::abs(above.t - below.t) <= 4 * segment.rounding(zero->t)));
     if (!small || !meet(newton.energy().kinematics(), segment, a, b, below, above)) return {};
     // Where little moves as the load factor grows, rounding of what is soft in x is more in t than in λ, which the last step goes by.

@@ -15,6 +15,12 @@ namespace elamin {
 [[nodiscard]] std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, const Equilibrium& a, int before, const Equilibrium& b,
                                      std::optional<bool> turns);
 
+/// An eigenvalue or a curvature of the size `scale` at the ends of a segment has vanished where it is no larger than this: next to nothing of it, or, where slender
+/// structures have all that decides below the zero level, as far as rounding tells it.
+inline double vanished_below(double scale, double zero_level) {
+  return std::max(limits::locate::next_to_nothing * scale, std::min(4 * zero_level, limits::locate::vanished * scale));
+}
+
 /// Equilibria between two load factors.
 Segment segment_of_loads(Newton& newton, double from, double to);
 
