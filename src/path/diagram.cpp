@@ -72,7 +72,7 @@ class Diagram final : public Path {
     double load_factor = 0;
     double energy = std::numeric_limits<double>::infinity(), other = energy;
     double size = 0;                     // of the terms that they are sums of
-    std::string label;                   // of the other one
+    std::string label = "";                   // of the other one
     void carry(Archive& archive) { archive(load_factor, energy, other, size, label); }
   };
 
