@@ -192,10 +192,11 @@ Inertia Factors::inertia() {
     if (!resolved) return unknown;
     inertia = *resolved;
     resolved_ = true, soft_ = near_.x;
-  } else {                                                      // too many: what a factor cannot tell is zero
-    if (!pivot_near(sigma, 1.5 * sigma)) return unknown;
+  } else {                                                      // too many: what a factor cannot tell, or forces out of balance may leave, is zero
+    const double level = std::max(sigma, 2 * out_of_balance_of(energy_) * Curvature(energy_).largest());
+    if (!pivot_near(level, 1.5 * level)) return unknown;
     inertia.negative = pivoted().negative();
-    if (!pivot_near(-sigma, -1.5 * sigma)) return unknown;
+    if (!pivot_near(-level, -1.5 * level)) return unknown;
     inertia.zero = std::max(0, pivoted().negative() - inertia.negative);
     holder_ = &pivoted();
   }
