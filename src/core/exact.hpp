@@ -62,6 +62,7 @@ struct ExactVector {
   Vec3 hi = Vec3::Zero(), lo = Vec3::Zero();
   Exact operator[](int c) const { return {hi[c], lo[c]}; }
   void set(int c, Exact e) { hi[c] = e.hi, lo[c] = e.lo; }
+  bool operator==(const ExactVector&) const = default;
 };
 
 inline ExactVector operator-(const ExactVector& a, const ExactVector& b) {
@@ -73,6 +74,13 @@ inline ExactVector operator+(const ExactVector& a, const ExactVector& b) {
   ExactVector d;
   for (int c = 0; c < 3; ++c) d.set(c, a[c] + b[c]);
   return d;
+}
+
+/// s v, exact.
+inline ExactVector two_product(double s, const Vec3& v) {
+  ExactVector p;
+  for (int c = 0; c < 3; ++c) p.set(c, two_product(s, v[c]));
+  return p;
 }
 
 /// a · b to about 30 digits of |a||b|.

@@ -20,6 +20,7 @@ bool central(const Region& region, const Vec3& x) {
 WallForces::WallForces(const Model& model, double load_factor, double skin) : model_(model), skin_(skin) {
   for (const Wall& w : model.walls) {
     walls_.push_back(wall_at(w, load_factor));
+    walls_.back().region = walls_.back().region.rounded();
     const bool damps = w.damping.model != ContactDamping::Model::none && w.damping.coefficient > 0;
     damped_ = damped_ || damps;
     rubs_ = rubs_ || (damps && w.damping.tangential > 0 && w.damping.friction > 0);

@@ -215,7 +215,7 @@ std::vector<IndexPair> kept(const Model& model, const BodyNeighbours& neighbours
 }  // namespace
 
 RoundedWall rounded_wall_at(const Wall& wall, double load_factor) {
-  return {wall.region.moved(wall.scaling.at(load_factor) * wall.displacement, 0), wall.inside, wall.kernel};
+  return {wall.region.moved_exactly(two_product(wall.scaling.at(load_factor), wall.displacement), 0), wall.inside, wall.kernel};
 }
 
 PairLocal rounded_derivatives(const RoundedPair& table, const RoundedBody& a, const RoundedBody& b) {

@@ -8,7 +8,7 @@ constexpr std::int64_t touches_per_thread = 500;
 
 WallContact wall_at(const Wall& wall, double load_factor) {
   const double part = wall.scaling.at(load_factor);
-  return {wall.region.moved(part * wall.displacement, part * wall.radius_change), wall.inside,
+  return {wall.region.moved_exactly(two_product(part, wall.displacement), part * wall.radius_change), wall.inside,
           wall.hard ? 0.0 : wall.effective_modulus, wall.curved};
 }
 

@@ -6,7 +6,8 @@
 
 namespace elamin {
 
-double depth(const Region& r, const ExactVector& x) {
+double depth(const Region& r, const ExactVector& at) {
+  const ExactVector x = at - r.travelled;
   const ExactVector from_center = x - ExactVector{r.center, Vec3::Zero()};
   switch (r.shape) {
     case Shape::plane: return dot(from_center, {r.normal, Vec3::Zero()}).hi;
@@ -29,6 +30,18 @@ Region Region::moved(const Vec3& d, double growth) const {
   r.center += d, r.lo += d, r.hi += d;
   r.axial_lo += d[axis], r.axial_hi += d[axis];
   r.radius += growth, r.radius_lo += growth, r.radius_hi += growth;
+  return r;
+}
+
+Region Region::moved_exactly(const ExactVector& d, double growth) const {
+  Region r = moved(Vec3::Zero(), growth);
+  r.travelled = travelled + d;
+  return r;
+}
+
+Region Region::rounded() const {
+  Region r = moved(travelled.hi, 0);
+  r.travelled = {};
   return r;
 }
 

@@ -63,7 +63,8 @@ void add_contacts(const Model& model, const State& state, Structure& s) {
 // A wall acts on what has its centre on the wall's side; whose centre is near the surface is not told.
 void add_walls(const Model& model, const State& state, Structure& s, std::string& not_covered) {
   for (const Wall& w : model.walls) {
-    const WallContact wall = wall_at(w, state.load_factor);
+    WallContact wall = wall_at(w, state.load_factor);
+    wall.region = wall.region.rounded();
     if (!(wall.effective_modulus > 0)) continue;
     for (const int p : w.particles) {
       const double r = model.diameter[p] / 2;

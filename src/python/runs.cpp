@@ -53,7 +53,7 @@ Scene scene_at(const Model& model, const State& state) {
     for (Vec3& point : surface.points) point = pose.position.hi + pose.rotation * point;
     scene.bodies.push_back({std::move(surface.points), std::move(surface.polygons)});
   }
-  for (const Wall& wall : model.walls) scene.walls.push_back(wall_at(wall, state.load_factor).region);
+  for (const Wall& wall : model.walls) scene.walls.push_back(wall_at(wall, state.load_factor).region.rounded());
   return scene;
 }
 

@@ -163,7 +163,7 @@ Table walls_of(const Model& model, double load_factor) {
   static const std::array<const char*, 5> shapes{"plane", "block", "cylinder", "sphere", "cone"};       // as Shape
   Table walls{{"name", "shape", "x", "y", "z", "nx", "ny", "nz", "xlo", "ylo", "zlo", "xhi", "yhi", "zhi", "lo", "hi", "radius_lo", "radius_hi", "open"}, {}};
   for (const Wall& wall : model.walls) {
-    const Region r = wall_at(wall, load_factor).region;
+    const Region r = wall_at(wall, load_factor).region.rounded();
     const bool block = r.shape == Shape::block, along = r.shape == Shape::cylinder || r.shape == Shape::cone;
     Row row{wall.name, shapes[static_cast<std::size_t>(r.shape)]};
     const auto add = [&](bool has, const Vec3& v) {

@@ -115,7 +115,7 @@ class Grid {
   void walls() {
     const Eigen::AlignedBox3d box = box_of(model_, shot_.state);
     for (std::size_t w = 0; w < model_.walls.size() && !box.isEmpty(); ++w) {
-      const Surface s = surface_of(wall_at(model_.walls[w], shot_.state.load_factor).region, box);
+      const Surface s = surface_of(wall_at(model_.walls[w], shot_.state.load_factor).region.rounded(), box);
       const int first = static_cast<int>(points_.size() / 3);
       for (const Vec3& x : s.points) point(x);
       polygons(wall, s, first, -1 - static_cast<int>(w));

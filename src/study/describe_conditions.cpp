@@ -170,7 +170,7 @@ std::string describe_pair(const Model& model, const PairContact& c, int excluded
   return text + fmt::format("; {}{}\n  {}\n", left_out, describe_damping(c.damping), overlaps.text("overlap"));
 }
 
-std::string listed(const Vec3& v) { return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", v[0], v[1], v[2]); }
+std::string coordinates(const Vec3& v) { return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", v[0], v[1], v[2]); }
 
 std::string shape_of(const Region& r) {
   const auto along = [&](const std::string& name) {
@@ -179,8 +179,8 @@ std::string shape_of(const Region& r) {
     return fmt::format("a {} along {}{}", name, "xyz"[r.axis], ends);
   };
   switch (r.shape) {
-    case Shape::plane: return fmt::format("a plane through {}, normal {}", listed(r.center), listed(r.normal));
-    case Shape::block: return fmt::format("a block from {} to {}", listed(r.lo), listed(r.hi));
+    case Shape::plane: return fmt::format("a plane through {}, normal {}", coordinates(r.center), coordinates(r.normal));
+    case Shape::block: return fmt::format("a block from {} to {}", coordinates(r.lo), coordinates(r.hi));
     case Shape::sphere: return fmt::format("a sphere of radius {:.10g}", r.radius);
     case Shape::cylinder: return along("cylinder") + fmt::format(", radius {:.10g}", r.radius);
     case Shape::cone: return along("cone") + fmt::format(", radii {:.10g} and {:.10g}", r.radius_lo, r.radius_hi);
@@ -217,7 +217,7 @@ std::string describe_rounded(const RoundedPair& r, const Overlaps& overlaps) {
 }
 
 std::string describe_wall(const Wall& wall, const State& state, const Overlaps& overlaps) {
-  const Region region = wall_at(wall, state.load_factor).region;
+  const Region region = wall_at(wall, state.load_factor).region.rounded();
   int wrong = 0;
   for (const int p : wall.particles) wrong += !on_side(region, wall.inside, state.at(p));
   const int open = static_cast<int>(std::count(region.open.begin(), region.open.end(), true));

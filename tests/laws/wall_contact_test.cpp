@@ -1,5 +1,6 @@
 #include "catch.hpp"
 #include "laws/check_law.hpp"
+#include "laws/frustum.hpp"
 #include "laws/wall_sites.hpp"
 
 using namespace elamin;
@@ -134,6 +135,22 @@ TEST_CASE("what feels nothing of a wall", "[laws][wall]") {
     CHECK(wall.value(behind, r) == 0);
     CHECK(wall.touches(behind, r, r, touch) == 0);
     CHECK(WallContact{site.region, !site.inside, 1e4, false}.value(behind, r) > 0);
+  }
+}
+
+TEST_CASE("a wall that has moved far has all digits of its gaps", "[laws][wall]") {
+  const ExactVector way = two_product(1.0 / 3, Vec3(1000.1, -200.3, 77.7));
+  for (const WallSite& site : wall_sites()) {
+    INFO(site.name);
+    const ExactVector here{site.point + (1 - 1e-9) * r * site.normal, Vec3::Zero()};
+    const WallContact wall{site.region, site.inside, 1e4, false}, moved{site.region.moved_exactly(way, 0), site.inside, 1e4, false};
+    std::array<WallTouch, WallContact::most_faces> before, after;
+    REQUIRE(wall.touches(here, r, 0, before) == 1);
+    REQUIRE(moved.touches(here + way, r, 0, after) == 1);
+    CHECK(after[0].gap == Approx(before[0].gap).epsilon(4 * epsilon));
+    CHECK((after[0].normal - before[0].normal).norm() <= 4 * epsilon);
+    CHECK((after[0].point - before[0].point - way.hi).norm() <= 4 * epsilon * way.hi.norm());
+    CHECK(on_side(moved.region.rounded(), site.inside, here + way));
   }
 }
 
