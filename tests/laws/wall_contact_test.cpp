@@ -150,7 +150,7 @@ TEST_CASE("a wall that has moved far has all digits of its gaps", "[laws][wall]"
     CHECK(after[0].gap == Approx(before[0].gap).epsilon(4 * epsilon));
     CHECK((after[0].normal - before[0].normal).norm() <= 4 * epsilon);
     CHECK((after[0].point - before[0].point - way.hi).norm() <= 4 * epsilon * way.hi.norm());
-    CHECK(on_side(moved.region.rounded(), site.inside, here + way));
+    CHECK(on_side(moved.region.rounded(), site.inside, here + way) == on_side(site.region, site.inside, here));
   }
 }
 
