@@ -18,7 +18,7 @@ namespace elamin {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 template <class Numbers> std::string list(const Numbers& numbers) {
   std::string text;

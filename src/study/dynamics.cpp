@@ -16,7 +16,7 @@ namespace elamin {
 
 namespace {
 
-constexpr double patience = 0.1;               // seconds between two looks at interrupts and progress
+constexpr double between_looks = 0.1;          // seconds between two looks at interrupts and progress
 
 // The steps that have a row, and those of them that have a frame.
 struct Marks {
@@ -87,7 +87,7 @@ Outcome trace_dynamics(const Problem& problem, const Model& model, const Sink& s
     while (verlet.motion().step < goal) {
       const Stopwatch watch;
       verlet.advance(std::min(stride, goal - verlet.motion().step));
-      stride = watch.seconds() < patience ? std::min(2 * stride, marks.last) : std::max<std::int64_t>(1, stride / 2);
+      stride = watch.seconds() < between_looks ? std::min(2 * stride, marks.last) : std::max<std::int64_t>(1, stride / 2);
       const std::int64_t step = verlet.motion().step;
       if (!finite(verlet.motion())) {
         tell("final");

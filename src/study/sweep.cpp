@@ -196,14 +196,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double patience = 20;                                 // seconds, for another part that makes the directory
+constexpr double lock_patience = 20;                                 // seconds, for another part that makes the directory
 
 /// The directory as parts of this sweep share it. The first part makes it; all find the same record in it.
 void join(const std::string& directory, const RunRecord& record) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw OutputError(fmt::format("{}: cannot be created: {}", directory, error.message()));
-  const DirectoryLock lock(directory, patience);
+  const DirectoryLock lock(directory, lock_patience);
   if (const std::optional<Checkpoint> there = read_checkpoint(directory)) {
     const RunRecord& r = there->record;
     if (r.text != record.text || r.settings != record.settings || r.report != record.report || r.inputs != record.inputs)

@@ -16,7 +16,7 @@ namespace {
 
 const std::string held = "[[support]]\ngroup = \"bottom\"\n[[support]]\ngroup = \"top\"\ndisplacement = [0, 0, -0.4e-3]\n";
 const std::string mid = "[[group]]\nname = \"mid\"\nof = \"column\"\nmiddle = 2\n[[observe]]\nname = \"x\"\ngroup = \"mid\"\nquantity = \"position.x\"\n";
-const std::string pushed = column_and_ends + held + mid + "[path]\nsteps = 10\n";
+const std::string pushed_in_steps = column_and_ends + held + mid + "[path]\nsteps = 10\n";
 
 /// What `elamin ARGUMENTS` writes to a terminal of so many columns.
 std::string on_terminal(std::vector<std::string> arguments, const char* kind, const char* no_color, int columns = 100) {
@@ -54,7 +54,7 @@ std::size_t letters(const std::string& text) {
 
 TEST_CASE("a terminal has a line that is overwritten, colours where they are wanted, and the end in sentences", "[terminal]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("p.toml", pushed), out = scratch / "out";
+  const std::string file = scratch.file("p.toml", pushed_in_steps), out = scratch / "out";
   const std::string colours = on_terminal({file, "-o", out}, "xterm", "");
   INFO(colours);
   CHECK(has(colours, "▏  0 %  load factor 0  \x1b[32mstable\x1b[0m"));
@@ -83,7 +83,7 @@ TEST_CASE("a terminal has a line that is overwritten, colours where they are wan
 
 TEST_CASE("a diagram in the terminal", "[terminal]") {
   const ScratchDirectory scratch;
-  const Answer answer = elamin_says("'" + scratch.file("p.toml", pushed) + "' --plot");
+  const Answer answer = elamin_says("'" + scratch.file("p.toml", pushed_in_steps) + "' --plot");
   INFO(answer.text);
   REQUIRE(answer.status == 0);
   CHECK(has(answer.text, "load factor λ"));
@@ -147,7 +147,7 @@ TEST_CASE("strains that leave what the model means are told of, and whose they a
 
 TEST_CASE("words of the command line that mean nothing", "[terminal]") {
   const ScratchDirectory scratch;
-  const std::string file = scratch.file("p.toml", pushed), quoted = "'" + file + "'";
+  const std::string file = scratch.file("p.toml", pushed_in_steps), quoted = "'" + file + "'";
   const auto says = [&](const std::string& arguments, const std::string& sentence) {
     const Answer answer = elamin_says(arguments);
     INFO(arguments << "\n" << answer.text);
