@@ -7,7 +7,7 @@
 namespace elamin {
 
 double depth(const Region& r, const ExactVector& at) {
-  const ExactVector x = at - r.travelled;
+  const ExactVector x = at - r.displacement;
   const ExactVector from_center = x - ExactVector{r.center, Vec3::Zero()};
   switch (r.shape) {
     case Shape::plane: return dot(from_center, {r.normal, Vec3::Zero()}).hi;
@@ -35,13 +35,13 @@ Region Region::moved(const Vec3& d, double growth) const {
 
 Region Region::moved_exactly(const ExactVector& d, double growth) const {
   Region r = moved(Vec3::Zero(), growth);
-  r.travelled = travelled + d;
+  r.displacement = displacement + d;
   return r;
 }
 
 Region Region::rounded() const {
-  Region r = moved(travelled.hi, 0);
-  r.travelled = {};
+  Region r = moved(displacement.hi, 0);
+  r.displacement = {};
   return r;
 }
 

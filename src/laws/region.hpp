@@ -23,7 +23,7 @@ struct Region {
   double radius_lo = 0, radius_hi = 0;         // cone: at axial_lo and axial_hi
   /// Faces that are not there. block: xlo, xhi, ylo, yhi, zlo, zhi; cylinder, cone: lo, hi, side.
   std::array<bool, 6> open{};
-  ExactVector travelled;                       // from where the members above say, as a whole, with all digits
+  ExactVector displacement;                    // of the whole region from the place that the members above give, with all digits
 
   /// Whether x is inside (on the surface: inside).
   bool contains(const Vec3& x) const { return contains(ExactVector{x, Vec3::Zero()}); }
@@ -31,9 +31,9 @@ struct Region {
   bool any_open() const { return open[0] || open[1] || open[2] || open[3] || open[4] || open[5]; }
   /// The same region moved by d and with its radius (of a cone: both) larger by `growth`.
   Region moved(const Vec3& d, double growth) const;
-  /// The same with all digits of d, which stand in `travelled`: a slow motion of a region that is far from the origin has no steps of rounding.
+  /// The same, but d is added to `displacement`, which keeps its digits: in the members of a region far from the origin they would be rounded off.
   Region moved_exactly(const ExactVector& d, double growth) const;
-  /// With what has travelled in the members.
+  /// The same region with its members moved by `displacement`, rounded, and no displacement left.
   Region rounded() const;
   bool operator==(const Region&) const = default;
 };

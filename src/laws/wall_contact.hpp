@@ -56,6 +56,7 @@ struct WallContact {
   int touches(const ExactVector& x, double r, double cutoff, std::array<WallTouch, most_faces>& out) const;
   /// The faces that the sphere overlaps, most_faces at most, in plain doubles: planes, blocks from inside, spheres and the
   /// sides of endless cylinders at once, all others by way of touches(). Each pushes with k δ^{3/2} along its normal.
+  /// The region must be rounded(): its displacement is not looked at.
   int presses(const Vec3& x, double r, std::array<WallPress, most_faces>& out) const;
   /// What ∇R_eff adds to that: the force on the sphere less what the faces push; zero but at a curved cone.
   Vec3 curving_force(const Vec3& x, double r) const;

@@ -211,7 +211,7 @@ WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVe
   WallGaps found;
   const bool on_side = elamin::on_side(region, inside, x), contained = on_side ? inside : !inside;
   if (!on_side && !region.any_open()) return found;
-  const ExactVector from_region = x - region.travelled;
+  const ExactVector from_region = x - region.displacement;
   Search search(region, curved, from_region, r, cutoff, found);
   switch (region.shape) {
     case Shape::plane: search.plane(contained); break;

@@ -24,7 +24,7 @@ void visit(const RoundedWall& wall, const RoundedBody& body, const OnNear& near)
     const ExactVector x = body.pose.position + ExactVector{arm, Vec3::Zero()};
     if (wall.region.shape == Shape::plane) {
       const Vec3 n = wall.inside ? wall.region.normal : Vec3(-wall.region.normal);
-      const double s = dot(x - wall.region.travelled - ExactVector{wall.region.center, Vec3::Zero()}, ExactVector{n, Vec3::Zero()}).value();
+      const double s = dot(x - wall.region.displacement - ExactVector{wall.region.center, Vec3::Zero()}, ExactVector{n, Vec3::Zero()}).value();
       if (s - rho <= cutoff) near(Near{k, 0, arm, s, s - rho, n, Mat3::Zero()});
       continue;
     }
