@@ -315,10 +315,19 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
   }
   if (!first) return true;
   segment.b = c.parameter;
-  const std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& e) { return e.point.state.load_factor - *first; });
-  Equilibrium e = at_load(near ? near->at : c.e, *first);
-  const double s = e.point.report.converged() ? segment.parameter(e.point.state) : -c.parameter;
-  if (s < -arc_steps::standing * c.parameter || s > c.parameter * (1 + arc_steps::standing)) {
+  Equilibrium e;
+  double s = 0;
+  const auto lies_between = [&] {
+    s = e.point.report.converged() ? segment.parameter(e.point.state) : -c.parameter;
+    return s >= -arc_steps::standing * c.parameter && s <= c.parameter * (1 + arc_steps::standing);
+  };
+  bool found = false;
+  if (std::optional<Equilibrium> guess = foreseen(segment, c, *first)) e = std::move(*guess), found = lies_between();
+  if (!found) {
+    const std::optional<Event> near = locate_root(segment, current_, c.e, [&](const Equilibrium& at) { return at.point.state.load_factor - *first; });
+    e = at_load(near ? near->at : c.e, *first), found = lies_between();
+  }
+  if (!found) {
     why = fmt::format("no equilibrium was found at load factor {:.10g}, which the step passes", *first);
     return (from - *first) * (to - *first) >= 0;
   }
@@ -326,6 +335,29 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
   std::erase_if(c.events, elsewhere);
   c.parameter = std::max(s, 0.0), c.e = std::move(e), c.stop = first;
   return true;
+}
+
+// The equilibrium at a load factor that the segment passes, from where Hermite's cubic has it; nothing if it is not right there.
+std::optional<Equilibrium> ArcSteps::foreseen(const Segment& segment, const Candidate& c, double load_factor) {
+  if (neutral_.cols() > 0 || direction_.load == 0) return {};
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  Equilibrium begin = current_;
+  begin.tangent = direction_.x / direction_.load;               // also where the branch begins at a branch point
+  double low = segment.a, high = segment.b;
+  const auto load_at = [&](double t) { return interpolate(kinematics, segment, begin, c.e, segment.a, segment.b, t).state.load_factor - load_factor; };
+  const bool rises = current_.point.state.load_factor < load_factor;
+  for (int k = 0; k < arc_steps::foreseen; ++k) {
+    const double middle = (low + high) / 2;
+    ((load_at(middle) < 0) == rises ? low : high) = middle;
+  }
+  State state = interpolate(kinematics, segment, begin, c.e, segment.a, segment.b, (low + high) / 2).state;
+  kinematics.prescribe(state, load_factor);
+  const State guess = state;
+  const Report report = newton_.correct(state, current_.zero_modes, &current_.point.state, equilibrium::most_iterations);
+  const double way = kinematics.difference(current_.point.state, c.e.point.state).norm();
+  if (!report.converged() || kinematics.difference(guess, state).norm() > arc_steps::as_foreseen * way) return {};
+  if (newton_.energy().collision_free_step(current_.point.state, state) < 1) return {};
+  return assess(newton_, state, report);
 }
 
 // The equilibrium at a load factor, from one that is near: as load steps find it, with what is neutral in its phase, or, where no step of the load

@@ -64,6 +64,7 @@ class ArcSteps final : public Branch {
   bool stands_at(const Equilibrium& e, double stop) const;
   [[nodiscard]] bool find_stop(Segment segment, Candidate& c, std::string& why);
   Equilibrium at_load(const Equilibrium& from, double load_factor);
+  std::optional<Equilibrium> foreseen(const Segment& segment, const Candidate& c, double load_factor);
   Waypoint accept(Candidate c);
   void rotate(const Candidate& c);
   [[nodiscard]] std::optional<Direction> along_contact();

@@ -1,4 +1,10 @@
-// Every event that the problems of problems/ run into, held against its own equations.
+// What happens on the paths of problems/: every event satisfies its own equations, and the same events come however the path is walked.
+//
+// By few steps and many, and by both methods, the events and the end are the same. Left out, because it cannot be so:
+//   a fall        is made a part of a step behind its event: where it lands is compared by its kind, not by its load factor; and by the
+//                 other method, which may go on where this one falls, only what comes before the first loss of stability;
+//   load steps    pass no limit point: likewise; and `lowest`, `highest` are of arc length alone;
+//   Ipopt         walks by load steps alone.
 #include "catch.hpp"
 #include "core/dense.hpp"
 #include "energy/hard_gaps.hpp"
@@ -8,6 +14,7 @@
 #include "study/trace.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <filesystem>
 #include <limits>
@@ -157,33 +164,169 @@ void check_twins(const StagePoints& stage) {
     }
 }
 
-}  // namespace
+// Events of a run and their equations; each stands there once, and those of which something is expected do.
+void check_found(const Found& found, const Problem& problem) {
+  CAPTURE(found.outcome.why);
+  CHECK(found.outcome.status == Status::converged);
+  REQUIRE_FALSE(found.stages.empty());
+  std::set<std::string> labels;
+  for (const StagePoints& stage : found.stages) {
+    check_events(stage, problem);
+    check_twins(stage);
+    for (const PathPoint& p : stage.points) labels.insert(p.label);
+  }
+  for (const ExpectTable& e : problem.expect)
+    if (e.at.find(':') != std::string::npos && !is_of_curve(e.at) && !is_of_landscape(e.at)) CHECK(labels.count(e.at) == 1);
+}
 
-TEST_CASE("every event of the problems satisfies its own equations, and stands there once", "[events][problems]") {
+std::vector<std::string> problem_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(ELAMIN_ROOT) + "/problems"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   REQUIRE(files.size() > 1);
-  for (const std::string& file : files)
+  return files;
+}
+
+constexpr double same_load = 1e-9;               // of load factors, relative to the largest of the path
+
+struct Walked {
+  std::string how;
+  Found found;
+  std::vector<PathPoint> events;
+  PathPoint last;
+  double range = 0;
+  std::string told() const {
+    std::string all = how + ": " + found.outcome.why + ":";
+    for (const PathPoint& p : events) all += " " + p.label + " " + std::to_string(p.state.load_factor);
+    return all + "\n";
+  }
+};
+
+Walked walk(const std::string& file, const std::vector<std::string>& settings) {
+  std::vector<Setting> parsed;
+  Walked w;
+  for (const std::string& s : settings) parsed.push_back(parse_setting(s)), w.how += s + " ";
+  const PreparedRuns prepared = prepare_runs(file, parsed);
+  w.found = found_by(prepared.runs.front());                     // of a sweep the first
+  for (const StagePoints& stage : w.found.stages)
+    for (const PathPoint& p : stage.points) {
+      if (p.label.find(':') != std::string::npos) w.events.push_back(p);
+      w.last = p, w.range = std::max(w.range, std::abs(p.state.load_factor));
+    }
+  return w;
+}
+
+/// Events up to the first loss of stability, with it.
+std::vector<PathPoint> stable_part(const std::vector<PathPoint>& events) {
+  std::vector<PathPoint> part;
+  for (const PathPoint& p : events) {
+    part.push_back(p);
+    if (p.negative_before == 0 && p.negative_after > 0) break;
+  }
+  return part;
+}
+
+void same_events(const std::vector<PathPoint>& a, const std::vector<PathPoint>& b, double range) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CAPTURE(a[k].label, b[k].label, a[k].state.load_factor, b[k].state.load_factor);
+    CHECK(kind_of(a[k]) == kind_of(b[k]));
+    CHECK(a[k].branch == b[k].branch);
+    if (kind_of(a[k]) == "jump") continue;
+    CHECK(std::abs(a[k].state.load_factor - b[k].state.load_factor) <= same_load * range);
+    CHECK(a[k].multiplicity == b[k].multiplicity);
+  }
+}
+
+void same_end(const Walked& a, const Walked& b) {
+  CHECK(a.last.state.load_factor == Approx(b.last.state.load_factor).margin(same_load * a.range));
+  CHECK(a.last.energy.total() == Approx(b.last.energy.total()).epsilon(1e-9));
+  CHECK(a.last.stability.negative == b.last.stability.negative);
+}
+
+/// Numbers of steps: fewer of those files that would take most of the time.
+std::vector<int> steps_of(const std::string& name) {
+  static const std::set<std::string> large{"disc_clamped", "disc_hinged", "plate_clamped", "plate_hinged", "sheet_indented", "two_beams_gaps", "two_beams_winner"};
+  if (name == "beam_in_tube" || name == "column_between_walls" || name == "ring_pressure" || name == "two_beams") return {5, 50};
+  if (name == "confined_d_cone") return {17, 50};
+  return large.count(name) ? std::vector<int>{5, 17} : std::vector<int>{5, 17, 50, 200};
+}
+
+std::string other_than(PathMethod method) { return method == PathMethod::arc_length ? "load_steps" : "arc_length"; }
+
+/// Settings for so many steps in all stages, by the file's own methods or by the other ones.
+std::vector<std::string> way(const Problem& problem, int steps, bool other) {
+  const PathTable& path = problem.path;
+  std::vector<std::string> settings{"path.steps=" + std::to_string(steps)};
+  if (other) settings.push_back("path.method=" + other_than(path.method));
+  for (const StageTable& s : problem.stages) {
+    if (s.steps) settings.push_back("stage." + s.name + ".steps=" + std::to_string(steps));
+    if (other && s.method) settings.push_back("stage." + s.name + ".method=" + other_than(*s.method));
+  }
+  if ((path.method == PathMethod::arc_length) != other) settings.push_back("path.points=20000");            // their number is not what ends it
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("every event of the problems satisfies its own equations, and stands there once", "[events][problems]") {
+  for (const std::string& file : problem_files())
     DYNAMIC_SECTION(std::filesystem::path(file).stem().string()) {
       const PreparedRuns prepared = prepare_runs(file);
       if (prepared.runs.front().problem.in_time()) continue;          // a motion has no equilibria
       const std::size_t last = prepared.runs.size() - 1;
       for (const std::size_t number : last == 0 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, last}) {
         const PreparedRun& run = prepared.runs[number];
-        const Found found = found_by(run);
-        CAPTURE(number, found.outcome.why);
-        CHECK(found.outcome.status == Status::converged);
-        REQUIRE_FALSE(found.stages.empty());
-        std::set<std::string> labels;
-        for (const StagePoints& stage : found.stages) {
-          check_events(stage, run.problem);
-          check_twins(stage);
-          for (const PathPoint& p : stage.points) labels.insert(p.label);
-        }
-        for (const ExpectTable& e : run.problem.expect)
-          if (e.at.find(':') != std::string::npos && !is_of_curve(e.at) && !is_of_landscape(e.at)) CHECK(labels.count(e.at) == 1);
+        if (number == 0 && run.problem.study == StudyType::path) continue;       // the test below has it
+        CAPTURE(number);
+        check_found(found_by(run), run.problem);
       }
     }
+}
+
+TEST_CASE("the events and the end of a path do not depend on its steps and its method, and satisfy their own equations", "[steps][problems]") {
+  for (const std::string& file : problem_files())
+    DYNAMIC_SECTION(std::filesystem::path(file).stem().string()) {
+      const PreparedRuns prepared = prepare_runs(file);
+      const Problem& problem = prepared.runs.front().problem;
+      const std::string name = std::filesystem::path(file).stem().string();
+      if (problem.study != StudyType::path) continue;
+      std::optional<Walked> first;
+      for (const int steps : steps_of(name)) {
+        const Walked w = walk(file, way(problem, steps, false));
+        INFO(w.told());
+        check_found(w.found, problem);
+        if (!first) {
+          first = w;
+          continue;
+        }
+        INFO(first->told());
+        same_events(w.events, first->events, first->range);
+        same_end(w, *first);
+      }
+      if (!problem.solver.by_newton() || problem.path.lowest || problem.path.highest) continue;
+      for (const int steps : steps_of(name)) {
+        if (steps == 5 || steps == 200) continue;               // two numbers, or one, are enough to compare methods
+        const Walked w = walk(file, way(problem, steps, true));
+        INFO(w.told() << first->told());
+        const std::vector<PathPoint> here_stable = stable_part(first->events), there_stable = stable_part(w.events);
+        same_events(there_stable, here_stable, first->range);
+        const bool all_stable = here_stable.size() == first->events.size() && there_stable.size() == w.events.size() &&
+                                (here_stable.empty() || here_stable.back().negative_after <= 0);
+        if (!all_stable) continue;
+        CHECK(w.found.outcome.status == Status::converged);
+        same_end(w, *first);
+      }
+    }
+}
+
+TEST_CASE("a path whose load factors are sums of equal steps ends at its end, however they are rounded", "[steps]") {
+  const std::string file = std::string(ELAMIN_ROOT) + "/problems/cubes_jammed.toml";
+  for (int steps = 2; steps <= 128; ++steps) {
+    const Walked w = walk(file, {"path.method=arc_length", "path.steps=" + std::to_string(steps)});
+    INFO(w.told());
+    CHECK(w.found.outcome.status == Status::converged);
+    CHECK(w.last.state.load_factor == 1);
+  }
 }
