@@ -767,7 +767,7 @@ void events_truss(Case& test) {
   if (!test.reaches(run, way.to)) return;
   for (const auto& [y, name] : by_height) {
     const double lambda = t.truss.load(y) / t.force;
-    if ((y < 0 && t.truss.load(y) > t.force * way.to)) continue;  // not reached
+    if (y >= t.truss.height || (y < 0 && t.truss.load(y) > t.force * way.to)) continue;  // not reached
     const std::vector<Row> found = run.of(name);
     if (!test.expect(found.size() == 1, [&] { return fmt::format("event {} at height {:.10g} comes {} times ({})", name, y / t.truss.height, found.size(), run.told()); })) continue;
     test.expect(std::abs(found[0].lambda() - lambda) <= of_events * std::max(std::abs(lambda), top) &&
