@@ -344,11 +344,11 @@ std::optional<Equilibrium> ArcSteps::foreseen(const Segment& segment, const Cand
   Equilibrium begin = current_;
   begin.tangent = direction_.x / direction_.load;               // also where the branch begins at a branch point
   double low = segment.a, high = segment.b;
-  const auto load_at = [&](double t) { return interpolate(kinematics, segment, begin, c.e, segment.a, segment.b, t).state.load_factor - load_factor; };
+  const std::function<double(double)> load_at = load_along(segment, begin, c.e);
   const bool rises = current_.point.state.load_factor < load_factor;
-  for (int k = 0; k < arc_steps::foreseen; ++k) {
+  for (int k = 0; k < arc_steps::cubic_halvings; ++k) {
     const double middle = (low + high) / 2;
-    ((load_at(middle) < 0) == rises ? low : high) = middle;
+    ((load_at(middle) < load_factor) == rises ? low : high) = middle;
   }
   State state = interpolate(kinematics, segment, begin, c.e, segment.a, segment.b, (low + high) / 2).state;
   kinematics.prescribe(state, load_factor);

@@ -81,7 +81,7 @@ constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
 constexpr double standing = 1e-6;  // of the step: a kink may be where the branch stands
 constexpr double load_rounding = 16 * epsilon;  // of load factors that were summed up
-constexpr int foreseen = 20;  // halvings that find where Hermite's cubic passes a load factor
+constexpr int cubic_halvings = 20;  // that find where Hermite's cubic passes a load factor
 constexpr double as_foreseen = 0.05;  // of the step: how far the equilibrium there may be from the cubic
 }
 

@@ -225,10 +225,26 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   return done(std::move(event), zero->t);
 }
 
+namespace {
+
+// Of Hermite's cubic at the part u of an interval: the weights of the whole change and of the rates at both ends.
+struct Weights { double change, rate_a, rate_b; };
+Weights hermite(double u, double width) { return {u * u * (3 - 2 * u), u * (1 - u) * (1 - u) * width, u * u * (u - 1) * width}; }
+
+}  // namespace
+
+std::function<double(double)> load_along(const Segment& segment, const Equilibrium& a, const Equilibrium& b) {
+  const double from = a.point.state.load_factor, change = b.point.state.load_factor - from, width = segment.b - segment.a;
+  return [=, ta = segment.a, la = segment.load_rate(a), lb = segment.load_rate(b)](double t) {
+    const Weights w = hermite((t - ta) / width, width);
+    return from + w.change * change + w.rate_a * la + w.rate_b * lb;
+  };
+}
+
 Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, double ta, double tb,
                          double t) {
   const double width = tb - ta, u = (t - ta) / width, la = segment.load_rate(a), lb = segment.load_rate(b);
-  const double h01 = u * u * (3 - 2 * u), h10 = u * (1 - u) * (1 - u) * width, h11 = u * u * (u - 1) * width;
+  const auto [h01, h10, h11] = hermite(u, width);
   const double d01 = 6 * u * (1 - u) / width, d10 = (1 - u) * (1 - 3 * u), d11 = u * (3 * u - 2);
   const Vector moved = kinematics.difference(a.point.state, b.point.state);
   const double from = a.point.state.load_factor, change = b.point.state.load_factor - from;

@@ -14,12 +14,13 @@ using namespace limits;
 std::optional<Sample> find_zero(Sample a, Sample b, const std::function<double(double)>& resolution,
                                 const std::function<std::optional<Sample>(double, const Sample&)>& evaluate, double next_to_none) {
   assert((a.f <= 0) != (b.f <= 0) || a.f == 0 || b.f == 0);
-  double weight_a = a.f, weight_b = b.f, whole = std::abs(b.t - a.t), rise = std::abs(b.f - a.f), wide = whole;
+  double weight_a = a.f, weight_b = b.f, whole = std::abs(b.t - a.t), rise = std::abs(b.f - a.f), earlier = whole;
   int lately = 0;                                               // which end was replaced last: −1 a, 1 b
   bool new_a = false, new_b = false;                            // since a leap was looked for last
   for (int k = 0; k < root::most_evaluations; ++k) {
     const double width = b.t - a.t;
-    const bool halve = k % 4 == 3 && std::abs(width) > std::exchange(wide, std::abs(width)) / 2;
+    bool halve = false;
+    if (k % 4 == 3) halve = std::abs(width) > earlier / 2, earlier = std::abs(width);
     double t = a.t - weight_a * width / (weight_b - weight_a);
     if (halve) t = (a.t + b.t) / 2;
     const Sample& nearest = std::abs(t - a.t) < std::abs(t - b.t) ? a : b;

@@ -32,6 +32,9 @@ struct Interpolated {
 Interpolated interpolate(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, double ta, double tb,
                          double t);
 
+/// The load factor that this cubic gives between the equilibria at both ends of a segment, as a function of the parameter.
+std::function<double(double parameter)> load_along(const Segment& segment, const Equilibrium& a, const Equilibrium& b);
+
 /// Whether an equilibrium computed between two of a branch lies beside their chord: on another branch it would not.
 [[nodiscard]] inline bool beside_chord(const Kinematics& kinematics, const State& a, const State& b, const State& between) {
   const Vector chord = kinematics.difference(a, b), way = kinematics.difference(a, between);

@@ -196,7 +196,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double lock_patience = 20;                                 // seconds, for another part that makes the directory
+constexpr double lock_patience = 20;                            // seconds, for another part that makes the directory
 
 /// The directory as parts of this sweep share it. The first part makes it; all find the same record in it.
 void join(const std::string& directory, const RunRecord& record) {

@@ -1,6 +1,7 @@
 // What happens on the paths of problems/: every event satisfies its own equations, and the same events come however the path is walked.
 //
-// By few steps and many, and by both methods, the events and the end are the same. Left out, because it cannot be so:
+// Every walk by a file's own method is held against the equations. By few steps and many, and by both methods, the events and the end are the same.
+// Left out, because it cannot be so:
 //   a fall        is made a part of a step behind its event: where it lands is compared by its kind, not by its load factor; and by the
 //                 other method, which may go on where this one falls, only what comes before the first loss of stability;
 //   load steps    pass no limit point: likewise; and `lowest`, `highest` are of arc length alone;
