@@ -171,7 +171,7 @@ int answer(int argc, char** argv) {
   const auto running = [&](CLI::App* command) {
     common(command);
     command->add_option("-o,--output", options.directory, "directory of the results (default: the file's name without .toml)");
-    command->add_option("--threads", options.threads, "threads to use (default: all cores)")->check(positive("integer"));
+    command->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, or all cores)")->check(positive("integer"));
     command->add_flag("--force", options.force, "write to a directory that holds something else than results, too");
     command->add_flag("--quiet", options.quiet, "print nothing but errors");
     checkpointed(command);
@@ -200,7 +200,7 @@ int answer(int argc, char** argv) {
   compare_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   compare_app->add_option("--methods", comparison.methods, "methods as solver.method has them, with commas between (default: those that fit)")->delimiter(',');
   compare_app->add_option("--limit", comparison.limit, "seconds that a method may take (default: 60)")->check(positive("number"));
-  compare_app->add_option("--threads", comparison.threads, "threads to use (default: all cores)")->check(positive("integer"));
+  compare_app->add_option("--threads", comparison.threads, "threads to use (default: OMP_NUM_THREADS, or all cores)")->check(positive("integer"));
   compare_app->add_flag("--json", comparison.json, "print JSON");
   common(compare_app);
   ExportOptions exported;
@@ -218,7 +218,7 @@ int answer(int argc, char** argv) {
   ResumeOptions stopped;
   CLI::App* resume_app = app.add_subcommand("resume", "a run or sweep that was stopped goes on where it was");
   resume_app->add_option("directory", stopped.directory, "the directory of its results")->type_name("DIR")->required();
-  resume_app->add_option("--threads", stopped.threads, "threads to use (default: all cores)")->check(positive("integer"));
+  resume_app->add_option("--threads", stopped.threads, "threads to use (default: OMP_NUM_THREADS, or all cores)")->check(positive("integer"));
   resume_app->add_flag("--quiet", stopped.quiet, "print nothing but errors");
   resume_app->add_flag("--report", and_report, "then write report.html into the directory");
   checkpointed(resume_app);

@@ -183,7 +183,7 @@ int compare_command(const CompareOptions& options) {
   for (const std::string& m : methods)                             // before anything runs
     if (m != "auto" && m != "newton" && m != "ipopt" && m != "fire" && m.rfind("nlopt:", 0) != 0)
       throw InputError(fmt::format("--methods: {}: there is no such method; there are auto, newton, ipopt, fire, and nlopt:LD_LBFGS and NLopt's other names", m));
-  set_threads(options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  set_threads(options.threads > 0 ? options.threads : usual_threads());
   const std::vector<Compared> rows = compare(problem, methods, options.limit);
   if (options.json) say("{}\n", json(rows).dump(2));
   else say("{}", table(rows));

@@ -16,7 +16,7 @@ struct CompareOptions {
   std::vector<std::string> methods;    // as solver.method; none: those that are tried by default
   double limit = 60;                   // seconds a method may take
   bool json = false;
-  int threads = 0;                     // 0: all cores
+  int threads = 0;                     // 0: usual_threads()
 };
 
 /// What came of one method.

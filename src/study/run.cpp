@@ -11,22 +11,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 namespace elamin {
 
 namespace {
+
+const int threads_at_start = omp_get_max_threads();            // before anything sets it
 
 std::string default_directory(const std::string& file) {
   std::filesystem::path path(file);
   if (path.extension() == ".toml") return path.replace_extension().string();
   return file + ".results";
 }
-
-// Of this machine, as many for each of the ranks that are on it.
-int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / (ranks() ? ranks()->on_this_machine() : 1)); }
 
 // What was found, what is doubtful of it, and how it ended.
 std::string closing(const Problem& problem, const SingleResult& result, const Ink& ink) {
@@ -59,6 +58,8 @@ void keep_frames(Problem& problem) {
 
 }  // namespace
 
+int usual_threads() { return std::max(1, threads_at_start / (ranks() ? ranks()->on_this_machine() : 1)); }
+
 RunResult run(const RunOptions& options) {
   PreparedRuns prepared = prepare_runs(options.file, options.settings);
   RunOptions recorded = options;
@@ -68,7 +69,7 @@ RunResult run(const RunOptions& options) {
 
 RunResult run(PreparedRuns& prepared, const RunOptions& given) {
   RunOptions options = given;
-  if (options.threads <= 0) options.threads = cores();
+  if (options.threads <= 0) options.threads = usual_threads();
   set_threads(options.threads), ready_blas();
   if (options.directory.empty()) options.directory = default_directory(options.file);
   if (options.report)

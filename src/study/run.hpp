@@ -20,7 +20,7 @@ struct RunOptions {
   std::string file;                    // the problem file
   std::vector<Setting> settings;       // --set KEY=VALUE
   std::string directory;               // "": the problem file's name without .toml
-  int threads = 0;                     // 0: all cores
+  int threads = 0;                     // 0: usual_threads()
   bool force = false;                  // write to a directory that is not results of elamin, too
   bool quiet = false;
   bool report = false;                 // a page is made of it: a path that says nothing of frames keeps 50, without films
@@ -39,6 +39,9 @@ struct [[nodiscard]] RunResult {
 };
 
 struct PreparedRuns;
+
+/// Threads where no number is asked for: OMP_NUM_THREADS, else the cores that this process may use; an equal share for each rank on the machine.
+int usual_threads();
 
 /// Reads, checks, runs and writes a problem file; with [[sweep]] one run for each combination, in parallel.
 /// Throws InputError before anything is written if the file is wrong.
