@@ -9,7 +9,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -202,18 +201,10 @@ void OfAll::analyze(const SparseMatrix& pattern, int borders) {
 
 bool OfAll::factorize(const SparseMatrix& hessian, double shift, const Eigen::MatrixXd& borders) {
   const double* const h = hessian.valuePtr();
-  double scale = std::numeric_limits<double>::min();
+  const double scale = borders_ > 0 ? border_scale(hessian, shift) : 0;
   std::size_t k = 0;
   for (int j = 0; j < hessian.outerSize(); ++j) {
-    for (int i = hessian.outerIndexPtr()[j]; i < hessian.outerIndexPtr()[j + 1]; ++i) {
-      values_[k] = h[i] + (i == hessian.outerIndexPtr()[j] ? shift : 0.0);
-      scale = std::max(scale, std::abs(values_[k++]));
-    }
-    k += static_cast<std::size_t>(borders_);
-  }
-  k = 0;
-  for (int j = 0; j < hessian.outerSize() && borders_ > 0; ++j) {
-    k += static_cast<std::size_t>(hessian.outerIndexPtr()[j + 1] - hessian.outerIndexPtr()[j]);
+    for (int i = hessian.outerIndexPtr()[j]; i < hessian.outerIndexPtr()[j + 1]; ++i) values_[k++] = h[i] + (i == hessian.outerIndexPtr()[j] ? shift : 0.0);
     for (int b = 0; b < borders_; ++b) values_[k++] = scale * borders(j, b);
   }
   std::fill(values_.end() - borders_, values_.end(), 0.0);

@@ -1,9 +1,7 @@
 #include "solve/bunch_kaufman.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 extern "C" {
 void dsytrf_rook_(const char* uplo, const int* n, double* a, const int* lda, int* ipiv, double* work, const int* lwork, int* info);
@@ -29,14 +27,9 @@ bool BunchKaufman::factorize(const SparseMatrix& hessian, double shift, const Ei
   const int n = static_cast<int>(matrix_.rows()), dofs = static_cast<int>(hessian.rows());
   assert(n - dofs == borders.cols());                      // analysed with as many borders
   matrix_.setZero();
-  double largest = std::numeric_limits<double>::min();
   for (int j = 0; j < dofs; ++j)
-    for (SparseMatrix::InnerIterator it(hessian, j); it; ++it) {
-      const double value = it.value() + (it.row() == j ? shift : 0.0);
-      matrix_(it.row(), j) = value;
-      largest = std::max(largest, std::abs(value));
-    }
-  if (n > dofs) matrix_.bottomLeftCorner(n - dofs, dofs) = largest * borders.transpose();
+    for (SparseMatrix::InnerIterator it(hessian, j); it; ++it) matrix_(it.row(), j) = it.value() + (it.row() == j ? shift : 0.0);
+  if (n > dofs) matrix_.bottomLeftCorner(n - dofs, dofs) = border_scale(hessian, shift) * borders.transpose();
   const int room = static_cast<int>(work_.size());
   int info = 0;
   dsytrf_rook_("L", &n, matrix_.data(), &n, pivots_.data(), work_.data(), &room, &info);

@@ -63,6 +63,7 @@ void ContactEquilibrium::linearise(const State& state, const State* from, const 
 bool ContactEquilibrium::factorize(double shift) {
   if (shift != 0)
     for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] += shift;
+  if (borders_.cols() > 0) border_unit_ = border_scale(matrix_, 0);
   const bool done = pivoted_.factorize(matrix_, 0, borders_);
   if (shift != 0)
     for (int j = 0; j < energy_.dofs(); ++j) matrix_.valuePtr()[matrix_.outerIndexPtr()[j]] -= shift;
@@ -80,12 +81,9 @@ ContactEquilibrium::Step ContactEquilibrium::solve(const Vector& b, const Vector
   const Eigen::Index held = borders_.cols();
   Vector right = Vector::Zero(b.size() + c.size() + held);
   right.head(b.size()) = b, right.segment(b.size(), c.size()) = scale_ * c;
-  double unit = 0;                                              // of the borders: see PivotedFactor
-  if (held > 0)
-    for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) unit = std::max(unit, std::abs(matrix_.valuePtr()[k]));
-  if (held > 0) right[right.size() - 1] = unit * along;
+  if (held > 0) right[right.size() - 1] = border_unit_ * along;
   const Vector x = pivoted_.solve(right);
-  return {x.head(b.size()), -scale_ * x.segment(b.size(), c.size()), held > 0 ? unit * x[x.size() - 1] : 0.0};
+  return {x.head(b.size()), -scale_ * x.segment(b.size(), c.size()), held > 0 ? border_unit_ * x[x.size() - 1] : 0.0};
 }
 
 // ∂c/∂λ with what is prescribed, and J p of one gap.

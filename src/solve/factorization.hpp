@@ -2,11 +2,29 @@
 // What a direct factorisation of sparse symmetric matrices does; CHOLMOD's is `cholesky`, of indefinite ones there is `pivoted`.
 #include "core/types.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace elamin {
+
+/// s, by which a factorisation of H + τI takes its borders: of the columns' largest entries the least, but √ε of the largest of all at least. Borders
+/// that are much more than what a column has of its own forbid its pivot: of a slender structure, which bends so much more easily than it stretches,
+/// the factor would be a dense one. Borders that are its rounding would not be seen.
+inline double border_scale(const SparseMatrix& hessian, double shift) {
+  Vector largest = Vector::Zero(hessian.cols());
+  for (int j = 0; j < hessian.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(hessian, j); it; ++it) {
+      const double size = std::abs(it.value() + (it.row() == j ? shift : 0.0));
+      largest[j] = std::max(largest[j], size), largest[it.row()] = std::max(largest[it.row()], size);
+    }
+  if (largest.size() == 0) return 1;
+  return std::max({largest.minCoeff(), std::sqrt(epsilon) * largest.maxCoeff(), std::numeric_limits<double>::min()});
+}
 
 /// A factorisation of H + τI or, with borders Z (n × m), of the matrix
 ///   [ H   sZ ]
-///   [ sZᵀ  0 ] ,   s = max |H|;
+///   [ sZᵀ  0 ] ,   s = border_scale(H, τ);
 /// ordering and symbolic analysis once per pattern. H is given by its lower triangle with full diagonal.
 class Factorization {
  public:

@@ -5,12 +5,10 @@
 
 #include <dmumps_c.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -21,9 +19,10 @@ namespace elamin {
 namespace {
 
 constexpr int fortran_communicator = -987654;              // MPI_COMM_WORLD of the sequential build
+constexpr int first_room = 50, most_room = 1'000'000;      // % of memory for delayed pivots, ICNTL(14)
 
 [[noreturn]] void mumps_failed(const std::string& what, int infog) {
-  for (const int out_of_memory : {-5, -7, -8, -9, -13, -19})                    // of integers, reals, pointers; workspace too small
+  for (const int out_of_memory : {-5, -7, -13, -19})                            // of integers, reals, pointers
     if (infog == out_of_memory) throw OutOfMemory("there is not enough memory for a factor of the Hessian (MUMPS, " + what + ")");
   if (infog == -90) throw OutOfMemory("there is not enough room on disk for a factor of the Hessian, or it cannot be written (MUMPS, " + what + ")");
   throw std::runtime_error("MUMPS: the " + what + " failed, INFOG(1) = " + std::to_string(infog));
@@ -81,7 +80,7 @@ void Mumps::analyze(const SparseMatrix& pattern, int borders) {
   m.started = true;
   for (int i = 1; i <= 4; ++i) m.icntl(i) = i == 4 ? 0 : -1;   // silent
   m.icntl(13) = 1;                                         // no parallel root: its pivots would not be counted
-  m.icntl(14) = 50;                                        // % of memory for delayed pivots
+  m.icntl(14) = first_room;
   m.icntl(10) = 0;                                         // Newton on exact residuals refines, not the solver
   if (m.kind == Kind::definite_on_disk) {
     m.icntl(22) = 1;
@@ -103,21 +102,14 @@ bool Mumps::factorize(const SparseMatrix& hessian, double shift, const Eigen::Ma
   Instance& m = *instance_;
   const std::size_t entries = static_cast<std::size_t>(hessian.nonZeros());
   assert(entries <= m.values.size() && (borders.cols() == 0 || borders.rows() == hessian.rows()));    // analysed with as many borders
-  double largest = std::numeric_limits<double>::min();
-  for (std::size_t k = 0; k < entries; ++k) {
-    m.values[k] = hessian.valuePtr()[k] + (m.rows[k] == m.columns[k] ? shift : 0.0);
-    largest = std::max(largest, std::abs(m.values[k]));
-  }
+  for (std::size_t k = 0; k < entries; ++k) m.values[k] = hessian.valuePtr()[k] + (m.rows[k] == m.columns[k] ? shift : 0.0);
+  const double scale = entries < m.values.size() ? border_scale(hessian, shift) : 0;
   for (std::size_t k = entries; k < m.values.size(); ++k) {
     const Eigen::Index i = m.columns[k] - 1, b = m.rows[k] - 1 - hessian.rows();
-    m.values[k] = i < hessian.rows() ? largest * borders(i, b) : 0.0;
+    m.values[k] = i < hessian.rows() ? scale * borders(i, b) : 0.0;
   }
   const Doing doing(m.kind == Kind::indefinite ? "factorising" : "factorising, on disk");
-  for (int attempt = 0; attempt < 6; ++attempt) {
-    m.call(2);
-    if (m.id.infog[0] != -8 && m.id.infog[0] != -9) break;   // workspace too small for the delayed pivots
-    m.icntl(14) *= 3;
-  }
+  for (m.call(2); (m.id.infog[0] == -8 || m.id.infog[0] == -9) && m.icntl(14) < most_room; m.call(2)) m.icntl(14) *= 3;   // delayed pivots need more
   if (m.id.infog[0] == -10 || m.id.infog[0] == -40) return false;         // numerically singular; not positive definite
   if (m.id.infog[0] < 0) mumps_failed("factorisation", m.id.infog[0]);
   return m.kind == Kind::indefinite || m.id.infog[11] == 0;

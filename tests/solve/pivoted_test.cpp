@@ -1,9 +1,11 @@
 #include "catch.hpp"
+#include "processor_time.hpp"
 #include "solve/bunch_kaufman.hpp"
 #include "solve/mumps.hpp"
 
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
 #include <memory>
 #include <random>
 #include <vector>
@@ -28,9 +30,8 @@ Eigen::MatrixXd bordered(const SparseMatrix& h, double shift, const Eigen::Matri
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
   whole.topLeftCorner(n, n) = Eigen::MatrixXd(h).selfadjointView<Eigen::Lower>();
   whole.topLeftCorner(n, n).diagonal().array() += shift;
-  const double largest = whole.cwiseAbs().maxCoeff();
-  whole.bottomLeftCorner(m, n) = largest * borders.transpose();
-  whole.topRightCorner(n, m) = largest * borders;
+  whole.topRightCorner(n, m) = border_scale(h, shift) * borders;
+  whole.bottomLeftCorner(m, n) = whole.topRightCorner(n, m).transpose();
   return whole;
 }
 
@@ -63,6 +64,39 @@ TEST_CASE("factors of indefinite matrices have their inertia and solve to roundi
           const double condition = values.cwiseAbs().maxCoeff() / values.cwiseAbs().minCoeff();
           CHECK((x - exact).norm() <= 10 * (n + borders) * epsilon * condition * exact.norm());
         }
+}
+
+// A hinged chain of n links of length 1 under its first critical load: H = k T along it, T² − P T across, T = (−1, 2, −1), P the lowest eigenvalue of T.
+TEST_CASE("a slender column at its critical load keeps a sparse factor beside its mode", "[solve][pivoted]") {
+  const int n = 8300, dofs = 2 * n;
+  const double k = 1e5, P = 2 - 2 * std::cos(pi / (n + 1));              // EA L²/EI = 7·10¹²
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(2 * i, 2 * i, 2 * k);
+    entries.emplace_back(2 * i + 1, 2 * i + 1, (i == 0 || i == n - 1 ? 5 : 6) - 2 * P);
+    if (i + 1 < n) entries.emplace_back(2 * i + 2, 2 * i, -k), entries.emplace_back(2 * i + 3, 2 * i + 1, -4 + P);
+    if (i + 2 < n) entries.emplace_back(2 * i + 5, 2 * i + 1, 1);
+  }
+  SparseMatrix h(dofs, dofs);
+  h.setFromTriplets(entries.begin(), entries.end());
+  Eigen::MatrixXd mode = Eigen::MatrixXd::Zero(dofs, 1);
+  for (int i = 0; i < n; ++i) mode(2 * i + 1, 0) = std::sqrt(2.0 / (n + 1)) * std::sin(pi * (i + 1) / (n + 1));
+  Mumps factor;
+  const auto seconds = [&](double shift, const Eigen::MatrixXd& borders) {
+    factor.analyze(h, static_cast<int>(borders.cols()));
+    const std::clock_t begin = std::clock();
+    REQUIRE(factor.factorize(h, shift, borders));
+    return processor_seconds(begin);
+  };
+  const double plain = seconds(1, {}), bordered = seconds(0, mode);
+  CHECK(bordered <= 20 * plain);                                         // a dense one takes 500 times as long
+  CHECK(factor.negative() == 1);                                         // the border's
+  // Along the second mode, whose eigenvalue is μ (μ − P); H and its factor are rounded, by a few ε ‖T²‖ = 16 ε.
+  const double mu = 2 - 2 * std::cos(2 * pi / (n + 1));
+  Vector second = Vector::Zero(dofs);
+  for (int i = 0; i < n; ++i) second[2 * i + 1] = std::sqrt(2.0 / (n + 1)) * std::sin(2 * pi * (i + 1) / (n + 1));
+  const Vector p = factor.solve(Vector(second * (mu * (mu - P))));
+  CHECK((p - second).norm() <= 4 * 16 * epsilon / (mu * (mu - P)));
 }
 
 TEST_CASE("a singular matrix has no factor", "[solve][pivoted]") {
