@@ -4,7 +4,9 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
 class ScratchDirectory {
  public:
@@ -31,6 +33,13 @@ class ScratchDirectory {
  private:
   std::filesystem::path path_;
 };
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
 
 inline std::string text_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);

@@ -113,6 +113,19 @@ Place place_in(const std::string& text, std::size_t offset) {
   return at;
 }
 
+std::string as_markup(const std::string& text) {
+  std::string all;
+  for (const char c : text)
+    switch (c) {
+      case '&': all += "&amp;"; break;
+      case '<': all += "&lt;"; break;
+      case '>': all += "&gt;"; break;
+      case '"': all += "&quot;"; break;
+      default: all += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  return all;
+}
+
 std::string sha256(const std::string& bytes) {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned length = 0;

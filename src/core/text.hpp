@@ -39,6 +39,9 @@ template <class Number> bool reads_as(std::string_view word, Number& number) {
 /// The finite number that a word of a file is, perhaps with a sign +; else `why` says what is wrong with it.
 std::optional<double> finite_number(std::string_view word, std::string& why);
 
+/// The text as it stands in HTML and SVG: & < > " by their names, control characters as blanks.
+std::string as_markup(const std::string& text);
+
 /// SHA-256, as 64 hexadecimal digits.
 std::string sha256(const std::string& bytes);
 

@@ -15,6 +15,7 @@ using Vector = Eigen::VectorXd;                       // over the free dofs
 using Field = Eigen::Matrix3Xd;                       // a vector for every particle, 3 × particles
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;  // symmetric: lower triangle only
 
+constexpr double pi = 3.14159265358979323846;
 constexpr double epsilon = 2.220446049250313e-16;     // spacing of the doubles at 1
 
 }  // namespace elamin

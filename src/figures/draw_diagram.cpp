@@ -31,13 +31,13 @@ void draw_mark(Drawing& drawing, const std::string& kind, const Vec2& at) {
 }
 
 // An entry of the legend: a sign and what it means.
-struct Entry {
+struct LegendEntry {
   std::string meaning;
   std::function<void(Drawing&, const Vec2&)> sign;       // at the middle of its place
 };
 
-std::vector<Entry> entries_of(const Diagram& d) {
-  std::vector<Entry> all;
+std::vector<LegendEntry> entries_of(const Diagram& d) {
+  std::vector<LegendEntry> all;
   std::set<Curve::Kind> styles;
   for (const Curve& c : d.curves)
     if (c.points.size() > 1 || c.kind == Curve::Kind::points) styles.insert(c.kind);
@@ -67,10 +67,10 @@ std::vector<Entry> entries_of(const Diagram& d) {
 }
 
 // In lines across the width; returns where the next line would be.
-double draw_legend(Drawing& drawing, const std::vector<Entry>& entries, const Vec2& corner, double width) {
+double draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, const Vec2& corner, double width) {
   constexpr double sign = 16, space = 8, line = 9;
   double x = corner.x(), y = corner.y();
-  for (const Entry& e : entries) {
+  for (const LegendEntry& e : entries) {
     const double wide = sign + width_of(e.meaning, legend_type);
     if (x > corner.x() && x + wide > corner.x() + width) x = corner.x(), y += line;
     e.sign(drawing, {x + 6, y + 4.5});

@@ -1,6 +1,7 @@
 #include "figures/drawing.hpp"
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -51,19 +52,6 @@ std::string path_data(const Polyline& line, bool closed) {
   return closed ? d + "z" : d;
 }
 
-std::string escaped(const std::string& text) {
-  std::string all;
-  for (const char c : text)
-    switch (c) {
-      case '&': all += "&amp;"; break;
-      case '<': all += "&lt;"; break;
-      case '>': all += "&gt;"; break;
-      case '"': all += "&quot;"; break;
-      default: all += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  return all;
-}
-
 std::string stroke(const Pen& pen) {
   if (!(pen.width > 0)) return "";
   std::string s = fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", pen.colour, text_of(pen.width));
@@ -100,7 +88,7 @@ void Drawing::words(const Vec2& at, const std::string& words, Anchor anchor, dou
   static const std::array<const char*, 3> anchors{"start", "middle", "end"};
   const std::string x = text_of(at.x()), y = text_of(at.y());
   body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, text_of(size),
-                       anchors[static_cast<std::size_t>(anchor)], turned ? fmt::format(" transform=\"rotate(-90 {} {})\"", x, y) : "", escaped(words));
+                       anchors[static_cast<std::size_t>(anchor)], turned ? fmt::format(" transform=\"rotate(-90 {} {})\"", x, y) : "", as_markup(words));
 }
 
 void Drawing::clip(const Vec2& corner, const Vec2& opposite) {
@@ -115,7 +103,7 @@ std::string Drawing::svg(double width, double height, const std::string& title) 
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}pt\" height=\"{}pt\" viewBox=\"0 0 {} {}\" "
                      "font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" stroke-linejoin=\"round\">\n<title>{}</title>\n"
                      "<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n{}</svg>\n",
-                     w, h, w, h, escaped(title), w, h, body_);
+                     w, h, w, h, as_markup(title), w, h, body_);
 }
 
 double width_of(const std::string& words, double size) {

@@ -1,11 +1,11 @@
 #pragma once
 // From a section and a modulus to the stiffnesses of bonds and angles (LAMMPS's factors: U = K(q−q₀)², U = B(1+cos θ)).
 // Source: Guerra 2021, equations (7), (12) for the cylinder, (13), (14) for the square; written for a thickness t ≠ q₀.
+#include "core/types.hpp"
+
 namespace elamin {
 
 enum class Section { cylinder, square };
-
-constexpr double pi = 3.14159265358979323846;
 
 /// K = EA/(2q₀) [energy/length²]: cylinder πEt²/(8q₀), square Et²/(2q₀). E [energy/length³], t, q₀ [length].
 constexpr double bond_stiffness(Section s, double E, double t, double q0) {

@@ -1,6 +1,7 @@
 #include "report/report.hpp"
 
 #include "core/say.hpp"
+#include "core/text.hpp"
 #include "core/text_file.hpp"
 #include "report/base64.hpp"
 #include "report/parts.hpp"
@@ -27,18 +28,6 @@ std::string hash_of(std::string_view text) {
   std::vector<unsigned char> digest(SHA256_DIGEST_LENGTH);
   SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
   return fmt::format("'sha256-{}'", base64(digest));
-}
-
-std::string escaped(const std::string& text) {
-  std::string all;
-  for (const char c : text) {
-    if (c == '&') all += "&amp;";
-    else if (c == '<') all += "&lt;";
-    else if (c == '>') all += "&gt;";
-    else if (c == '"') all += "&quot;";
-    else all += c;
-  }
-  return all;
 }
 
 /// JSON in which no '<' begins a tag or a comment.
@@ -118,7 +107,7 @@ std::string report_page(const ReportOptions& options) {
   }
   const Json& first = data["runs"].front();
   const std::string title = first["title"].get<std::string>();
-  return filled(page_html, {{"policy", policy}, {"title", escaped(title.empty() ? first["directory"].get<std::string>() : title)}, {"version", version()},
+  return filled(page_html, {{"policy", policy}, {"title", as_markup(title.empty() ? first["directory"].get<std::string>() : title)}, {"version", version()},
                             {"style", std::string(style_css)}, {"data", json_text(data)}, {"scripts", scripts}, {"licences", std::string(licences_txt)}});
 }
 

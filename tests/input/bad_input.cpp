@@ -26,13 +26,6 @@ std::string mistakes_of(const std::string& file, const std::vector<elamin::Setti
   return "";
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 bool agrees(const std::string& said, const std::string& expected) {
   if (expected.empty() || expected.back() != '*') return said == expected;
   return said.compare(0, expected.size() - 1, expected, 0, expected.size() - 1) == 0;

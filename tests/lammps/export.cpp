@@ -26,13 +26,6 @@ const std::vector<std::string> exported{
     "problems/loop_squeezed",           "problems/static/equation_06",     "problems/arch_flipped",      "problems/sheet_indented",      "problems/studies/mushroom",
     "problems/studies/settling_column", "problems/static/hanging_chain"};
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 bool has(const std::string& text, const std::string& line) { return ("\n" + text).find("\n" + line) != std::string::npos; }
 
 Model as_read(const std::string& file) {

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-
+#include "laws/exact_geometry.hpp"
 #include "model/beam.hpp"
 #include "model/geometry.hpp"
 
@@ -7,18 +7,7 @@ using namespace elamin;
 
 namespace {
 
-
 double length_of(const ExactVector& v) { return (v.hi + v.lo).norm(); }
-
-/// a × b in Exact.
-ExactVector cross(const ExactVector& a, const ExactVector& b) {
-  ExactVector c;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    c.set(i, a[j] * b[k] - a[k] * b[j]);
-  }
-  return c;
-}
 
 Model beam_from(const Vec3& from, const Vec3& to, int n) {
   Model model;

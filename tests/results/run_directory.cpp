@@ -27,7 +27,7 @@ Problem sample_problem() {
   return problem;
 }
 
-long lines_of(const std::string& file) {
+long rows_in(const std::string& file) {
   const std::string text = text_of(file);
   return std::count(text.begin(), text.end(), '\n');
 }
@@ -41,14 +41,14 @@ TEST_CASE("a run leaves its rows, states, log and summary", "[run_directory]") {
   const Field forces = Field::Zero(3, 5);
   RunDirectory run(scratch / "deep/run", problem, m, "title = \"a chain\"\n");
   CHECK(text_of(scratch / "deep/run/resolved.toml") == "title = \"a chain\"\n");
-  CHECK(lines_of(scratch / "deep/run/path.csv") == 1);
+  CHECK(rows_in(scratch / "deep/run/path.csv") == 1);
   run.add(sample_point(m, 0, 0, "initial"), forces, {});
   run.add(sample_point(m, 1, 0.5), forces, {});
   PathPoint event = sample_point(m, 2, 0.6, "branch:1");
   event.multiplicity = 2, event.report.residual = std::nan("");
   run.add(event, forces, {});
-  CHECK(lines_of(scratch / "deep/run/path.csv") == 4);           // there before the run ends
-  CHECK(lines_of(scratch / "deep/run/events.csv") == 2);
+  CHECK(rows_in(scratch / "deep/run/path.csv") == 4);           // there before the run ends
+  CHECK(rows_in(scratch / "deep/run/events.csv") == 2);
   CHECK(text_of(scratch / "deep/run/events.csv").find("\nbranch:1,0.6,2,2,0,") != std::string::npos);
   CHECK(!std::filesystem::exists(scratch / "deep/run/summary.json"));
   run.add(sample_point(m, 3, 1, "final"), forces, {});
@@ -94,7 +94,7 @@ TEST_CASE("a run leaves its rows, states, log and summary", "[run_directory]") {
   run.log("one line");
   run.log("another");
   const std::string log = text_of(scratch / "deep/run/log.txt");
-  CHECK(lines_of(scratch / "deep/run/log.txt") == 2);
+  CHECK(rows_in(scratch / "deep/run/log.txt") == 2);
   CHECK(log.find("20") == 0);                                    // begins with the date
   CHECK(log.find(" one line\n20") != std::string::npos);
   CHECK(log.find(" another\n") != std::string::npos);
@@ -274,8 +274,8 @@ TEST_CASE("a second run in the same directory leaves nothing of the first, and n
   RunDirectory run(scratch / "run", problem, m, "");
   CHECK(!std::filesystem::exists(scratch / "run/states/limit-1.data"));
   CHECK(!std::filesystem::exists(scratch / "run/summary.json"));
-  CHECK(lines_of(scratch / "run/path.csv") == 1);
-  CHECK(lines_of(scratch / "run/events.csv") == 1);
+  CHECK(rows_in(scratch / "run/path.csv") == 1);
+  CHECK(rows_in(scratch / "run/events.csv") == 1);
   run.add(sample_point(m, 0, 0, "jump:1"), Field::Zero(3, 5), {});
   CHECK(std::filesystem::exists(scratch / "run/states/jump-1-again.data"));
   for (const std::string& name : mine) CHECK(text_of(scratch / ("run/" + name)) == "mine");

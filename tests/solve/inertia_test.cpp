@@ -7,14 +7,12 @@ using namespace elamin;
 
 namespace {
 
-constexpr double pi_ = 3.14159265358979323846;
-
 // A straight chain of m links of length 1/m, EI = 1, clamped at one end or at both, under the axial force (1 + off) times its lowest
 // critical one. With θ the links' turns, ℓ their length under the force P:  E = B/2 Σ (θᵢ₊₁ − θᵢ)² − Pℓ/2 Σ θᵢ²; θ₀ = 0 at a clamp, so
 //   Pℓ/B = 2 − 2 cos(π/(2m + 1))  free at the other end,   2 − 2 cos(2π/(m + 1))  clamped there too (Σ θᵢ = 0).
 Model column(int m, double slenderness, bool clamped, bool plane, const Vec3& axis, double off, State& state) {
   const double q0 = 1.0 / m, B = m, K = slenderness / (2 * q0);
-  const double c = (1 + off) * (2 - 2 * std::cos(clamped ? 2 * pi_ / (m + 1) : pi_ / (2 * m + 1)));
+  const double c = (1 + off) * (2 - 2 * std::cos(clamped ? 2 * pi / (m + 1) : pi / (2 * m + 1)));
   const double length = (q0 + std::sqrt(q0 * q0 - 2 * B * c / K)) / 2, P = B * c / length;
   Model model = chain(clamped ? m + 3 : m + 2, K, B, q0, axis);
   if (plane) model.plane_normal = 1;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <numbers>
 #include <thread>
 #include <unistd.h>
 
@@ -43,7 +42,7 @@ std::string grain(const std::string& position, double r, double density, const s
          (held.empty() ? "" : "[[support]]\ngroup = \"g\"\ndirections = \"" + held + "\"\n");
 }
 
-double weight(double r, double density) { return 10 * density * 4 / 3 * std::numbers::pi * r * r * r; }
+double weight(double r, double density) { return 10 * density * 4 / 3 * pi * r * r * r; }
 
 // δ of  4/3 E √r δ^{3/2} = F.
 double indentation(double force, double modulus, double r) { return std::pow(force / (4.0 / 3 * modulus * std::sqrt(r)), 2.0 / 3); }

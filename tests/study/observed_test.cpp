@@ -4,7 +4,6 @@
 #include "study/results_of.hpp"
 #include "study/truss.hpp"
 
-#include <numbers>
 
 namespace {
 
@@ -90,7 +89,7 @@ TEST_CASE("a ring that swells: its area goes with the square of what is imposed,
           "[modes]\ncount = 2\n");
   REQUIRE(elamin_says("'" + file + "' --quiet").status == 0);
   const TableRow row = table_of(scratch / "p/path.csv").at(0);
-  const double radius = 2 * 1.5, of_unit = 6 * std::sin(std::numbers::pi / 6);
+  const double radius = 2 * 1.5, of_unit = 6 * std::sin(pi / 6);
   CHECK(row["area"] == Approx(of_unit * radius * radius).epsilon(1e-9));
   CHECK(row["across"] == Approx(2 * radius).epsilon(1e-9));
   CHECK(row["growth"] == Approx(2 * of_unit * radius * 1).epsilon(1e-8));   // dr/dλ = 2 · 0.5

@@ -29,7 +29,7 @@ std::optional<double> number_in(const std::string& cell) {
   return error == std::errc() && end == cell.data() + cell.size() ? std::optional(value) : std::nullopt;
 }
 
-const std::string chain = R"(
+const std::string buckling_chain = R"(
 plane = "xz"
 [[beam]]
 name = "column"
@@ -135,14 +135,14 @@ void check_same_as_alone(const std::string& problem, std::size_t events, const s
 
 TEST_CASE("two ranks and one process: a chain, its first branch point, and the branch that leaves it", "[ranks]") {
   // Closed form: P a = 4B sin²(π/20), a = d − P/(2K): 0.00464.
-  check_same_as_alone(chain + "[path]\nmethod = \"arc_length\"\nsteps = 3\nto = 0.006\nbranches = 1\n", 1);
+  check_same_as_alone(buckling_chain + "[path]\nmethod = \"arc_length\"\nsteps = 3\nto = 0.006\nbranches = 1\n", 1);
 }
 
 TEST_CASE("two ranks and one process: a sheet in contact", "[ranks]") { check_same_as_alone(indented + "[path]\nsteps = 2\n", 13); }
 
 TEST_CASE("two ranks and one process: lowest modes, by SLEPc", "[ranks]") {
   const ScratchDirectory scratch;
-  std::string below = chain;
+  std::string below = buckling_chain;
   below.replace(below.find("[0, 0, -1]"), 10, "[0, 0, -0.003]");
   // In space each bends both ways: pairs of equal eigenvalues, which one Krylov space alone does not tell.
   const std::string in_space = below.substr(below.find("[[beam]]"));
@@ -173,7 +173,7 @@ TEST_CASE("ranks: wrong input is said once", "[ranks]") {
 
 TEST_CASE("a sweep by three ranks, one of them killed, is finished by the next call", "[ranks][sweep]") {
   const ScratchDirectory scratch;
-  const std::string problem = chain + "[path]\nmethod = \"arc_length\"\nto = 0.05\n[[sweep]]\nkey = \"path.steps\"\nvalues = [200, 201, 202, 203, 204, 205, 206, 207]\n";
+  const std::string problem = buckling_chain + "[path]\nmethod = \"arc_length\"\nto = 0.05\n[[sweep]]\nkey = \"path.steps\"\nvalues = [200, 201, 202, 203, 204, 205, 206, 207]\n";
   const std::string file = "'" + scratch.file("sweep.toml", problem) + "' --quiet -o ";
   const std::string together = scratch / "together", pid = scratch / "pid";
   const Answer alone = elamin_says(file + "'" + (scratch / "alone") + "'");

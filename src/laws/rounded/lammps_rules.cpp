@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace elamin {
 
@@ -98,7 +97,7 @@ class Sum {
     for (std::size_t k = 0; k < stored_.size(); ++k)
       if (kept[k]) spread += (place(k) - mean).squaredNorm();
     const double unit = rules_.unit_area < 0 ? 1 : rules_.unit_area;
-    pair_.area_factor = std::max(1.0, std::numbers::pi * spread / count / (count * unit));
+    pair_.area_factor = std::max(1.0, pi * spread / count / (count * unit));
   }
 
   /// On the owner of the face, or of two edges on i.

@@ -2,13 +2,10 @@
 #include "laws/rounded/shape.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace elamin {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Mat3 outer(const Vec3& a, const Vec3& b) { return a * b.transpose(); }
 Mat3 both(const Vec3& a, const Vec3& b) { return outer(a, b) + outer(b, a); }

@@ -7,7 +7,7 @@ namespace elamin {
 namespace {
 
 /// One vertex near one face of the wall.
-struct Near {
+struct NearFace {
   int vertex, face;
   Vec3 arm;
   double distance, gap;
@@ -25,11 +25,11 @@ void visit(const RoundedWall& wall, const RoundedBody& body, const OnNear& near)
     if (wall.region.shape == Shape::plane) {
       const Vec3 n = wall.inside ? wall.region.normal : Vec3(-wall.region.normal);
       const double s = dot(x - wall.region.displacement - ExactVector{wall.region.center, Vec3::Zero()}, ExactVector{n, Vec3::Zero()}).value();
-      if (s - rho <= cutoff) near(Near{k, 0, arm, s, s - rho, n, Mat3::Zero()});
+      if (s - rho <= cutoff) near(NearFace{k, 0, arm, s, s - rho, n, Mat3::Zero()});
       continue;
     }
     for (const WallGap& g : wall_gaps(wall.region, wall.inside, false, x, rho, cutoff))
-      near(Near{k, g.face, arm, g.distance.value, -g.overlap, g.distance.gradient.head<3>(),
+      near(NearFace{k, g.face, arm, g.distance.value, -g.overlap, g.distance.gradient.head<3>(),
           g.distance.hessian.topLeftCorner<3, 3>()});
   }
 }
@@ -38,13 +38,13 @@ void visit(const RoundedWall& wall, const RoundedBody& body, const OnNear& near)
 
 double RoundedWall::value(const RoundedBody& body) const {
   double U = 0;
-  visit(*this, body, [&](const Near& v) { U += kernel.value(v.gap); });
+  visit(*this, body, [&](const NearFace& v) { U += kernel.value(v.gap); });
   return U;
 }
 
 Local<2> RoundedWall::derivatives(const RoundedBody& body) const {
   Local<2> u;
-  visit(*this, body, [&](const Near& v) {
+  visit(*this, body, [&](const NearFace& v) {
     u.value += kernel.value(v.gap);
     const double slope = kernel.slope(v.gap);
     add_point(u, v.arm, slope * v.normal,
@@ -55,7 +55,7 @@ Local<2> RoundedWall::derivatives(const RoundedBody& body) const {
 }
 
 void RoundedWall::touches(const RoundedBody& body, std::vector<RoundedWallTouch>& out) const {
-  visit(*this, body, [&](const Near& v) {
+  visit(*this, body, [&](const NearFace& v) {
     const Vec3 point = body.pose.position.hi + v.arm - v.distance * v.normal;
     out.push_back({v.vertex, v.gap, v.normal, point, -kernel.slope(v.gap), v.face});
   });

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 
 using namespace elamin;
 
@@ -76,7 +75,7 @@ TEST_CASE("more touching contacts than LAMMPS has room for are reported", "[laws
   const int n = 20;
   CoreMesh drum{{}, {}, {{}, {}}};
   for (int k = 0; k < 2 * n; ++k)
-    drum.vertices.push_back({std::cos(k % n * 2 * std::numbers::pi / n), std::sin(k % n * 2 * std::numbers::pi / n), k < n ? -0.3 : 0.3});
+    drum.vertices.push_back({std::cos(k % n * 2 * pi / n), std::sin(k % n * 2 * pi / n), k < n ? -0.3 : 0.3});
   for (int k = 0; k < n; ++k) {
     drum.faces[0].insert(drum.faces[0].begin(), k), drum.faces[1].push_back(n + k);
     drum.faces.push_back({k, (k + 1) % n, n + (k + 1) % n, n + k});
@@ -85,8 +84,8 @@ TEST_CASE("more touching contacts than LAMMPS has room for are reported", "[laws
   const RoundedShape shape = rounded_shape(drum, 0.2);
   const LammpsRules rules{{100, 2, 0.3, RoundedKernel::Form::coded}};
   const RoundedBody below = placed(shape, Vec3::Zero(), quaternion({0, 0, 0}));
-  CHECK(rules.pair(below, placed(shape, {0.001, 0.002, 0.95}, quaternion({0.001, 0.002, std::numbers::pi / n}))).overflow);
-  CHECK(!rules.pair(below, placed(shape, {0.9, 0.02, 0.95}, quaternion({0.001, 0.002, std::numbers::pi / n}))).overflow);
+  CHECK(rules.pair(below, placed(shape, {0.001, 0.002, 0.95}, quaternion({0.001, 0.002, pi / n}))).overflow);
+  CHECK(!rules.pair(below, placed(shape, {0.9, 0.02, 0.95}, quaternion({0.001, 0.002, pi / n}))).overflow);
 }
 
 TEST_CASE("what LAMMPS's rules cannot minimise is said", "[laws][rounded][lammps]") {

@@ -3,13 +3,10 @@
 #include "catch.hpp"
 #include "laws/rounded/bodies.hpp"
 
-#include <numbers>
-
 using namespace elamin;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using Sentences = std::vector<std::string>;
 
 /// Moments of a rounded solid by counting cells of a grid.
@@ -27,9 +24,9 @@ MassProperties counted(const RoundedShape& shape, int cells) {
         if (core_distance(shape, x, heights.data()).value > shape.radius) continue;
         volume += h * h * h, first += h * h * h * x, second += h * h * h * x * x.transpose();
       }
-  const Vec3 center = first / volume;
-  second -= volume * center * center.transpose();
-  return {volume, center, second.trace() * Mat3::Identity() - second};
+  const Vec3 middle = first / volume;
+  second -= volume * middle * middle.transpose();
+  return {volume, middle, second.trace() * Mat3::Identity() - second};
 }
 
 CoreMesh changed(CoreMesh core, int vertex, const Vec3& by) {

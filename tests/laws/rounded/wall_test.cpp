@@ -22,9 +22,9 @@ struct OneBody {
 };
 
 Region plane(int axis, double at, double sign) {
-  Region r;
-  r.center[axis] = at, r.normal = sign * Vec3::Unit(axis);
-  return r;
+  Region half;
+  half.center[axis] = at, half.normal = sign * Vec3::Unit(axis);
+  return half;
 }
 
 }  // namespace
