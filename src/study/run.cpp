@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 namespace elamin {
@@ -58,7 +59,10 @@ void keep_frames(Problem& problem) {
 
 }  // namespace
 
-int usual_threads() { return std::max(1, threads_at_start / (ranks() ? ranks()->on_this_machine() : 1)); }
+int usual_threads() {
+  const int sharing = ranks() && !std::getenv("OMP_NUM_THREADS") ? ranks()->on_this_machine() : 1;
+  return std::max(1, threads_at_start / sharing);
+}
 
 RunResult run(const RunOptions& options) {
   PreparedRuns prepared = prepare_runs(options.file, options.settings);

@@ -40,7 +40,7 @@ struct [[nodiscard]] RunResult {
 
 struct PreparedRuns;
 
-/// Threads where no number is asked for: OMP_NUM_THREADS, else the cores that this process may use; an equal share for each rank on the machine.
+/// Threads where no number is asked for: OMP_NUM_THREADS, which is of one process, else for each rank on the machine an equal share of the cores that it may use.
 int usual_threads();
 
 /// Reads, checks, runs and writes a problem file; with [[sweep]] one run for each combination, in parallel.
