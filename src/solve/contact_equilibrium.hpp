@@ -85,7 +85,7 @@ class ContactEquilibrium {
   PivotedFactor pivoted_{true};
   int version_ = -1;                             // of the pattern that matrix_ was made for, with these contacts …
   Eigen::MatrixXd borders_;                      // … and so many directions held: with zeros for the contacts
-  double border_unit_ = 0;                       // what the factor has them times
+  double border_unit_ = 0;                       // the scale that they have in the factor
   std::vector<HardForce> closed_;
   std::vector<HardGap> gaps_;                    // theirs, at the state last linearised
   SparseMatrix matrix_;

@@ -8,9 +8,9 @@
 
 namespace elamin {
 
-/// s, by which a factorisation of H + τI takes its borders: of the columns' largest entries the least, but √ε of the largest of all at least. Borders
-/// that are much more than what a column has of its own forbid its pivot: of a slender structure, which bends so much more easily than it stretches,
-/// the factor would be a dense one. Borders that are its rounding would not be seen.
+/// s, the scale of the borders of H + τI: the least of the columns' largest entries, and at least √ε times the largest entry of all [force/length].
+/// With larger borders no pivot of a soft column would be accepted, and the factor of a structure that bends much more easily than it stretches would
+/// be dense; smaller ones would be lost in rounding.
 inline double border_scale(const SparseMatrix& hessian, double shift) {
   Vector largest = Vector::Zero(hessian.cols());
   for (int j = 0; j < hessian.outerSize(); ++j)

@@ -20,7 +20,7 @@ namespace elamin {
 
 namespace {
 
-const int threads_at_start = omp_get_max_threads();            // before anything sets it
+const int threads_at_start = omp_get_max_threads();            // before set_threads
 
 std::string default_directory(const std::string& file) {
   std::filesystem::path path(file);

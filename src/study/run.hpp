@@ -40,7 +40,8 @@ struct [[nodiscard]] RunResult {
 
 struct PreparedRuns;
 
-/// Threads where no number is asked for: OMP_NUM_THREADS, which is of one process, else for each rank on the machine an equal share of the cores that it may use.
+/// Threads of a run that asks for no number: OMP_NUM_THREADS; where that is not set, the cores that this process may use, shared equally by the ranks on
+/// the machine.
 int usual_threads();
 
 /// Reads, checks, runs and writes a problem file; with [[sweep]] one run for each combination, in parallel.

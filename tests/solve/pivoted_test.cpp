@@ -89,9 +89,9 @@ TEST_CASE("a slender column at its critical load keeps a sparse factor beside it
     return processor_seconds(begin);
   };
   const double plain = seconds(1, {}), bordered = seconds(0, mode);
-  CHECK(bordered <= 20 * plain);                                         // a dense one takes 500 times as long
+  CHECK(bordered <= 20 * plain);                                         // borders as large as k: 500 times as long
   CHECK(factor.negative() == 1);                                         // the border's
-  // Along the second mode, whose eigenvalue is μ (μ − P); H and its factor are rounded, by a few ε ‖T²‖ = 16 ε.
+  // Along the second mode, whose eigenvalue is μ (μ − P); H and its factor are rounded by a few ε ‖T²‖, ‖T²‖ = 16.
   const double mu = 2 - 2 * std::cos(2 * pi / (n + 1));
   Vector second = Vector::Zero(dofs);
   for (int i = 0; i < n; ++i) second[2 * i + 1] = std::sqrt(2.0 / (n + 1)) * std::sin(2 * pi * (i + 1) / (n + 1));
