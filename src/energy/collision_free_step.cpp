@@ -33,7 +33,21 @@ double root(const Vec3& d, const Vec3& u, double floor) {
   return c / (-b + std::sqrt(discriminant));
 }
 
-double among_particles(const Model& model, const ContactRules& rules, const State& from, const Field& u) {
+double among_particles(const Model& model, const Neighbours& neighbours, const State& from, const State& to, const Field& u) {
+  const ContactRules& rules = neighbours.rules();
+  const auto free_part = [&](const IndexPair& pair) {
+    const auto [i, j] = pair;
+    const double touch = touching(model, rules, i, j);
+    if (touch == 0) return std::numeric_limits<double>::infinity();
+    const Vec3 d = (from.at(j) - from.at(i)).hi;
+    return root(d, u.col(j) - u.col(i), particles_keep * std::min(d.norm(), touch));
+  };
+  if (neighbours.covers(from) && neighbours.covers(to)) {       // then on the whole way
+    double least = 1;
+    for (const auto* list : {&neighbours.hertz(), &neighbours.lj(), &neighbours.hard()})
+      for (const IndexPair& pair : *list) least = std::min(least, free_part(pair));
+    return least;
+  }
   double fastest = 0, smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < model.particles(); ++i)
     if (rules.cutoff_radius(i) > 0) fastest = std::max(fastest, u.col(i).norm()), smallest = std::min(smallest, 2 * rules.cutoff_radius(i));
@@ -46,11 +60,8 @@ double among_particles(const Model& model, const ContactRules& rules, const Stat
     for (int i = 0; i < model.particles(); ++i)
       if (rules.cutoff_radius(i) > 0) radii[i] = rules.cutoff_radius(i) + width / 2 * u.col(i).norm();
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [i, j] : near_pairs(from.position + (begin + width / 2) * u, radii,
-                                         [&](int p, int q) { return touching(model, rules, p, q) > 0; })) {
-      const Vec3 d = (from.at(j) - from.at(i)).hi;
-      least = std::min(least, root(d, u.col(j) - u.col(i), particles_keep * std::min(d.norm(), touching(model, rules, i, j))));
-    }
+    for (const IndexPair& pair : near_pairs(from.position + (begin + width / 2) * u, radii, [&](int p, int q) { return touching(model, rules, p, q) > 0; }))
+      least = std::min(least, free_part(pair));
     if (least <= begin + width) return std::min(looked_at, least);
   }
   return looked_at;
@@ -111,11 +122,12 @@ double at_wall(const Model& model, const Wall& wall, const State& from, const St
 
 }  // namespace
 
-double collision_free_particle_step(const Model& model, const ContactRules& rules, const State& from, const State& to) {
-  if (!rules.any() && model.walls.empty()) return 1;
+double collision_free_particle_step(const Model& model, const Neighbours& neighbours, const State& from, const State& to) {
+  const bool pairs = neighbours.rules().any();
+  if (!pairs && model.walls.empty()) return 1;
   const Field u = displacement(from, to);
   if (!u.allFinite()) return 0;
-  double part = rules.any() ? among_particles(model, rules, from, u) : 1;
+  double part = pairs ? among_particles(model, neighbours, from, to, u) : 1;
   for (const Wall& wall : model.walls)
     if (wall.effective_modulus > 0 || wall.hard) part = std::min(part, at_wall(model, wall, from, to, u));
   return part;

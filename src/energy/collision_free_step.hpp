@@ -1,6 +1,6 @@
 #pragma once
 // How far a step may go before something would pass through something else.
-#include "energy/contact_rules.hpp"
+#include "energy/neighbours.hpp"
 
 namespace elamin {
 
@@ -11,6 +11,6 @@ namespace elamin {
 /// Pairs: exact, from the smaller root of |x_ij + s u_ij| = floor. Walls: conservative advancement, as the distance to a
 /// surface changes no faster than the particle moves (Mirtich 1996). Of a step longer than a thousand of the smallest distances
 /// of touch only so much is looked at, and no more is free. 0: a centre lies on a wall and would go through it.
-double collision_free_particle_step(const Model& model, const ContactRules& rules, const State& from, const State& to);
+double collision_free_particle_step(const Model& model, const Neighbours& neighbours, const State& from, const State& to);
 
 }  // namespace elamin

@@ -316,7 +316,7 @@ double Energy::relative(const Vector& force) const {
 }
 
 std::vector<Touch> Energy::touches(const State& state, double within) {
-  return find_touches(model_, neighbours_.rules(), body_neighbours_.rules(), state, within);
+  return find_touches(model_, neighbours_, body_neighbours_.rules(), state, within);
 }
 
 void Energy::look_around(const State& state) {
@@ -325,7 +325,7 @@ void Energy::look_around(const State& state) {
 }
 
 double Energy::collision_free_step(const State& from, const State& to) const {
-  return std::min(collision_free_particle_step(model_, neighbours_.rules(), from, to), collision_free_body_step(model_, body_neighbours_.rules(), from, to));
+  return std::min(collision_free_particle_step(model_, neighbours_, from, to), collision_free_body_step(model_, body_neighbours_.rules(), from, to));
 }
 
 std::vector<HardForce> Energy::hard_contacts(const State& state, double step_bound) {

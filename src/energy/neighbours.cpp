@@ -17,12 +17,13 @@ Neighbours::Neighbours(const Model& model) : model_(model), rules_(model) {
   skin_ = rules_.any() ? (hard ? hard_skin_of_diameter : skin_of_diameter) * smallest : 0;
 }
 
-bool Neighbours::covers(const State& state) const {
+bool Neighbours::covers(const State& state, double within) const {
   if (!rules_.any()) return true;
-  if (listed_.particles() != state.particles()) return false;
+  if (listed_.particles() != state.particles() || !(within <= skin_)) return false;
+  const double most = (skin_ - within) / 2;                     // each of two may have come nearer by it
   for (Eigen::Index i = 0; i < state.particles(); ++i)
     if (rules_.cutoff_radius(static_cast<int>(i)) > 0 &&
-        !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= skin_ * skin_ / 4))
+        !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= most * most))
       return false;
   for (const HardForce& h : state.hard)
     if (h.wall < 0 && !std::binary_search(pairs_[2].begin(), pairs_[2].end(), IndexPair{h.particle, h.other})) return false;

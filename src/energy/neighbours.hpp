@@ -18,8 +18,8 @@ class Neighbours {
   explicit Neighbours(const Model& model);
 
   const ContactRules& rules() const { return rules_; }
-  /// Whether the list still holds every pair that feels each other at the state.
-  bool covers(const State& state) const;
+  /// Whether the list still holds every pair that feels each other at the state, and every one with a gap of at most `within` [length].
+  bool covers(const State& state, double within = 0) const;
   /// Makes the list hold for the state. True if the candidates have changed.
   bool refresh(const State& state);
   /// Pairs with a Hertz table that is not hard, pairs with a Lennard-Jones table, and hard pairs, ascending.

@@ -15,9 +15,15 @@ namespace elamin {
 
 namespace {
 
-std::vector<IndexPair> candidates(const Model& model, const ContactRules& rules, const State& state, double within) {
-  const auto feel = [&](int i, int j) { return rules.hertz(i, j) >= 0; };
+std::vector<IndexPair> candidates(const Model& model, const Neighbours& neighbours, const State& state, double within) {
   std::vector<IndexPair> pairs;
+  if (neighbours.covers(state, within)) {
+    pairs = neighbours.hertz();
+    pairs.insert(pairs.end(), neighbours.hard().begin(), neighbours.hard().end());
+    return pairs;
+  }
+  const ContactRules& rules = neighbours.rules();
+  const auto feel = [&](int i, int j) { return rules.hertz(i, j) >= 0; };
   if (std::isfinite(within)) {
     std::vector<double> radii(model.particles(), 0.0);
     for (int i = 0; i < model.particles(); ++i)
@@ -89,14 +95,15 @@ double wall_gap(const Model& model, int particle, int wall, const State& state) 
   return least;
 }
 
-std::vector<Touch> find_touches(const Model& model, const ContactRules& rules, const BodyRules& body_rules, const State& state, double within) {
+std::vector<Touch> find_touches(const Model& model, const Neighbours& neighbours, const BodyRules& body_rules, const State& state, double within) {
+  const ContactRules& rules = neighbours.rules();
   std::vector<Touch> touches;
   within = std::max(within, 0.0);
   const auto near = [&](double gap) { return gap < 0 || (gap <= within && within > 0); };
   const HardTouches hard(model, state);
   hard.add_bearing(touches);
   if (rules.any())
-    for (const auto& [i, j] : candidates(model, rules, state, within)) {
+    for (const auto& [i, j] : candidates(model, neighbours, state, within)) {
       const int table = rules.hertz(i, j);
       if (model.contacts[table].hard) {
         hard.add({i, j, -1, -1, 0}, within, touches);

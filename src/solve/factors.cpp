@@ -197,6 +197,28 @@ void Factors::refine(EigenPairs& pairs) {
   for (Eigen::Index j = 0; j < x.cols(); ++j) pairs.values[j] = energy_.quadratic_form(x.col(j));
 }
 
+// As many vectors, of the span of X, F⁻¹X, F⁻²X, …, F = H + σI, that are nearest to the eigenvectors of F's lowest eigenvalues: block Lanczos, each block
+// orthogonal to all before it.  Source: Golub & Underwood 1977; Parlett, The Symmetric Eigenvalue Problem (1998), §13.
+Eigen::MatrixXd Factors::krylov(const Eigen::MatrixXd& x) {
+  const Eigen::Index n = x.rows(), m = x.cols(), most = std::min({limits::krylov_blocks, n / m, std::max<Eigen::Index>(2, limits::krylov_entries / (n * m))});
+  Eigen::MatrixXd q(n, most * m), t = Eigen::MatrixXd::Zero(most * m, most * m), next = x;
+  for (Eigen::Index k = 0;; k += m) {
+    q.middleCols(k, m) = next;
+    const auto all = q.leftCols(k + m);
+    next = cholesky().solve(next);
+    const Eigen::MatrixXd along = all.transpose() * next;
+    t.block(0, k, k + m, m) = along, t.block(k, 0, m, k + m) = along.transpose();
+    if (k + m == q.cols() || interrupted()) break;
+    next -= all * along;
+    for (int twice = 0; twice < 2; ++twice) {
+      next = orthonormal(next);
+      next -= all * (all.transpose() * next);
+    }
+    next = orthonormal(next);
+  }
+  return q * symmetric_eigen(t).vectors.rightCols(m);
+}
+
 EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen::MatrixXd& start) {
   const int n = energy_.dofs();
   assert(count >= 0 && (start.cols() == 0 || start.rows() == n));
@@ -228,6 +250,7 @@ EigenPairs Factors::lowest(int count, double guess, double accuracy, const Eigen
       if (!closer) break;
       shift = *closer;
     }
+    if (k % limits::krylov_rounds == 0 && k > settle) x = krylov(x);            // eigenvalues that lie close to each other part slowly
   }
   EigenPairs pairs{values.head(count), x.leftCols(count)};
   for (int j = 0; j < count; ++j) pairs.values[j] = energy_.quadratic_form(pairs.vectors.col(j));

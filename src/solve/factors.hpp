@@ -109,6 +109,7 @@ class Factors {
   [[nodiscard]] std::optional<Inertia> resolve(Eigen::MatrixXd x, bool positive);
   Vector solve_resolved(const Vector& b);
   Vector solve_shifted(const Vector& b);
+  Eigen::MatrixXd krylov(const Eigen::MatrixXd& x);
   double smallest();
   Energy& energy_;
   double stiffest_ = 0;                          // bond with a free end [force/length]

@@ -21,6 +21,11 @@ constexpr double slope_rounding = 4;
 /// Rounds of inverse iteration after which eigenvalues that do not settle below σ/64 are taken for zero.
 constexpr int patience = 12;
 
+/// Every so many of these rounds so many blocks of a Krylov space, a block a round, find at once what rounds alone take the square of their number
+/// for (Chebyshev; Saad 2011, §6.6); of so many numbers at most, 400 MB.
+constexpr int krylov_rounds = 6;
+constexpr std::ptrdiff_t krylov_blocks = 12, krylov_entries = 50'000'000;
+
 /// Rigid rotations of free parts that are told from other zero modes by their curvature: of more parts than that all are loose, and each is zero to
 /// the forces that are left.
 constexpr std::size_t most_rotations = 60;

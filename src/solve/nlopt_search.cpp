@@ -167,7 +167,7 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
   most_looks_ = derivatives ? (preconditioned ? 100 : 2000) : 200 + 100 * n;
   patience_ = !derivatives ? 20 + 20 * n : preconditioned ? 30 : 500;
   const double far = limits::lost * extent_;
-  for (int idle = 0, rounds = 0;; ++rounds) {
+  for (int idle = 0, rounds = 0, saddles = 0;; ++rounds) {
     energy_.evaluate(best_);
     ++report_.evaluations;
     report_.energy = energy_.last_terms().total(), report_.residual = energy_.relative(energy_.gradient());
@@ -181,6 +181,12 @@ void NloptSearch::local(const NloptAlgorithm& algorithm) {
     if (report_.evaluations >= options_.max_evaluations)
       return end(Status::not_converged, fmt::format("{} evaluations were not enough for {}; the residual is {:.2g}", options_.max_evaluations,
                                                     algorithm.name, report_.residual));
+    // Beside a saddle what goes down has larger forces, and what has smaller ones does not go down.
+    if (idle >= limits::nlopt::most_rounds_without_gain && derivatives && saddles++ < limits::most_saddles && newton_.factors().inertia().negative > 0 &&
+        newton_.leave_saddle(best_, newton_.factors().lowest(1).vectors.col(0))) {
+      idle = 0;
+      continue;
+    }
     if (idle >= limits::nlopt::most_rounds_without_gain)
       return end(Status::not_converged, fmt::format("{} gains nothing more; the residual stays at {:.2g}", algorithm.name, report_.residual));
     if (!begin_round(idle > 0)) {
