@@ -208,7 +208,8 @@ Eigen::MatrixXd Factors::krylov(const Eigen::MatrixXd& x) {
     next = cholesky().solve(next);
     const Eigen::MatrixXd along = all.transpose() * next;
     t.block(0, k, k + m, m) = along, t.block(k, 0, m, k + m) = along.transpose();
-    if (k + m == q.cols() || interrupted()) break;
+    if (interrupted()) return x;
+    if (k + m == q.cols()) break;
     next -= all * along;
     for (int twice = 0; twice < 2; ++twice) {
       next = orthonormal(next);
