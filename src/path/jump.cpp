@@ -15,8 +15,9 @@ using namespace limits;
 // Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
 Report go_down(Newton& newton, State& state) {
   const CountFor snap(FactorsFor::snaps);
-  const Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
-  return report.status == Status::not_converged ? newton.minimise(state) : report;
+  Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
+  for (int k = 0; k < jump::most_descents && report.status == Status::not_converged; ++k) report = newton.minimise(state);
+  return report;
 }
 
 Equilibrium jump_from(Newton& newton, const Event& event, double past, std::string& what) {

@@ -176,6 +176,7 @@ constexpr int most_in_row = 50;  // … or parts in a row move one after the oth
 namespace jump {
 constexpr int most_nearer = 4;  // times the snap begins nearer to its event, by a factor of four each
 constexpr int most_downhill = 50;  // iterations before long steps are allowed
+constexpr int most_descents = 5;  // of solver.max_iterations each: what has many unstable modes comes by a saddle of each, and grows away from it slowly
 }
 
 /// Branches that leave a branch point.

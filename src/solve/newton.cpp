@@ -114,8 +114,15 @@ void Newton::polish(State& state, Report& report, const std::function<double(Sta
 Report Newton::minimise(State& state, Pace pace, int most) {
   const Effort effort(factors_);
   Descent descent{.pace = pace, .most = most, .step_bound = extent_};
+  int& iterations = descent.report.iterations;                  // max_iterations are from the last saddle on, `most` in all
+  int before = 0, saddles = 0;
   std::optional<Halt> halt;
-  while (!(halt = iterate(state, descent))) ++descent.report.iterations;
+  while (!(halt = iterate(state, descent))) {
+    ++iterations;
+    const bool saddle = descent.left && descent.report.residual <= options_.tolerance;
+    if (saddle && ++saddles <= limits::most_saddles) before += iterations, descent.most -= std::exchange(iterations, 0);
+  }
+  iterations += before;
   effort.tell(descent.report);
   if (halt->status == Status::not_converged)
     if (const std::string what = obstacle(energy_, state); !what.empty()) halt->why += "; " + what;
