@@ -12,11 +12,12 @@ namespace elamin {
 
 using namespace limits;
 
-// Downhill the state stays in its valley; where that is long and narrow, long steps go on from there.
+// Downhill the state stays in its valley; where that is long and narrow, long steps go on from there, and on, unless few are allowed.
 Report go_down(Newton& newton, State& state) {
   const CountFor snap(FactorsFor::snaps);
   Report report = newton.minimise(state, Pace::downhill, jump::most_downhill);
-  for (int k = 0; k < jump::most_descents && report.status == Status::not_converged; ++k) report = newton.minimise(state);
+  for (int k = 0; k < jump::most_descents && report.status == Status::not_converged && (k == 0 || report.iterations > jump::most_downhill); ++k)
+    report = newton.minimise(state);
   return report;
 }
 

@@ -943,6 +943,28 @@ TEST_CASE("a box on a floor tips where its edge leaves, however little it overla
   }
 }
 
+TEST_CASE("columns side by side that are all but alike buckle one after the other, or all in one snap", "[paths]") {
+  constexpr double modulus = 0.96e6, critical = 0.0046413862487778006;       // as in problems/hencky_hinged.toml
+  std::ifstream file(case_file("columns_side_by_side"));
+  std::vector<double> loads;
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("youngs_modulus = ")) loads.push_back(critical * std::stod(line.substr(17)) / modulus);
+  REQUIRE(loads.size() == 10);
+  const int steps = GENERATE(1, 7);
+  for (const std::string& method : {by_arcs, by_load_steps}) {
+    const Run straight("columns_side_by_side", {in_steps(steps), method, follows});
+    INFO(straight.what << straight.told() << straight.answer.text);
+    CHECK(straight.answer.status == 0);
+    REQUIRE(straight.of("branch").size() == loads.size());
+    for (std::size_t k = 0; k < loads.size(); ++k) CHECK(straight.of("branch")[k]["lambda"] == Approx(loads[k]).epsilon(to_events));
+  }
+  const Run bent("columns_side_by_side", {in_steps(steps), by_load_steps, snaps});
+  INFO(bent.what << bent.told() << bent.answer.text);
+  CHECK(bent.answer.status == 0);
+  CHECK(bent.of("branch")[0]["lambda"] == Approx(loads[0]).epsilon(to_events));
+  CHECK(bent.path.back()["negative"] == 0);
+}
+
 TEST_CASE("a branch goes on behind a sharp limit point, not back where it came from", "[paths][column_turns_sharply]") {
   const Run first("column_turns_sharply", {follows, in_steps(36)});
   CHECK_ENDS_AT(first, 4683.5831185849738);
