@@ -1,24 +1,18 @@
 #include "model/connect.hpp"
 
 #include "catch.hpp"
+#include "chain.hpp"
 #include "model/beam.hpp"
 #include "model/geometry.hpp"
 #include "model/grains.hpp"
 #include "model/sheet.hpp"
 
-#include <numeric>
 #include <random>
 #include <set>
 
 using namespace elamin;
 
 namespace {
-
-std::vector<int> consecutive(int first, int count) {
-  std::vector<int> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), first);
-  return numbers;
-}
 
 Model points(const Field& x) {
   Model m;
@@ -60,7 +54,7 @@ TEST_CASE("Every near pair is bonded once, with its length as built", "[model]")
   for (int i = 0; i < 200; ++i)
     for (int j = 100; j < 300; ++j)
       if (i != j && (x.col(i) - x.col(j)).norm() < within * scale) expected.insert(std::minmax(i, j));
-  const int made = connect(m, connection(consecutive(0, 200), consecutive(100, 200), within * scale));
+  const int made = connect(m, connection(numbers(200), numbers(200, 100), within * scale));
   CHECK(bonds_of(m) == expected);
   CHECK(m.bonds.size() == expected.size());
   CHECK(made == static_cast<int>(expected.size()) - 2);
@@ -79,7 +73,7 @@ TEST_CASE("The nearest ones of each particle, those of lower index where they ar
   Field x(3, 7);
   x << 0, 1, -1, 0, 0, 0.3, 5, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 0, 1, 0;
   Model m = points(x.colwise() + shift);
-  Connection c = connection({0}, consecutive(1, 6), 2);
+  Connection c = connection({0}, numbers(6, 1), 2);
   c.bonds_per_particle = GENERATE(1, 2, 3, 4, 5, 9);
   const int made = connect(m, c);
   CHECK(made == std::min(c.bonds_per_particle, 5));
@@ -93,7 +87,7 @@ TEST_CASE("Distances that differ by rounding are equally far", "[model]") {
   Field x = Field::Zero(3, 4);
   x(0, 1) = 1 + 1e-13, x(1, 2) = 1, x(2, 3) = 1 - 1e-6;
   Model m = points(x);
-  Connection c = connection({0}, consecutive(1, 3), 2);
+  Connection c = connection({0}, numbers(3, 1), 2);
   c.bonds_per_particle = 2;
   CHECK(connect(m, c) == 2);
   CHECK(bonds_of(m) == std::set<std::pair<int, int>>{{0, 1}, {0, 3}});
@@ -104,9 +98,9 @@ TEST_CASE("A distance that is `within` to rounding is within", "[model]") {
     Field x(3, 11);
     for (int k = 0; k < 11; ++k) x.col(k) = Vec3(k * s, 1e3 * s / 3, 0);
     Model m = points(x);
-    CHECK(connect(m, connection(consecutive(0, 11), consecutive(0, 11), s)) == 10);
+    CHECK(connect(m, connection(numbers(11), numbers(11), s)) == 10);
     Model fewer = points(x);
-    CHECK(connect(fewer, connection(consecutive(0, 11), consecutive(0, 11), s * (1 - 1e-6))) == 0);
+    CHECK(connect(fewer, connection(numbers(11), numbers(11), s * (1 - 1e-6))) == 0);
     CHECK((fewer.bonds.empty() && fewer.bond_types.empty()));
   }
 }
@@ -116,7 +110,7 @@ TEST_CASE("A post on a beam: bond types by length, angle types by rest angle", "
                     top = exact(Vec3(0, 0, 4));
   Model m;
   add_beams(m, {{"beam", row(left, right, 5).centers, 1, 1, 0, {1, 1}, {1}}, {"post", row(foot, top, 4).centers, 1, 1, 0, {1, 1}, {1}}});
-  Connection c = connection(consecutive(5, 4), consecutive(0, 5), 1.5);   // the foot to the middle and, at √2, to its neighbours
+  Connection c = connection(numbers(4, 5), numbers(5), 1.5);   // the foot to the middle and, at √2, to its neighbours
   c.angle_stiffness = 7;
   REQUIRE(connect(m, c) == 3);
   REQUIRE(m.bonds.size() == 4 + 3 + 3);
@@ -146,7 +140,7 @@ TEST_CASE("Rest length and rest angle may be given", "[model]") {
   Model m;
   add_beams(m, {{"a", row(exact(Vec3(0, 0, 0)), exact(Vec3(3, 0, 0)), 4).centers, 1, 1, 0, {1, 1}, {1}},
                 {"b", row(exact(Vec3(4, 0, 0)), exact(Vec3(4, 3, 0)), 4).centers, 1, 1, 0, {1, 1}, {1}}});
-  Connection c = connection(consecutive(0, 4), consecutive(4, 4), 1.5);
+  Connection c = connection(numbers(4), numbers(4, 4), 1.5);
   c.rest_length = 0.8, c.angle_stiffness = 2, c.as_built = false, c.rest = 3;
   REQUIRE(connect(m, c) == 2);   // (3, 4) and the diagonal (3, 5)
   CHECK((m.bond_types.size() == 3 && m.bond_types[2].rest_length == 0.8));
@@ -162,7 +156,7 @@ TEST_CASE("Two plates laid on each other are glued all over", "[model]") {
   Model m;
   add_sheets(m, {s, above});
   const int n = m.structures[0].count;
-  Connection c = connection(consecutive(0, n), consecutive(n, n), 1);
+  Connection c = connection(numbers(n), numbers(n, n), 1);
   c.angle_stiffness = 1;
   const std::size_t bonds = m.bonds.size(), angles = m.angles.size();
   CHECK(connect(m, c) == n);
@@ -176,7 +170,7 @@ TEST_CASE("Nothing near, nothing made; too much is refused", "[model]") {
   CHECK(connect(m, connection({}, {1}, 1)) == 0);
   CHECK(connect(m, connection({1}, {}, 1)) == 0);
   CHECK(connect(m, connection({1}, {1}, 1)) == 0);
-  CHECK(connect(m, connection(consecutive(0, 4500), consecutive(0, 4500), 10)) == -1);
+  CHECK(connect(m, connection(numbers(4500), numbers(4500), 10)) == -1);
   CHECK((m.bonds.empty() && m.bond_types.empty()));
 }
 
@@ -184,13 +178,13 @@ TEST_CASE("The nearest ones are found however far they are", "[model]") {
   Field x(3, 4);
   x << 0, 1, 100, 1000, 0, 0, 0, 0, 0, 0, 0, 0;
   Model m = points(x);
-  Connection c = connection(consecutive(0, 4), consecutive(0, 4), 0);
+  Connection c = connection(numbers(4), numbers(4), 0);
   c.bonds_per_particle = 1;
   CHECK(connect(m, c) == 3);
   CHECK(bonds_of(m) == std::set<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}});
   // As with a distance that takes in everything.
   Model far = points(random_points(60, 1)), near = far;
-  Connection any = connection(consecutive(0, 60), consecutive(0, 60), 0), within = connection(consecutive(0, 60), consecutive(0, 60), 10);
+  Connection any = connection(numbers(60), numbers(60), 0), within = connection(numbers(60), numbers(60), 10);
   any.bonds_per_particle = within.bonds_per_particle = 3;
   CHECK(connect(far, any) == connect(near, within));
   CHECK(bonds_of(far) == bonds_of(near));
@@ -207,8 +201,8 @@ TEST_CASE("New bonds have a type for each stiffness and length; EA makes K = EA/
   CHECK(m.bonds[2].type == m.bonds[3].type);
   CHECK(m.bond_types[m.bonds[2].type].stiffness == 2);
   CHECK(m.bond_types[m.bonds[4].type].stiffness == 6);
-  CHECK(meeting_bonds(m, consecutive(0, 4), 0).size() == 1 + 3 + 3 + 1);
-  CHECK(meeting_bonds(m, consecutive(0, 3), 0).size() == 3);
+  CHECK(meeting_bonds(m, numbers(4), 0).size() == 1 + 3 + 3 + 1);
+  CHECK(meeting_bonds(m, numbers(3), 0).size() == 3);
   add_angles(m, {{{0, 1, 2}, 3, -1}, {{1, 2, 3}, 3, -1}, {{1, 2, 3}, 3, 2.5}});
   CHECK(m.angle_types.size() == 2);
   CHECK(m.angle_types[m.angles[0].type].rest == pi);
@@ -219,5 +213,5 @@ TEST_CASE("Bonds that meet at an angle or more are the straight ones of a lattic
   s.name = "s", s.size = {6, 6}, s.spacing = s.diameter = 1, s.bond_stiffness = s.angle_stiffness = 1;
   Model m;
   add_sheets(m, {s});
-  CHECK(meeting_bonds(m, consecutive(0, m.particles()), 150 * pi / 180).size() == m.angles.size());
+  CHECK(meeting_bonds(m, numbers(m.particles(), 0), 150 * pi / 180).size() == m.angles.size());
 }

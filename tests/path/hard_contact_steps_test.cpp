@@ -6,15 +6,9 @@
 
 using namespace elamin;
 
-namespace {
-
-constexpr double round_K = pi / 8, round_B = pi / 64;              // a round section of unit modulus and diameter 1, on spacing 1
-
-}  // namespace
-
 TEST_CASE("a hard plane lifts a beam along a path", "[path][hard]") {
   const int n = 20;
-  Model m = chain(n, round_K, round_B, 1, Vec3::UnitX());
+  Model m = chain(n, round_bond, round_angle, 1, Vec3::UnitX());
   m.plane_normal = 1;
   hold(m, 0, 1), hard_plane(m, Vec3(0, 0, -1)).displacement = Vec3(0, 0, 2);
   m.walls[0].particles = {n - 2, n - 1};
@@ -66,7 +60,7 @@ TEST_CASE("a hard plane lifts a beam along a path", "[path][hard]") {
 
 TEST_CASE("a column between hard walls goes on by its contacts", "[path][hard]") {
   const int n = 40;
-  Model m = chain(n, round_K, round_B, 1);
+  Model m = chain(n, round_bond, round_angle, 1);
   m.plane_normal = 1;
   hold(m, 0, 1), hold(m, n - 2, n - 1, {true, true, true}, Vec3(0, 0, -0.5));
   m.loads.push_back({"", {n / 2}, Vec3(1e-5, 0, 0), Scaling::constant()});

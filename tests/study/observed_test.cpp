@@ -4,7 +4,6 @@
 #include "study/results_of.hpp"
 #include "study/truss.hpp"
 
-
 namespace {
 
 std::string observe(const std::string& name, const std::string& quantity, const std::string& rest) {
