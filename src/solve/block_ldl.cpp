@@ -87,7 +87,8 @@ Eigen::MatrixXd BlockLdl::solve(const Eigen::MatrixXd& b) {
     if (const int other = std::abs(pivots_.order[of.super[s] + k]) - 1; other != k) x.row(of.super[s] + k).swap(x.row(of.super[s] + other));
   };
   for (int s = 0; s < of.count(); ++s) {
-    const int c = of.columns(s), more = of.height(s) - c, *rows = &of.rows[of.pi[s] + c];
+    const int c = of.columns(s), more = of.height(s) - c;
+    const std::span<const int> rows = of.rows.subspan(of.pi[s] + c, more);
     for (int k = 0; k < c; ++k) exchange(s, k);
     divide(s, "N");
     if (more > 0) part.noalias() = below(s) * x.middleRows(of.super[s], c);
@@ -95,7 +96,8 @@ Eigen::MatrixXd BlockLdl::solve(const Eigen::MatrixXd& b) {
     divide_by_pivots(s, x.middleRows(of.super[s], c));
   }
   for (int s = of.count(); s-- > 0;) {
-    const int c = of.columns(s), more = of.height(s) - c, *rows = &of.rows[of.pi[s] + c];
+    const int c = of.columns(s), more = of.height(s) - c;
+    const std::span<const int> rows = of.rows.subspan(of.pi[s] + c, more);
     part.resize(more, b.cols());
     for (int i = 0; i < more; ++i) part.row(i) = x.row(rows[i]);
     if (more > 0) x.middleRows(of.super[s], c).noalias() -= below(s).transpose() * part;

@@ -290,7 +290,7 @@ void Multifrontal::eliminate_block(const Front& front) {
       for (int i = 0; i < below; ++i) to[i] = by * at[i], taken[i] += std::abs(to[i] * at[i]);
     }
   }
-  const int* const row = &of_.rows[of_.pi[front.s] + c];
+  const std::span<const int> row = of_.rows.subspan(of_.pi[front.s] + c, below);
   for (int i = 0; i < below; ++i)
     if (!(taken[i] <= growth * diagonal_[row[i]])) failed_ = true;            // not a number, either
   if (failed_) return;
