@@ -2,6 +2,7 @@
 
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
+#include "core/sparse.hpp"
 #include "core/timing.hpp"
 #include "dynamics/forces.hpp"
 #include "energy/step_limits.hpp"
@@ -49,11 +50,7 @@ Vector masses(Energy& energy) {
   const SparseMatrix& K = energy.hessian();
   Vector m = Vector::Zero(energy.dofs());
   for (const int d : energy.null_dofs()) m[d] = -std::abs(K.valuePtr()[K.outerIndexPtr()[d]]);     // not theirs
-  for (int j = 0; j < K.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(K, j); it; ++it) {
-      m[j] += std::abs(it.value());
-      if (it.row() != j) m[it.row()] += std::abs(it.value());
-    }
+  add_absolute_row_sums(K, m);
   const Kinematics& kinematics = energy.kinematics();
   std::vector<double> light(kinematics.sites(), 0.0);
   const auto contact = [&](double modulus, const std::vector<int>& particles) {

@@ -322,9 +322,10 @@ BilinearForm Assembler::form(const Field& u, const Field& v, const State* state)
   return {sum.value(), size};
 }
 
-double Assembler::largest_element_force() const {
+double Assembler::largest_element_force(std::size_t first, std::size_t last) const {
+  const auto begins = [&](std::size_t k) { return k < gradient_offset_.size() ? static_cast<std::size_t>(gradient_offset_[k]) : gradients_.size(); };
   double largest = 0;
-  for (std::size_t i = 0; i < gradients_.size(); i += 3)
+  for (std::size_t i = begins(first); i < begins(last); i += 3)
     largest = std::max(largest, Eigen::Map<const Vec3>(gradients_.data() + i).norm());
   return largest;
 }

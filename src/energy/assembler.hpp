@@ -56,8 +56,8 @@ class Assembler {
   /// uᵀHv in the same way, summed with compensation. `state`: of the last evaluation, where laws that form it better than their Hessian's
   /// entries do so anew; null: all of it from the entries.
   BilinearForm form(const Field& u, const Field& v, const State* state) const;
-  /// Largest force of one element on one site, from the last evaluation: the scale of internal forces.
-  double largest_element_force() const;
+  /// Largest force of one element on one site, of the groups from the number `first` to before `last`, from the last evaluation.
+  double largest_element_force(std::size_t first, std::size_t last) const;
 
  private:
   void sum_values();

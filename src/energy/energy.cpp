@@ -1,5 +1,6 @@
 #include "energy/energy.hpp"
 
+#include "core/sparse.hpp"
 #include "energy/body_groups.hpp"
 #include "energy/body_collision_free_step.hpp"
 #include "energy/groups.hpp"
@@ -48,6 +49,18 @@ double stiffest(const Model& model) {
   for (const Wall& w : model.walls) rounded(w.kernel, w.bodies);
   for (const PairContact& c : model.contacts)
     if (c.law == PairContact::Law::lj) most = std::max(most, c.epsilon / c.sigma);
+  return most;
+}
+
+// The largest force of bonds and angles at rest: 2K and B/r₀² times how exact rest lengths, rest angles and places may be.
+double rounding_of_glue(const Model& model) {
+  double most = 0;
+  const auto place = [&](int i) { return model.start.at(i).hi.lpNorm<Eigen::Infinity>(); };
+  const auto length = [&](int i, int j) { return (model.start.at(j) - model.start.at(i)).hi.norm(); };
+  const auto add = [&](double stiffness, int i, int j) { most = std::max(most, 4 * epsilon * stiffness * (length(i, j) + place(i) + place(j))); };
+  for (const Bond& b : model.bonds) add(2 * model.bond_types[b.type].stiffness, b.particles[0], b.particles[1]);
+  for (const Angle& a : model.angles)
+    if (const double l = length(a.particles[0], a.particles[1]); l > 0) add(model.angle_types[a.type].stiffness / (l * l), a.particles[0], a.particles[1]);
   return most;
 }
 
@@ -125,6 +138,7 @@ Energy::Energy(const Model& model)
       add(p.particles[k], p.pressure * p.rim.col(static_cast<Eigen::Index>(k)), p.scaling);
   for (const Glued& g : model.glued) constant_load_.col(g.particle).setZero(), scaled_load_.col(g.particle).setZero();
   force_floor_ = std::max(epsilon * stiffest(model), floor_of_bodies(model));
+  glue_rounding_ = rounding_of_glue(model);
   unbonded_dofs_ = unbonded_dofs_of(model, kinematics_);
   null_dofs_.reserve(unbonded_dofs_.size());
   groups_.resize(places);
@@ -239,11 +253,7 @@ void Energy::anchor_null_dofs() {
   SparseMatrix& h = assembler_->hessian();
   Vector& stiffness = row_sums_;
   stiffness.setZero(dofs());
-  for (int j = 0; j < h.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(h, j); it; ++it) {
-      stiffness[j] += std::abs(it.value());
-      if (it.row() != j) stiffness[it.row()] += std::abs(it.value());
-    }
+  add_absolute_row_sums(h, stiffness);
   const double largest = stiffness.size() ? stiffness.maxCoeff() : 0.0;
   for (const int d : unbonded_dofs_)
     if (stiffness[d] == 0) {
@@ -257,12 +267,14 @@ void Energy::anchor_null_dofs() {
 void Energy::finish_gradient(const State& state) {
   load_factor_ = state.load_factor;
   assembler_->gradient(site_gradient_);
-  force_scale_ = assembler_->largest_element_force();
+  glue_force_ = assembler_->largest_element_force(bonds, contacts);
+  other_force_ = assembler_->largest_element_force(contacts, groups_.size());
   for (Eigen::Index p = 0; p < site_gradient_.cols(); ++p) {
     const Vec3 load = constant_load_.col(p) + state.load_factor * scaled_load_.col(p);
     site_gradient_.col(p) -= load;
-    force_scale_ = std::max(force_scale_, load.norm());
+    other_force_ = std::max(other_force_, load.norm());
   }
+  force_scale_ = std::max(glue_force_, other_force_);
   kinematics_.restrict(site_gradient_, gradient_);
 }
 

@@ -90,8 +90,9 @@ class Energy {
   double force_scale() const { return force_scale_; }
   /// What that is taken to be at least, for where there is no force: rounding of what is stiffest.
   double force_floor() const { return force_floor_; }
-  /// Whether nothing at the evaluated state bears a force: particles overlap by less than 1e-15 of their size then, bodies by 1e-12.
-  bool slack() const { return force_scale_ <= no_force(); }
+  /// Whether nothing at the evaluated state bears a force: particles overlap by less than 1e-15 of their size then, bodies by 1e-12; what bonds and angles
+  /// bear where they are at rest is rounding of rest lengths, rest angles and places.
+  bool slack() const { return other_force_ <= no_force() && glue_force_ <= glue_rounding_; }
   /// A force that counts as none.
   double no_force() const { return nothing * force_floor_; }
   /// The largest component of a force on the free dofs (dofs), relative to the scale of internal forces: a residual.
@@ -146,6 +147,7 @@ class Energy {
   EnergyTerms terms_;
   static constexpr double nothing = 1e-7;                     // of the floor: well above what residuals leave, 1e-10 of it
   double force_scale_ = 0, force_floor_ = 0;
+  double glue_force_ = 0, other_force_ = 0, glue_rounding_ = 0;            // the largest of bonds and angles, of everything else
   std::vector<int> unbonded_dofs_, null_dofs_;                             // free dofs of single particles and bodies; those without stiffness
   std::vector<std::string> own_;                              // terms of the groups behind those of the model
 };

@@ -1,5 +1,6 @@
 #include "path/push.hpp"
 
+#include "core/sparse.hpp"
 #include "path/limits.hpp"
 #include "solve/cholesky.hpp"
 
@@ -37,12 +38,16 @@ Report push_aside(Newton& newton, const State& from, double way, double others, 
     const bool done = energy.slack() && left <= push::left * ground * infinity_norm(moved);
     if (energy.slack()) since = 0, least = std::numeric_limits<double>::infinity();
     else since = left < least / 2 ? 0 : since + 1, least = std::min(least, left);
-    const auto hold = [&] {                                     // the ground holds them
+    // The ground holds them; parts that are glued, beside whose stiffness it is nothing, what is as little as rounding of their rows.
+    const auto hold = [&] {
       SparseMatrix h = energy.hessian();
       for (const int d : energy.null_dofs()) h.valuePtr()[h.outerIndexPtr()[d]] = 0;
+      Vector rows = Vector::Zero(energy.dofs());
+      add_absolute_row_sums(h, rows);
+      for (int d = 0; d < energy.dofs(); ++d) h.valuePtr()[h.outerIndexPtr()[d]] += std::max(ground, 16 * epsilon * rows[d]);
       if (version != energy.pattern_version()) factor.analyze(h), version = energy.pattern_version();
       ++report.factorizations;
-      return factor.factorize(h, ground);
+      return factor.factorize(h, 0);
     };
     if (!hold()) {                                              // an overlap pushes sideways: without what that takes
       if (!(others > 0)) return report;

@@ -2,6 +2,7 @@
 
 #include "core/heartbeat.hpp"
 #include "core/interrupt.hpp"
+#include "core/sparse.hpp"
 #include "model/rigid_motion.hpp"
 #include "solve/limits.hpp"
 #include "solve/ritz.hpp"
@@ -118,11 +119,7 @@ Factors::Bordered Factors::solve_bordered(const Vector& column, const Vector& ro
 double Factors::zero_level() const {
   const SparseMatrix& h = energy_.hessian();
   Vector sums = Vector::Zero(h.cols());
-  for (int j = 0; j < h.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(h, j); it; ++it) {
-      sums[j] += std::abs(it.value());
-      if (it.row() != j) sums[it.row()] += std::abs(it.value());
-    }
+  add_absolute_row_sums(h, sums);
   return limits::rounding * epsilon * std::max(stiffest_, sums.size() ? sums.maxCoeff() : 0.0);
 }
 
