@@ -299,11 +299,13 @@ std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, co
   const auto place = [](const std::vector<HardForce>& among, const HardForce& h) {
     return std::find_if(among.begin(), among.end(), [&](const HardForce& x) { return key(x) == key(h); });
   };
-  const auto before = [](const HardForce& a, const HardForce& b) { return key(a) < key(b); };
-  const int most_pivots = limits::hard::pivots_at_least + limits::hard::pivots_each * static_cast<int>(slack.size());
-  std::size_t least = slack.size() + 1;                         // that were wrong so far
-  int chances = limits::hard::block_chances;
-  for (int pivot = 0; pivot < most_pivots && !interrupted(); ++pivot) {
+  const auto close = [&](const HardForce& h, bool closed) {
+    if (const auto at = place(state.hard, h); at != state.hard.end()) state.hard.erase(at);
+    if (closed) state.hard.push_back({h.particle, h.other, h.wall, h.face, 0});
+    std::sort(state.hard.begin(), state.hard.end(), [](const HardForce& x, const HardForce& y) { return key(x) < key(y); });
+  };
+  // Those of `slack` whose force or gap falls below zero; nothing where the equations have no solution.
+  const auto wrong = [&]() -> std::optional<std::vector<const HardForce*>> {
     linearise(state, nullptr);
     // Motions that cost nothing are as soft as can be told from that: whether contacts hold them is what is asked here.
     if (!factorize_near(16 * std::max(factors_.zero_level(), epsilon * scale_))) return {};
@@ -319,22 +321,32 @@ std::optional<std::vector<HardForce>> ContactEquilibrium::onward(State state, co
       if (hard_gap(energy_.model(), slack[k], state, open[k])) speed = std::max(speed, std::abs(rate(open[k])));
     const double no_gap = limits::hard::rounding_of_rates * speed;
     const double no_force = limits::hard::rounding_of_rates * std::max(infinity_norm(step.force), infinity_norm(load)) + 64 * epsilon * scale_ * motion;
-    std::vector<const HardForce*> wrong;
+    std::vector<const HardForce*> found;
     for (std::size_t k = 0; k < slack.size(); ++k) {
       const auto at = place(state.hard, slack[k]);
       const bool bad = at != state.hard.end() ? step.force[at - state.hard.begin()] < -no_force
                                               : open[k].sites > 0 && along(open[k], step.p) + direction * rate(open[k]) < -no_gap;
-      if (bad) wrong.push_back(&slack[k]);
+      if (bad) found.push_back(&slack[k]);
     }
-    if (wrong.empty()) return state.hard;
-    if (wrong.size() < least) least = wrong.size(), chances = limits::hard::block_chances;
+    return found;
+  };
+  const int most_pivots = limits::hard::pivots_at_least + limits::hard::pivots_each * static_cast<int>(slack.size());
+  std::size_t least = slack.size() + 1;                         // that were wrong so far
+  int chances = limits::hard::block_chances;
+  for (int pivot = 0; pivot < most_pivots && !interrupted(); ++pivot) {
+    auto change = wrong();
+    if (!change) break;
+    if (change->empty()) return state.hard;
+    if (change->size() < least) least = change->size(), chances = limits::hard::block_chances;
     else --chances;
-    if (chances <= 0) wrong.erase(wrong.begin() + 1, wrong.end());                        // in the order of `slack`
-    for (const HardForce* h : wrong) {
-      if (const auto at = place(state.hard, *h); at != state.hard.end()) state.hard.erase(at);
-      else state.hard.push_back({h->particle, h->other, h->wall, h->face, 0});
-    }
-    std::sort(state.hard.begin(), state.hard.end(), before);
+    if (chances <= 0) change->erase(change->begin() + 1, change->end());                  // in the order of `slack`
+    for (const HardForce* h : *change) close(*h, place(state.hard, *h) == state.hard.end());
+  }
+  // Where one of the choices is unstable, as at the end of two branches that are mirror images, pivots may go round in a circle past the right one.
+  if (slack.size() > limits::hard::most_tried) return {};
+  for (std::size_t choice = std::size_t{1} << slack.size(); choice-- > 0 && !interrupted();) {
+    for (std::size_t k = 0; k < slack.size(); ++k) close(slack[k], choice >> k & 1);
+    if (const auto change = wrong(); change && change->empty()) return state.hard;
   }
   return {};
 }

@@ -61,7 +61,8 @@ class ContactEquilibrium {
   /// neither a gap nor a force: those of State::hard that are not among them, and of them those that the rates tell,
   ///   ċ ≥ 0,  ḟ ≥ 0,  ċ ḟ = 0,
   /// a linear complementarity problem: all that are wrong change sides, and where that does not lead on the first one alone, which
-  /// comes to an end at a stable equilibrium. Nothing if none are right: there the equilibrium ends.
+  /// comes to an end at a stable equilibrium; where that does not either, of few contacts all choices. Nothing if none are right: there
+  /// the equilibrium ends.
   /// Source: Júdice & Pires 1994, Computers Ops Res. 21, 587 (block principal pivoting); Murty 1974, Linear Algebra Appl. 9.
   [[nodiscard]] std::optional<std::vector<HardForce>> onward(State state, const std::vector<HardForce>& slack, double direction);
 

@@ -125,6 +125,8 @@ constexpr int most_steps = 30, most_polishing = 4, most_changes = 40;
 constexpr int block_chances = 3;
 /// Single pivots: so many, and so many more for each contact without force.
 constexpr int pivots_at_least = 20, pivots_each = 4;
+/// Of so many contacts all choices are tried, 64 factorisations.
+constexpr std::size_t most_tried = 6;
 /// Rounding of rates along a path, of the largest: those of a solution with a condition number of 10⁷.
 constexpr double rounding_of_rates = 1e-9;
 }  // namespace hard
