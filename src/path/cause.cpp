@@ -37,6 +37,21 @@ std::string changing_contact(Energy& energy, const State& state) {
   return "";
 }
 
+// What the load drives along a motion that costs nothing: then no other load factor has an equilibrium near.
+std::string driven_freely(Energy& energy, const Equilibrium& last) {
+  const Vector load = energy.load_derivative();
+  Vector freely = Vector::Zero(load.size());
+  if (last.zero_modes.cols() > 0) freely = last.zero_modes * (last.zero_modes.transpose() * load);
+  for (const int d : energy.null_dofs()) freely[d] = load[d];
+  if (!(freely.norm() > cause::soft * load.norm())) return "";
+  Eigen::Index most = 0;
+  freely.cwiseAbs().maxCoeff(&most);
+  const Kinematics& kinematics = energy.kinematics();
+  const int site = kinematics.site_of(static_cast<int>(most)), body = kinematics.body_of(site);
+  return fmt::format("the load moves {}, which nothing holds; hold it with a [[support]], or with a wall",
+                     called(energy.model(), body >= 0 ? energy.model().particles() + body : site));
+}
+
 }  // namespace
 
 std::string cause_at(Newton& newton, const Equilibrium& last) {
@@ -46,6 +61,7 @@ std::string cause_at(Newton& newton, const Equilibrium& last) {
   if (std::string why = changing_contact(energy, state); !why.empty()) return why;
   if (energy.dofs() == 0) return "";
   energy.evaluate(state);
+  if (std::string why = driven_freely(energy, last); !why.empty()) return why;
   const double stiffest = newton.factors().zero_level() / (16 * epsilon);
   const EigenPairs lowest = newton.factors().lowest(std::min(energy.dofs(), last.point.stability.negative + 1));
   if (lowest.values.size() > 0 && lowest.values.cwiseAbs().minCoeff() <= cause::soft * stiffest)
