@@ -174,7 +174,7 @@ bool Continuation::goes_on_behind(Event& event) {
   // Where the load factor turns at a contact the branch may be stable on both sides, but goes back: a path of stable states cannot take it.
   const bool stable_only = options_.when_unstable == WhenUnstable::jump && event.before == 0;
   const bool loses = event.before == 0 && event.after > 0, ends = event.kind == EventKind::limit && (!arcs() || stable_only);
-  if (!loses && !ends) return true;
+  if (!loses && !ends) return !crosses_over(event);
   switch (options_.when_unstable) {
     case WhenUnstable::jump: jump(event); return false;
     case WhenUnstable::stop:
@@ -186,14 +186,31 @@ bool Continuation::goes_on_behind(Event& event) {
   return !ends;
 }
 
-// Just past the event the branch has turned unstable or ended: the state snaps to the minimum below.
-void Continuation::jump(const Event& event) {
-  const double at = event.at.point.state.load_factor;
-  double way = continuation::snap_beyond * std::abs(range());                 // but not beyond what is to be hit
+// A load factor just past an event, but not beyond what is to be hit.
+double Continuation::beyond(double at) const {
+  double way = continuation::snap_beyond * std::abs(range());
   for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
     if (const double ahead = (target - at) / range(); ahead > continuation::same_load) way = std::min(way, ahead * std::abs(range()) / 2);
+  return at + std::copysign(way, range());
+}
+
+// Where a stable branch meets another one and goes back, which load steps do not: a path of stable states goes on along the other one.
+bool Continuation::crosses_over(const Event& event) {
+  if (!event.arrival || !arcs() || !steps_ || options_.when_unstable != WhenUnstable::jump || event.before + event.after > 0) return false;
+  if (arc_steps().direction().load * range() >= 0) return false;
+  Equilibrium held = event.at;
+  held.zero_modes = side_by_side(held.zero_modes, event.modes);
+  Equilibrium other = continue_to(newton_, held, beyond(event.at.point.state.load_factor));
+  if (!other.point.report.converged() || other.point.stability.negative > 0) return false;
+  begin_at(other);
+  emit(std::move(other.point));
+  return true;
+}
+
+// Just past the event the branch has turned unstable or ended: the state snaps to the minimum below.
+void Continuation::jump(const Event& event) {
   std::string what;
-  Equilibrium landed = jump_from(newton_, event, at + std::copysign(way, range()), what);
+  Equilibrium landed = jump_from(newton_, event, beyond(event.at.point.state.load_factor), what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
   if (!landed.point.report.converged()) return end(landed.point.report.status, landed.point.report.why);
   land(std::move(landed), what, event.before, event.at.point.label);

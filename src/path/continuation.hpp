@@ -42,6 +42,8 @@ class Continuation : public Path {
   void show(Waypoint waypoint);
   std::optional<Resume> resume_here(const Waypoint& waypoint) const;
   bool goes_on_behind(Event& event);
+  double beyond(double at) const;
+  [[nodiscard]] bool crosses_over(const Event& event);
   void jump(const Event& event);
   void begin_at(Equilibrium& at);
   void land(Equilibrium at, const std::string& what, int before, const std::string& parent);
