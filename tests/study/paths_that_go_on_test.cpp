@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -359,7 +360,7 @@ TEST_CASE("a strip meets a stop: every contact is one", "[paths][strip_spurious_
 TEST_CASE("a beam is followed along stiff walls", "[paths][contact_stiff_arc_length]") {
   const Run soft("beam_stiff_walls", {in_steps(50), "wall.left.effective_modulus=1e10", "wall.right.effective_modulus=1e10"});
   CHECK_ENDS_AT(soft, 2);
-  std::vector<Run> runs;
+  std::deque<Run> runs;                                        // which does not move them
   for (const int n : {20, 50, 100}) {
     const Run run("beam_stiff_walls", {in_steps(n)});
     CHECK_ENDS_AT(run, 2);
@@ -970,4 +971,55 @@ TEST_CASE("a branch goes on behind a sharp limit point, not back where it came f
   CHECK_ENDS_AT(first, 4683.5831185849738);
   CHECK(first.of("limit").size() == 8);
   same_events(first, Run("column_turns_sharply", {follows, in_steps(60)}));
+}
+
+// The rest lengths of its bonds are rounded: what they bear is no force, and holds nothing.
+TEST_CASE("a ring that floats between plates is pushed by one onto the other", "[paths][ring_pushed_by_plates]") {
+  const std::string particles = GENERATE("24|[7,19]", "60|[16,46]", "120|[31,91]");
+  const std::size_t bar = particles.find('|');
+  const std::string lower = "wall.lower.displacement=[0,1e-3,0]";
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {5, 17, 40}) {
+      const std::vector<std::string> settings{method, in_steps(n), "loop.ring.particles=" + particles.substr(0, bar), "group.poles.ids=" + particles.substr(bar + 1)};
+      std::vector<std::string> driven = settings;
+      driven.push_back(lower);
+      for (const bool both : {false, true}) {
+        const Run run("ring_pushed_by_plates", both ? driven : settings);
+        CHECK_ENDS_AT(run, 1);
+        contacts_are_told(run, 1e-3);
+        REQUIRE(run.of("contact").size() >= 2);
+        CHECK(run.of("jump").empty());
+        CHECK(run.of("contact")[0]["lambda"] == Approx(0.3 / 4).epsilon(to_events));
+        CHECK(run.of("contact")[1]["lambda"] == Approx(0.4 / (both ? 5 : 4)).epsilon(to_events));
+      }
+    }
+}
+
+// In five steps one of them leads from the side branch to beyond the point at which it ends, with tangents that tell most of the way.
+TEST_CASE("a stable side branch that ends on a straight one leads to it, in long steps and by arc length, too", "[paths][column_met_from_aside]") {
+  const Run fine("column_met_from_aside", {by_load_steps, in_steps(60)});
+  CHECK_ENDS_AT(fine, 0.09);
+  REQUIRE(fine.of("branch").size() == 3);
+  CHECK(fine.located_rows.at("branch:3").text("what") == "reached along a side branch");
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {4, 5, 6, 7, 17}) {
+      const Run run("column_met_from_aside", {method, in_steps(n)});
+      CHECK_ENDS_AT(run, 0.09);
+      REQUIRE(run.of("branch").size() == 3);
+      for (std::size_t k = 0; k < 3; ++k) CHECK(run.of("branch")[k]["lambda"] == Approx(fine.of("branch")[k]["lambda"]).epsilon(to_events));
+      CHECK(run.path.back()["energy"] == Approx(fine.path.back()["energy"]).epsilon(1e-12));
+    }
+}
+
+// On which side a snap lands rounding decides; what happens is the same but for the side.
+TEST_CASE("where two mirror images of a branch with hard contacts meet, the contacts go on that belong to both", "[paths][column_hard_walls_mirrored]") {
+  std::deque<Run> runs;                                        // which does not move them
+  for (const int n : {13, 60, 25}) {
+    const Run& run = runs.emplace_back("column_hard_walls_mirrored", std::vector{in_steps(n)});
+    CHECK_ENDS_AT(run, 0.5);
+    for (const char* kind : {"contact", "branch"}) {
+      REQUIRE(run.of(kind).size() == runs[0].of(kind).size());
+      for (std::size_t k = 0; k < run.of(kind).size(); ++k) CHECK(run.of(kind)[k]["lambda"] == Approx(runs[0].of(kind)[k]["lambda"]).epsilon(to_events));
+    }
+  }
 }
