@@ -269,9 +269,9 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   for (const Pose& p : b.point.state.bodies) place += p.position.hi.squaredNorm();
   const double rounding = 1e-12 * std::sqrt(place);
   if (std::min({by_a, by_b, by_both}) > equilibrium::largest_part * moved.norm() + rounding) return false;
-  const bool at_rest = change * tangent_b.dot(moved) < equilibrium::least_rest * moved.squaredNorm() && by_both > equilibrium::parabola * moved.norm();
+  const bool comes_to_rest = change * tangent_b.dot(moved) < equilibrium::least_rest * moved.squaredNorm() && by_both > equilibrium::parabola * moved.norm();
   const bool alike = tangent_a.dot(tangent_b) >= equilibrium::least_cosine * tangent_a.norm() * tangent_b.norm();
-  if (moved.norm() <= rounding || (alike && !at_rest)) return true;
+  if (moved.norm() <= rounding || (alike && !comes_to_rest)) return true;
   return !energy.touches(a.point.state).empty() || !energy.touches(b.point.state).empty();
 }
 

@@ -19,8 +19,8 @@ constexpr std::size_t most_names = 20;  // of loose particles that are told
 constexpr double just_touching = 1e-9;  // of the smallest size
 /// Of the way between two equilibria, what their tangents do not tell of it; a parabola from its vertex has 0.5. And the cosine between the tangents.
 constexpr double largest_part = 0.45, least_cosine = 0.5;
-/// A branch a √(λ* − λ) that ends on another one at λ* has the first rest behind it: the tangent there tells nothing of the way. √λ has 1/2 of it at least; a parabola
-/// whose vertex is the end nothing, too, but the mean of its tangents tells its way.
+/// A side branch x ∝ √(λ* − λ) ends at λ* on another branch, whose tangent tells nothing of the way to there: the least part of the way that the tangent at a step's end
+/// tells (a square root that goes on: 1/2), unless the mean of the tangents at both ends tells all of it but so much (a parabola that ends at its vertex).
 constexpr double least_rest = 0.15, parabola = 0.1;
 constexpr double same_end = 1e-3;  // of the way: a step and its parts meet
 constexpr double energy_rounding = 1e-13;  // of the sum of its terms' sizes
