@@ -46,7 +46,7 @@ void describe(Keys& keys, PathTable& t) {
   keys.may("to", t.to, "load factor where it ends");
   keys.word("when_unstable", t.when_unstable, when_unstable_words, when_unstable_means);
   keys.may("branches", t.branches, "how many branch points to switch at, both ways", Range{0, most_branches});
-  keys.words("locate", t.locate, event_words, "events that are located and have a row in events.csv …");
+  keys.words("locate", t.locate, event_words, "events that are located (none: load steps that may snap search for nothing within a step) and have a row in events.csv …");
   keys.may("event_errors", t.event_errors, "… and there lambda_error, how far rounding may move the load factor; with [refine] always");
   keys.may("eigenvalues", t.eigenvalues, "columns eigenvalue_1 … of every point", Range{0, most_modes});
   keys.may("stops", t.stops, "load factors that are met besides");

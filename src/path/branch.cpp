@@ -15,6 +15,8 @@ namespace elamin {
 
 using namespace limits;
 
+constexpr const char* lower_before = "what lies beyond has a lower energy where the step begins: it is on another branch";
+
 Branch::Branch(Newton& newton, Departure from, bool contacts, bool event_errors, std::vector<UserEvent> user_events)
     : newton_(newton), current_(std::move(from.at)), negative_(from.negative), singular_(from.singular || from.negative < 0),
       at_contact_(from.at_contact), closed_(std::move(from.closed)), changed_(std::move(from.changed)), contacts_(contacts), event_errors_(event_errors),
@@ -24,7 +26,7 @@ Branch::Branch(Newton& newton, Departure from, bool contacts, bool event_errors,
 }
 
 void Branch::carry(Archive& archive) {
-  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, soft_before_, status_, why_);
+  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, searches_, soft_before_, status_, why_);
 }
 
 const Event* Branch::deciding(const Candidate& c) {
@@ -202,6 +204,11 @@ bool Branch::contact_may_explain(const Candidate& c) const { return c.e.point.st
 // Contacts that nobody asks for are located only where no limit point and no branch point explains why the Morse index changes.
 bool Branch::find_events(const Segment& segment, Candidate& c, std::string& why) {
   const CountFor events(FactorsFor::events);
+  if (!searches()) {
+    if (c.e.point.stability.negative != negative_) return why = "the Morse index changes", false;
+    if (lower_already(newton_.energy(), current_, c.e)) return why = lower_before, false;
+    return find_user_events(segment, c, why);
+  }
   std::optional<Candidate> critical;
   if (!contacts_ && !current_.slack && contact_may_explain(c)) critical = c;
   if (critical && find_critical(segment, *critical, why)) c = std::move(*critical);
@@ -258,7 +265,7 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   const bool turns = !c.natural && !stays_stable && rises(c.e) != sign_;
   if (after == negative_ && !turns) {
     if (negative_ == 0 && lower_already(newton_.energy(), current_, c.e))
-      return why = "what lies beyond has a lower energy where the step begins: it is on another branch", false;
+      return why = lower_before, false;
     if (c.events.empty()) return true;
     Event& contact = c.events.front();
     contact.after = contact.beyond ? contact.beyond->point.stability.negative : after;

@@ -83,6 +83,8 @@ class Branch {
   bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
   void stop_where_index_goes_back(const Segment& segment, Candidate& c);
   bool softens() const;
+  /// Whether what happens on the next step is searched for. What floats and bears no force cannot go on without.
+  bool searches() const { return searches_ || (current_.slack && current_.point.stability.zero > 0); }
   /// What happens on the way to a candidate, which is then where that is.
   [[nodiscard]] bool find_events(const Segment& segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);
@@ -102,6 +104,7 @@ class Branch {
   bool contacts_, event_errors_;
   std::vector<UserEvent> user_events_;
   std::vector<double> side_;
+  bool searches_ = true;               // for what happens on a step, but for user events
   Vector soft_before_;                 // Equilibrium::soft_values a step before; empty: not known
 
  private:

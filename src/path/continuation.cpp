@@ -233,7 +233,7 @@ void Continuation::land(Equilibrium at, const std::string& what, int before, con
 void Continuation::break_off() {
   if (steps_->status() != Status::not_converged) return end(steps_->status(), steps_->why());
   std::string no_snap;
-  if (!arcs() && options_.when_unstable == WhenUnstable::jump && snap(no_snap)) return;
+  if (!arcs() && options_.when_unstable == WhenUnstable::jump && (snap(no_snap) || load_steps().search())) return;
   const State& last = steps_->at().point.state;
   if (const std::string together = collapsed(newton_.energy().model(), last); arcs() && !together.empty())
     return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", last.load_factor, together));
@@ -241,11 +241,21 @@ void Continuation::break_off() {
   end(Status::not_converged, steps_->why() + no_snap + (cause.empty() ? "" : "; " + cause));
 }
 
+// Whether the minimum that a step led to goes back to where it came from as the load does: what has snapped does not.
+bool Continuation::comes_back(const Equilibrium& landed, const Equilibrium& from) {
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  State state = landed.point.state;
+  kinematics.prescribe(state, from.point.state.load_factor);
+  if (newton_.energy().collision_free_step(landed.point.state, state) < 1 || !go_down(newton_, state).converged()) return false;
+  const double way = kinematics.difference(from.point.state, landed.point.state).norm();
+  return kinematics.difference(from.point.state, state).norm() <= equilibrium::same_end * way;
+}
+
 // Where the branch ends within the finest step, at an event that could not be resolved, or in more of them than steps can tell: the minimum
 // that is reached by going down from there, beyond.
 bool Continuation::snap(std::string& why) {
   const Equilibrium last = steps_->at();
-  const double at = last.point.state.load_factor, target = static_cast<const LoadSteps&>(*steps_).goal();
+  const double at = last.point.state.load_factor, target = load_steps().goal();
   State state = last.point.state;
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().collision_free_step(last.point.state, state) < 1) return false;
@@ -254,14 +264,15 @@ bool Continuation::snap(std::string& why) {
   if (!report.converged()) why = fmt::format("; and no minimum was found beyond, at load factor {:.10g}: {}", target, report.why);
   if (!report.converged() || !(report.energy < before)) return false;
   Equilibrium landed = assess(newton_, state, report);
-  if (!bends(newton_.energy().kinematics(), last, landed, load_steps::most_bend)) {
-    note(fmt::format("steps cannot tell what happens between load factors {:.10g} and {:.10g}; the branch goes on", at, target));
+  const bool searched = load_steps().searches();
+  if (!bends(newton_.energy().kinematics(), last, landed, limits::load_steps::most_bend) || (!searched && comes_back(landed, last))) {
+    if (searched) note(fmt::format("steps cannot tell what happens between load factors {:.10g} and {:.10g}; the branch goes on", at, target));
     begin_at(landed);
     emit(std::move(landed.point));
     return true;
   }
-  note(fmt::format("the branch ends at load factor {:.10g} in an event that could not be located: snap from energy {:.10g} to {:.10g}",
-                   at, before, report.energy));
+  note(fmt::format("the branch ends at load factor {:.10g} in an event that {} located: snap from energy {:.10g} to {:.10g}",
+                   at, searched ? "could not be" : "is not", before, report.energy));
   land(std::move(landed), fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, target),
        steps_->negative(), "");
   return true;

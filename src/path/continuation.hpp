@@ -34,6 +34,7 @@ class Continuation : public Path {
  private:
   bool arcs() const { return options_.method == PathMethod::arc_length; }
   const ArcSteps& arc_steps() const { return static_cast<const ArcSteps&>(*steps_); }
+  LoadSteps& load_steps() { return static_cast<LoadSteps&>(*steps_); }
   double range() const { return options_.to - options_.from; }
   Direction towards_end(const Equilibrium& e) const;
   void begin();
@@ -49,6 +50,7 @@ class Continuation : public Path {
   void land(Equilibrium at, const std::string& what, int before, const std::string& parent);
   void break_off();
   [[nodiscard]] bool snap(std::string& why);
+  [[nodiscard]] bool comes_back(const Equilibrium& landed, const Equilibrium& from);
   bool meets_known(const Waypoint& waypoint, const Event& event);
   bool closes_loop(const Waypoint& waypoint);
 

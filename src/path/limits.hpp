@@ -98,6 +98,7 @@ constexpr double all_but_hit = 1e-12;  // of the range: a target so near to an e
 /// Steps of the load factor.
 namespace load_steps {
 constexpr int first_detour = 3, next_detour = 6;  // halvings after which the branch is explored in arc length, and every so many more
+constexpr int coarse = 2;  // halvings where nothing is located, then the path snaps
 constexpr int longest_detour = 400;  // its steps
 constexpr double past_contact = 0.01;  // of a step: where the tangent behind a contact is taken
 constexpr int patience = 32;  // steps that are refused, of a path that may snap and whose contacts nobody asks for, on less than …

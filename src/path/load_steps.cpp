@@ -34,6 +34,7 @@ LoadSteps::LoadSteps(Newton& newton, Departure from, const PathOptions& options)
   sign_ = options.to < options.from ? -1 : 1;
   grid_.restart(current_.point.state.load_factor);
   patience_.since = current_.point.state.load_factor, patience_.creep = load_steps::creep * std::abs(options.to - options.from) / options.steps;
+  searches_ = options.limits || options.branch_points || options.contacts || options.branches > 0 || options.when_unstable != WhenUnstable::jump;
   if (options.when_unstable == WhenUnstable::jump && may_touch(newton.energy().model())) patience_.most = load_steps::patience;
 }
 
@@ -44,6 +45,13 @@ void LoadSteps::carry(Archive& archive) {
   if (archive.reads()) detour_.reset();
   if (archive.reads() && detour) detour_.emplace(newton_, Departure{.closed = {}, .sides = side_}, Direction{}, Metric{}, ArcOptions{.user_events = user_events_, .step = 1});
   if (detour) archive(*detour_);
+}
+
+bool LoadSteps::search() {
+  if (searches_) return false;
+  searches_ = true;
+  stop_here(Status::converged, {});
+  return true;
 }
 
 std::optional<Waypoint> LoadSteps::next() {
@@ -57,6 +65,10 @@ std::optional<Waypoint> LoadSteps::next() {
       if (std::optional<Candidate> c = meet(grid_.next())) return accept(std::move(*c));
       const bool caught = (current_.pushed || current_.point.state.load_factor == met_) && way_is_free(grid_.next());
       patience_.refused += caught ? load_steps::caught : contacts_ ? 0 : 1;
+      if (!searches() && grid_.halvings() >= load_steps::coarse) {
+        stop_here(Status::not_converged, fmt::format("load factor {:.10g} could not be passed: {}", here, why));
+        return {};
+      }
       const int since_detour = grid_.halvings() - load_steps::first_detour;
       if (!(caught && patience_.most > 0) && since_detour >= 0 && since_detour % load_steps::next_detour == 0) {
         set_out_on_detour();
@@ -77,7 +89,10 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   const double here = current_.point.state.load_factor;
   if (at_contact_ && here != met_) current_ = past_contact(load_steps::past_contact * std::abs(target - here));
   at_contact_ = false;
-  std::optional<Candidate> c = reach_load(current_, target, why, correct_);
+  Corrector correct = correct_;
+  if (!correct && !searches() && !current_.floats)         // the snap is the minimisation
+    correct = [this](State& state) { return newton_.correct(state, current_.zero_modes, &current_.point.state, equilibrium::most_iterations); };
+  std::optional<Candidate> c = reach_load(current_, target, why, correct);
   const bool pushed = c && ((current_.slack && c->e.slack) || current_.pushed || c->e.pushed);
   if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !pushed &&
       bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))

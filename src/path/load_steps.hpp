@@ -21,6 +21,9 @@ class LoadSteps final : public Branch {
   void carry(Archive& archive) override;
   /// Where the next step would lead.
   double goal() const { return grid_.done() ? current_.point.state.load_factor : grid_.next(); }
+  using Branch::searches;
+  /// From now on what happens on a step is searched for; false if it was before.
+  [[nodiscard]] bool search();
 
  private:
   [[nodiscard]] std::optional<Candidate> reach(double target, std::string& why);

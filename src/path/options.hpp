@@ -46,7 +46,7 @@ struct PathOptions {
   WhenUnstable when_unstable = WhenUnstable::jump;
   std::optional<double> start = {};           // where on the way from `from` to `to` it starts; default `from`
   std::vector<double> stops = {};             // load factors that must be hit besides
-  bool limits = true, branch_points = true, contacts = true;   // events that are located …
+  bool limits = true, branch_points = true, contacts = true;   // events that are located; none: a stable path snaps where a step loses its branch …
   bool event_errors = false;                 // … with what rounding may move their load factors by (event_error.hpp)
   int branches = 0;                      // branch points to switch at, both ways
   std::optional<double> lowest = {}, highest = {}; // arc length ends where the load factor leaves these; see ArcLength

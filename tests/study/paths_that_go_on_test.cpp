@@ -1022,3 +1022,47 @@ TEST_CASE("where two mirror images of a branch with hard contacts meet, the cont
     }
   }
 }
+
+namespace {
+
+const std::string locates_nothing = "path.locate=[]";
+
+int factorizations(const Run& run) {
+  int all = 0;
+  for (const auto& of : run.summary["factorizations"]) all += of.get<int>();
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a path that locates nothing ends where one does that locates all, in less than half the factorisations", "[paths][locate_nothing]") {
+  for (const char* name : {"heap_leaves_lid", "sheet_leaves_rim", "strip_meets_stop", "two_beams_stiff", "two_beams_turn_back"}) {
+    const Run all(name, {by_load_steps, snaps}), none(name, {by_load_steps, snaps, locates_nothing});
+    INFO(name << ": " << all.answer.text << none.answer.text);
+    REQUIRE(!all.path.empty());
+    REQUIRE(!none.path.empty());
+    CHECK(none.answer.status == 0);
+    CHECK(none.end() == all.end());
+    CHECK(none.path.back()["energy"] == Approx(all.path.back()["energy"]).epsilon(to_events));
+    CHECK(none.of("jump").size() == none.events.size());
+    CHECK(2 * factorizations(none) < factorizations(all));
+  }
+}
+
+TEST_CASE("a snap that is not located begins within a quarter of a step before its event, and loses energy", "[paths][locate_nothing]") {
+  for (const char* name : {"two_beams_turn_back", "two_beams_let_go", "two_beams_hardly_pushed", "two_beams_part_briefly"})
+    for (const int n : {7, 20, 61}) {
+      const Run all(name, {in_steps(n), by_load_steps, snaps}), none(name, {in_steps(n), by_load_steps, snaps, locates_nothing});
+      INFO(name << " " << n << ": " << all.told() << " | " << none.told());
+      REQUIRE(all.of("jump").size() == 1);
+      REQUIRE(none.of("jump").size() == 1);
+      const double step = (all.end() - all.path.front()["lambda"]) / n;
+      const TableRow event = row_of(all.path, all.of("jump").front().text("parent")), snap = none.of("jump").front();
+      CHECK(snap["lambda"] >= event["lambda"]);
+      CHECK(snap["lambda"] <= event["lambda"] + (1 + 1e-9) * step / 4);
+      double from = 0, to = 0;
+      REQUIRE(std::sscanf(none.located_rows.at(snap.text("label")).text("what").c_str(), "from energy %lf to %lf", &from, &to) == 2);
+      CHECK(to < from);
+      CHECK(none.path.back()["energy"] == Approx(all.path.back()["energy"]).epsilon(to_events));
+    }
+}
