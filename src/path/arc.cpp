@@ -1,6 +1,7 @@
 #include "path/arc.hpp"
 
 #include "model/entities.hpp"
+#include "path/family.hpp"
 #include "path/limits.hpp"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "energy/step_limits.hpp"
 #include "path/carry.hpp"
 #include "path/fading_contact.hpp"
+#include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 
@@ -25,13 +26,6 @@ int sign_of(double x) { return x < 0 ? -1 : 1; }
 Direction passing(const Event& arrival, const Metric& metric) {
   const double size = std::sqrt(metric.dot(arrival.passing, arrival.passing_load, arrival.passing, arrival.passing_load));
   return {arrival.passing / size, arrival.passing_load / size};
-}
-
-// Zero modes that last along a branch and are no motions of rigid parts.
-void name_neutral(Stability& s) {
-  s.zero_modes.push_back(fmt::format("neutral: equilibria side by side at the same load factor ({} direction{})", s.critical, s.critical > 1 ? "s" : ""));
-  s.critical = 0;
-  s.stable = s.negative == 0;
 }
 
 // Of zero modes those along which no force acts at the last evaluation: what a force acts along is neutral no more.
@@ -68,7 +62,7 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
     : Branch(newton, std::move(from), options.contacts, options.event_errors, options.user_events), metric_(metric), options_(std::move(options)),
       direction_(std::move(direction)) {
   sign_ = sign_of(direction_.load);
-  if (negative_ < 0) neutral_ = current_.zero_modes;
+  if (negative_ < 0 || current_.family > 0) neutral_ = current_.zero_modes;
   least_length_ = std::min(metric_.length, arc_steps::least_length * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
   shortest_ = options_.shortest > 0 ? options_.shortest : arc_steps::least_part * step_;
@@ -99,6 +93,10 @@ std::optional<Waypoint> ArcSteps::next() {
   double natural = current_.slack ? 1 : arc_steps::first_natural;       // where nothing bears a force there is no arc to measure
   std::optional<Direction> along;
   bool looked = false;
+  if (neutral_.cols() == 1 && rest_in_family(newton_, current_)) {
+    neutral_ = current_.zero_modes;
+    direction_ = direction_of(current_, metric_, direction_);
+  }
   step_ = std::min(step_, longest());
   const auto patient = [&] { return options_.patience == 0 || refused_ < options_.patience; };
   for (double s = step_; s >= shortest_ && patient() && !interrupted();) {
@@ -224,21 +222,10 @@ bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
   return true;
 }
 
-// A family of equilibria may cost a little to move along, as a polygon's does that stands for a ring: it stays neutral, and held, as long
-// as that is next to nothing beside the next stiffness.
+// As long as it is next to nothing beside the next stiffness, what is neutral stays so, and held.
 void ArcSteps::carry_neutral(Equilibrium& e) {
-  Stability& s = e.point.stability;
-  if (neutral_.cols() == 0 || e.zero_modes.cols() >= neutral_.cols()) return;
-  const EigenPairs pairs = nearly_neutral(newton_, e, static_cast<int>(neutral_.cols()));
-  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
-    const Vector& v = pairs.vectors.col(j);
-    if ((neutral_.transpose() * v).norm() < arc_steps::same_mode) continue;
-    if (e.zero_modes.cols() > 0 && (e.zero_modes.transpose() * v).norm() > 0.5) continue;      // it is one already
-    e.zero_modes = side_by_side(e.zero_modes, v);
-    ++s.zero, ++s.critical;
-    s.stable = false;
-    if (pairs.values[j] < 0) --s.negative, s.negative_rigid = std::min(s.negative_rigid, s.negative);
-  }
+  const int count = static_cast<int>(neutral_.cols());
+  if (e.zero_modes.cols() < count) take_nearly_neutral(newton_, e, count, neutral_);
 }
 
 // Or, where the branch may end or turn back in a kink, the kink; `fading`: the way to it, where arc length does not tell it. Kinks that nobody asks for are looked

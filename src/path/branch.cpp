@@ -330,7 +330,9 @@ void Branch::take(const Candidate& c) {
   closed_ = std::move(closed);
   pass_user_events(user_events_, c.events, c.e.point.state, side_);
   soft_before_ = c.events.empty() ? current_.soft_values : Vector();
+  const int family = current_.family;
   current_ = event && event->beyond ? *event->beyond : c.e;
+  current_.family = family;                                     // once one, always one
   current_.point.label.clear();
   if (c.events.empty()) return;
   current_.point.stability.negative = negative_;

@@ -39,8 +39,8 @@ inline void carry(Archive& archive, RigidMotion& x) {
   archive(name, translation, particle, sites, part_velocity, part, mid, size, twist);
 }
 inline void carry(Archive& archive, Equilibrium& x) {
-  auto& [point, tangent, zero_modes, motions, soft, lowest, soft_values, softest, softening, slack, floats, pushed] = x;
-  archive(point, tangent, zero_modes, motions, soft, lowest, soft_values, softest, softening, slack, floats, pushed);
+  auto& [point, tangent, zero_modes, motions, soft, lowest, soft_values, softest, softening, slack, floats, pushed, family] = x;
+  archive(point, tangent, zero_modes, motions, soft, lowest, soft_values, softest, softening, slack, floats, pushed, family);
 }
 inline void carry(Archive& archive, ContactKey& x) {
   auto& [particle, other, wall, feature, within_cutoff] = x;

@@ -3,6 +3,7 @@
 #include "model/entities.hpp"
 #include "path/carry.hpp"
 #include "path/cause.hpp"
+#include "path/family.hpp"
 #include "path/jump.hpp"
 #include "path/limits.hpp"
 #include "path/start.hpp"
@@ -38,6 +39,7 @@ Continuation::Continuation(Newton& newton, SideBranch side, std::string parent, 
     : Path(numbering), newton_(newton), options_(std::move(options)), side_(std::move(side)), known_(known), metric_(metric) {
   options_.method = PathMethod::arc_length;
   parent_ = std::move(parent);
+  for (const Event& event : known_) family_ = std::max(family_, static_cast<int>(event.modes.cols()) - 1);
 }
 
 void Continuation::carry(Archive& archive) {
@@ -46,7 +48,7 @@ void Continuation::carry(Archive& archive) {
   archive(begun, metric_);
   if (archive.reads()) steps_.reset();
   if (archive.reads() && begun) set_out({.closed = {}, .sides = std::vector<double>(options_.user_events.size())}, {}, 1);
-  archive(first_, first_direction_, left_, travelled_, points_, arrived_at_, arrival_);
+  archive(first_, first_direction_, left_, travelled_, points_, family_, arrived_at_, arrival_);
   if (begun) archive(*steps_);
 }
 
@@ -210,6 +212,7 @@ bool Continuation::crosses_over(const Event& event) {
 // Just past the event the branch has turned unstable or ended: the state snaps to the minimum below.
 void Continuation::jump(const Event& event) {
   std::string what;
+  family_ = std::max(family_, static_cast<int>(event.modes.cols()) - 1);
   Equilibrium landed = jump_from(newton_, event, beyond(event.at.point.state.load_factor), what);
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
   if (!landed.point.report.converged()) return end(landed.point.report.status, landed.point.report.why);
@@ -218,6 +221,7 @@ void Continuation::jump(const Event& event) {
 
 // Steps begin anew.
 void Continuation::begin_at(Equilibrium& at) {
+  if (family_ > 0) hold_family(newton_, at, family_);
   ContactSet closed = closed_contacts(newton_.energy(), at);
   set_out({.at = at, .negative = at.point.stability.negative, .closed = std::move(closed)}, towards_end(at));
   at.point.resume = resume_here({at});

@@ -66,6 +66,7 @@ class Continuation : public Path {
   bool left_ = false;                    // has been well away from there
   double travelled_ = 0;                 // the farthest that it has been away, in the metric
   int points_ = 0;
+  int family_ = 0;                       // most directions of a family that a snap may lead to: of a multiple branch point all of its modes but one
   int arrived_at_ = -1;
   Vector arrival_;
 };

@@ -4,6 +4,7 @@
 #include "model/rigid_motion.hpp"
 #include "path/arc.hpp"
 #include "path/contact_event.hpp"
+#include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/push.hpp"
 #include "solve/contact_equilibrium.hpp"
@@ -330,6 +331,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   if (energy.collision_free_step(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   Equilibrium e = assess(newton, state, report);
+  if (from.family > 0) hold_family(newton, e, from.family, from.zero_modes);
   // What is beyond a contact that is made need not lie on the tangent of what is before: then the contact comes first.
   if (!(meets && only_touches_more(energy, start, state)) && !same_branch(energy, from, e)) return fail(state, report, "the corrector went to another branch");
   return e;
@@ -355,130 +357,11 @@ double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixX
   return std::isfinite(far) ? far : 0;
 }
 
-EigenPairs nearly_neutral(Newton& newton, const Equilibrium& e, int count) {
-  newton.energy().evaluate(e.point.state);
-  const EigenPairs pairs = newton.factors().lowest(e.point.stability.negative + count + 1);
-  EigenPairs found{Vector(0), Eigen::MatrixXd(pairs.vectors.rows(), 0)};
-  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
-    double next = std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
-      if (i != j) next = std::min(next, std::abs(pairs.values[i]));
-    if (!(std::abs(pairs.values[j]) <= equilibrium::next_to_nothing * next) || !std::isfinite(next)) continue;
-    found.vectors = side_by_side(found.vectors, pairs.vectors.col(j));
-    found.values.conservativeResize(found.vectors.cols());
-    found.values[found.values.size() - 1] = pairs.values[j];
-  }
-  return found;
-}
-
-// How modes change the angles of a model in a plane, angles × modes [1]: unlike displacements the same whatever holds a ring in its plane.
-Eigen::MatrixXd changes_of_angles(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
-  const Model& model = energy.model();
-  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(model.plane_normal ? static_cast<Eigen::Index>(model.angles.size()) : 0, modes.cols());
-  if (change.rows() == 0) return change;
-  const Vec3 normal = Vec3::Unit(*model.plane_normal);
-  const auto rotation = [&](int i, int j, const Field& v) {
-    const Vec3 d = (state.at(j) - state.at(i)).hi;
-    return normal.dot(d.cross(Vec3(v.col(j) - v.col(i)))) / d.squaredNorm();
-  };
-  for (Eigen::Index m = 0; m < modes.cols(); ++m) {
-    const Field v = energy.kinematics().extend(modes.col(m));
-    for (std::size_t k = 0; k < model.angles.size(); ++k) {
-      const auto [i, j, l] = model.angles[k].particles;
-      change(static_cast<Eigen::Index>(k), m) = rotation(j, l, v) - rotation(i, j, v);
-    }
-  }
-  return change;
-}
-
-// Whether a mode changes angles by more than rounding, as a rigid motion does not.
-bool bends(const Energy& energy, const Vector& change, const Vector& mode) {
-  return change.norm() * span(energy.model()) > equilibrium::rigid * mode.norm();
-}
-
-// By how much every angle of a model in a plane has opened from one state to another [rad].
-Vector opened(const Model& model, const State& from, const State& to) {
-  const Vec3 normal = Vec3::Unit(*model.plane_normal);
-  const auto turned = [&](const State& s, const Angle& a) {
-    const Vec3 u = (s.at(a.particles[1]) - s.at(a.particles[0])).hi, v = (s.at(a.particles[2]) - s.at(a.particles[1])).hi;
-    return std::atan2(normal.dot(u.cross(v)), u.dot(v));
-  };
-  Vector change(static_cast<Eigen::Index>(model.angles.size()));
-  for (std::size_t k = 0; k < model.angles.size(); ++k)
-    change[static_cast<Eigen::Index>(k)] = std::remainder(turned(to, model.angles[k]) - turned(from, model.angles[k]), 2 * pi);
-  return change;
-}
-
-Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
-  const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
-  if (change.rows() == 0 || modes.cols() == 0) return modes;
-  const Model& model = energy.model();
-  const Vec3 normal = Vec3::Unit(*model.plane_normal);
-  Eigen::MatrixXd rows = modes;
-  for (Eigen::Index j = 0; j < modes.cols(); ++j) {
-    if (!bends(energy, change.col(j), modes.col(j))) continue;
-    Field row = Field::Zero(3, energy.kinematics().sites());
-    const auto add = [&](int from, int to, double part) {         // ∂(rotation of a bond)/∂x
-      const Vec3 d = (state.at(to) - state.at(from)).hi, rate = part * normal.cross(d) / d.squaredNorm();
-      row.col(to) += rate, row.col(from) -= rate;
-    };
-    for (std::size_t k = 0; k < model.angles.size(); ++k) {
-      const auto [a, b, c] = model.angles[k].particles;
-      add(b, c, change(static_cast<Eigen::Index>(k), j)), add(a, b, -change(static_cast<Eigen::Index>(k), j));
-    }
-    rows.col(j) = energy.kinematics().restrict(row).normalized();
-  }
-  return orthonormal(rows);
-}
-
-Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
-                        const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct) {
-  const Eigen::MatrixXd& modes = from.zero_modes;
-  const Eigen::MatrixXd held = phase_conditions(energy, from.point.state, modes), change = changes_of_angles(energy, from.point.state, modes);
-  Report report = correct(state, held);
-  for (Eigen::Index j = 0; j < modes.cols() && change.rows() > 0; ++j) {
-    if (!bends(energy, change.col(j), modes.col(j))) continue;
-    double shift = 0, before = 0;
-    for (int k = 0; k < equilibrium::most_shifts && report.converged(); ++k) {
-      const double drift = change.col(j).normalized().dot(opened(energy.model(), from.point.state, state));
-      if (std::abs(drift) <= equilibrium::drifted || (k > 0 && !(std::abs(drift) < std::abs(before) / 2))) break;
-      shift = k == 0 ? -drift / change.col(j).norm() : shift * drift / (before - drift);
-      before = drift;
-      energy.kinematics().retract(state, modes.col(j), shift);
-      report = correct(state, held);
-    }
-  }
-  return report;
-}
-
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
   if (a.cols() > 0) both.leftCols(a.cols()) = a;
   if (b.cols() > 0) both.rightCols(b.cols()) = b;
   return both;
-}
-
-Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
-  if (modes.cols() != 2) return canonical_modes(energy.kinematics(), modes);
-  const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
-  if (change.rows() == 0) return canonical_modes(energy.kinematics(), modes);
-  const Vector size = change.rowwise().norm();
-  const double most = size.maxCoeff();
-  Eigen::Index k = 0;
-  while (size[k] < (1 - equilibrium::alike_angles) * most) ++k;
-  if (!(most > 0)) return canonical_modes(energy.kinematics(), modes);
-  Eigen::MatrixXd both(modes.rows(), 2);
-  both.col(0) = (modes * change.row(k).transpose()).normalized();
-  both.col(1) = modes * Eigen::Vector2d(-change(k, 1), change(k, 0)).normalized();
-  return both;
-}
-
-Vector symmetric_direction(const Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
-  const Eigen::MatrixXd change = changes_of_angles(energy, state, modes);
-  if (modes.cols() != 2 || change.rows() == 0) return modes.col(0);
-  const Eigen::Vector2d by_second = change.transpose() * change.col(1);
-  if (!(by_second.norm() > 0)) return modes.col(0);
-  return (modes * Eigen::Vector2d(by_second[1], -by_second[0])).normalized();
 }
 
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes) {

@@ -21,6 +21,7 @@ struct Equilibrium {
   bool slack = false;
   /// Something that nothing holds is there and no contact bears a force, though other things may: it is pushed in the same way; and it touches something.
   bool floats = false, pushed = false;
+  int family = 0;                      // most directions of a family of equilibria side by side that it may be one of; those that are nearly neutral are among zero_modes
 };
 
 /// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
@@ -51,33 +52,11 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// the eigenvalue that is nearest to zero, but for held directions. 0: it cannot be told.
 [[nodiscard]] double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held);
 
-/// Eigenpairs of the Hessian whose stiffness is next to nothing beside the next one, at most `count` of them: as of an oval that rotates in a ring of links.
-[[nodiscard]] EigenPairs nearly_neutral(Newton& newton, const Equilibrium& e, int count);
-
-/// Directions to hold instead of neutral modes (dofs × count), so that a family of equilibria is traced where its symmetry keeps it. In a plane
-/// they are those of ∇c,  c = Σ_k q_k ω_k,  ω_k the angles' changes and q_k those that the mode makes, which supports do not enter: with
-/// them a symmetric change of shape comes together with a rigid motion, and has a part along the mode. Of rigid motions, and in space, the
-/// modes themselves. Orthonormal.
-Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
-
-/// Corrects a state beside an equilibrium with these conditions held, and shifts it along the neutral modes until c is what it was: an oval
-/// does not slide along its ring. `correct` is called again after each shift.
-[[nodiscard]] Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
-                        const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct);
-
 /// The columns of both, for what is held together.
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// Orthonormal modes of a multiple eigenvalue (dofs × count), turned so that their choice does not depend on rounding: the
 /// first one follows x as much as the span can, else y, else z, and each has a positive sum or leading entry.
 Eigen::MatrixXd canonical_modes(const Kinematics& kinematics, const Eigen::MatrixXd& modes);
-
-/// The same for the modes of an event. Two of them in a plane: the second is the one that leaves a single angle as it is, of the angles that
-/// others bend most the first, so that where a ring buckles it is antisymmetric about a particle.
-Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
-
-/// Of such modes the direction that is symmetric about the same particle: it bends angles in a way that is orthogonal to that of the second
-/// mode. (Displacements, which supports choose, tell it not.) Of others the first.
-Vector symmetric_direction(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
 
 }  // namespace elamin

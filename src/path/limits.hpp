@@ -28,8 +28,12 @@ constexpr int softest = 3;  // eigenpairs that are followed from step to step, �
 constexpr int softest_rounds = 3;  // … and rounds of inverse iteration that find them from nothing
 constexpr double rigid = 1e-6;  // of what a mode moves: by how much it may change angles
 constexpr int most_shifts = 6;  // along a neutral mode, until its phase is kept
+constexpr double no_force = 1e-13;  // of the scale: along a family, hardly more than rounding, and well below a residual
+constexpr int most_along = 32;  // steps along a family of about a quarter of the way from one place of rest to the next
+constexpr double at_rest = 1e-9;  // of such a step
 constexpr double drifted = 1e-13;  // of the phase: rounding [rad]
 constexpr double next_to_nothing = 1e-6;  // of the next stiffness
+constexpr double same_mode = 0.9;  // cosine between a neutral mode and what it has become a step further
 constexpr double alike_angles = 1e-6;  // changes that a symmetry makes equal
 constexpr double close_values = 1e-6;  // lengths that a symmetry makes equal
 }
@@ -78,7 +82,6 @@ constexpr double same_end = 1e-3;  // of the way: an event leads there
 constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step: the longest and the shortest that is tried over a contact …
 constexpr int refused_first = 6;  // … where so many of arc length have been refused, or right behind a contact
 constexpr double least_bent = 1e-6;  // … and the shortest that bends are a reason to shorten
-constexpr double same_mode = 0.9;  // cosine between a neutral mode and what it has become a step further
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves

@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "path/carry.hpp"
+#include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace elamin {
 
@@ -57,6 +59,7 @@ bool LoadSteps::search() {
 std::optional<Waypoint> LoadSteps::next() {
   const double here = current_.point.state.load_factor;
   std::string why;
+  if (current_.family == 1) std::ignore = rest_in_family(newton_, current_);
   while (!grid_.done() && patient() && !interrupted() && status() == Status::converged) {
     if (detour_) {
       if (std::optional<Waypoint> w = on_detour()) return w;

@@ -1,5 +1,6 @@
 #include "path/locate.hpp"
 
+#include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/root.hpp"
 

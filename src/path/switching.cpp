@@ -1,6 +1,7 @@
 #include "path/switching.hpp"
 
 #include "energy/step_limits.hpp"
+#include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/root.hpp"
 

@@ -474,6 +474,21 @@ TEST_CASE("a lid that meets four corners at once is one event", "[paths][box_lid
     }
 }
 
+TEST_CASE("a ring snaps to one oval of a family and goes on, whatever the steps", "[paths][ring_snaps_to_oval]") {
+  for (const char* name : {"ring_snaps_to_oval", "ring_of_few_links_snaps"}) {
+    const Run first(name, {in_steps(12), by_load_steps});
+    for (const std::string& method : {by_arcs, by_load_steps})
+      for (const int n : {5, 7, 20, 33}) {
+        const Run run(name, {in_steps(n), method});
+        CHECK_ENDS_AT(run, first.end());
+        CHECK(run.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-10));
+        CHECK(run.events.size() == 2);
+        falls_are_right(run);
+        same_events(first, run);
+      }
+  }
+}
+
 TEST_CASE("a column in space falls from a double branch point, whatever the steps", "[paths][column_twelve_jump]") {
   const double mu = 4 * std::pow(std::sin(pi / 10), 2), d = 1e-3, E = 0.96e6, K = pi * E * d / 8, B = pi * E * d * d * d / 64;     // 8 are free
   const double a = d * (1 + std::sqrt(1 - 2 * B * mu / (K * d * d))) / 2, critical = 9 * (B * mu / (2 * K * a)) / 0.74e-3;
