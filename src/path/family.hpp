@@ -28,7 +28,7 @@ Eigen::MatrixXd phase_conditions(const Energy& energy, const State& state, const
 [[nodiscard]] Report correct_in_phase(const Energy& energy, const Equilibrium& from, State& state,
                         const std::function<Report(State&, const Eigen::MatrixXd& held)>& correct);
 
-/// The same for the modes of an event. Two of them in a plane: the second is the one that leaves a single angle as it is, of the angles that
+/// canonical_modes() for the modes of an event. Two of them in a plane: the second is the one that leaves a single angle as it is, of the angles that
 /// others bend most the first, so that where a ring buckles it is antisymmetric about a particle.
 Eigen::MatrixXd symmetric_modes(const Energy& energy, const State& state, const Eigen::MatrixXd& modes);
 
