@@ -1,5 +1,6 @@
 #pragma once
 // The whole of elamin for other programs: structures, energies, solvers, paths, problem files, runs.
+#include "core/memory.hpp"
 #include "energy/energy.hpp"
 #include "energy/law_group.hpp"
 #include "input/build.hpp"

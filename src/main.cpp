@@ -1,6 +1,7 @@
 // The command line: which command, on which file. Everything else is in study/.
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/memory.hpp"
 #include "core/say.hpp"
 #include "core/suggest.hpp"
 #include "figures/figure.hpp"
@@ -334,6 +335,7 @@ int answer_together(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   without_idle_threads(argv);
+  elamin::keep_freed_memory();
   open_standard_streams();
   take_signals();
   return when_printed(answer_together(argc, argv));

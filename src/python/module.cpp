@@ -1,8 +1,9 @@
 // The module elamin._elamin: what Python calls of the library. What is nicer to say in Python is in elamin/.
 #include "python/module.hpp"
 
-#include "core/parallel.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
+#include "core/parallel.hpp"
 #include "input/key_tree.hpp"
 #include "results/summary.hpp"
 
@@ -61,6 +62,7 @@ int threads_here() {
 
 PYBIND11_MODULE(_elamin, module) {
   using namespace elamin::python;
+  elamin::keep_freed_memory();
   module.doc() = "elamin's library; import elamin instead.";
   py::register_exception_translator([](std::exception_ptr p) {
     try {

@@ -1,7 +1,7 @@
 #include "solve/cholesky.hpp"
 
 #include "core/factor_counts.hpp"
-#include "core/free_memory.hpp"
+#include "core/memory.hpp"
 #include "core/heartbeat.hpp"
 #include "core/timing.hpp"
 #include "solve/blas.hpp"

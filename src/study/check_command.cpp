@@ -1,6 +1,6 @@
 #include "study/commands.hpp"
 
-#include "core/free_memory.hpp"
+#include "core/memory.hpp"
 #include "core/say.hpp"
 #include "input/lammps.hpp"
 #include "solve/ordering.hpp"

@@ -6,6 +6,7 @@
 // in space or in a plane, on a floor under their weight, with contacts between 1e2 and 1e9 times stiffer than what one weighs; lengths from 1e-3 to 1e3. A packing is
 // right if the end is a minimum and the floor and the walls bear the whole weight to 1e-9. Prints a line for each, the share that is right, and the time; fails if fewer
 // than K are (default: all). Method: auto or newton.
+#include "core/memory.hpp"
 #include "core/timing.hpp"
 #include "model/grains.hpp"
 #include "solve/method.hpp"
@@ -66,6 +67,7 @@ Model packing(int grains, unsigned seed) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   std::map<std::string, std::string> given{{"--seed", "1"}, {"--count", "10"}, {"--grains", "200"}, {"--least", ""}, {"--method", "auto"}};
   for (int k = 1; k + 1 < argc; k += 2) {
     if (!given.count(argv[k])) return fmt::print(stderr, "unknown option {}; see the head of tests/bench/packings.cpp\n", argv[k]), EXIT_FAILURE;

@@ -8,6 +8,7 @@
 // and the time of a point as a multiple of one evaluation and one factorisation. Fails if the branches are not there or
 // are cut short, or if that is more than MOST (0: whatever it is).
 #include "../chain.hpp"
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "path/path.hpp"
 
@@ -72,6 +73,7 @@ Traced follow(Newton& newton, const State& start, int points) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const int particles = argc > 1 ? std::atoi(argv[1]) : 1000, points = argc > 2 ? std::atoi(argv[2]) : 1000;
   const double most = argc > 3 ? std::atof(argv[3]) : 0;
   if (particles < 8 || points < 4) return std::fprintf(stderr, "at least 8 particles and 4 points\n"), EXIT_FAILURE;

@@ -8,6 +8,7 @@
 // left in DIR, to be run by hand. Each problem runs in a process of its own, which may crash; after T seconds of the processor
 // (default 60) it counts as one without end. Fails if one did not end right, or with --least if fewer than N of them did.
 #include "core/exact.hpp"
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "energy/energy.hpp"
 #include "input/build.hpp"
@@ -1398,6 +1399,7 @@ double now() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   std::uint64_t seed = 1;
   int count = 100, jobs = 1, seconds = 60, least = -1;
   std::string name, keep;

@@ -8,6 +8,7 @@
 // bits agree between one and two threads and between two runs. Fails if something does not converge, if on one thread,
 // where assembly takes longest, the share is below SHARE per cent, if an assembly allocates, or if bits differ.
 #include "clamped_sheet.hpp"
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "core/timing.hpp"
 #include "solve/newton.hpp"
@@ -138,6 +139,7 @@ const char* yes(bool b) { return b ? "yes" : "NO"; }
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const int rows = argc > 1 ? std::atoi(argv[1]) : 100, levels = argc > 2 ? std::atoi(argv[2]) : 4;
   const double least_share = argc > 3 ? std::atof(argv[3]) : 75;
   if (rows < 8 || levels < 1) return std::fprintf(stderr, "at least 8 rows and 1 level\n"), EXIT_FAILURE;

@@ -11,6 +11,13 @@ PROGRAM = shutil.which("chromium")
 OPTIONS = ["--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--remote-debugging-pipe",
            "--no-first-run", "--hide-scrollbars", "--disable-background-networking"]
 
+# Without a graphics card drawing takes nearly all of the time.
+DRAWS_NOTHING = """
+for (const context of [WebGLRenderingContext, WebGL2RenderingContext])
+  for (const draw of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced'])
+    if (draw in context.prototype) context.prototype[draw] = () => {};
+"""
+
 
 class Browser:
     def __init__(self):
@@ -71,13 +78,14 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
-    def open(self, file, still=True):
-        """Opens a page, which draws its shape. still: it does so only once; without a graphics card drawing takes nearly all of the time, and no
-        number that is checked depends on it."""
+    def open(self, file, drawn=False):
+        """Opens a page. Unless drawn its shape is prepared, but not drawn: no number that is checked depends on that."""
         self.messages.clear()
+        hook = None if drawn else self.call("Page.addScriptToEvaluateOnNewDocument", source=DRAWS_NOTHING)["identifier"]
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         self.until("document.readyState === 'complete' && typeof page === 'object' && page.run")
-        if still:
+        if hook:
+            self.call("Page.removeScriptToEvaluateOnNewDocument", identifier=hook)
             self.run("shape && (shape.render = () => {})")
 
     def run(self, script):

@@ -1,4 +1,4 @@
-#include "core/free_memory.hpp"
+#include "core/memory.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -7,6 +7,9 @@
 
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace elamin {
 
@@ -25,6 +28,14 @@ double free_memory() {
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && std::ifstream("/proc/self/statm") >> pages)
     free = std::min(free, static_cast<double>(limit.rlim_cur) - pages * static_cast<double>(sysconf(_SC_PAGE_SIZE)));
   return free;
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);           // the largest that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_TOP_PAD, 1 << 20);
+#endif
 }
 
 }  // namespace elamin

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace elamin {
+
+/// What this program can have without taking it from others, or beyond its limit (ulimit -v) [bytes]; infinity where the system does not tell.
+double free_memory();
+
+/// Lets this program keep up to 256 MB that it has freed, for what it asks for next, in blocks of up to 32 MB. Every factorisation frees and asks for the same
+/// blocks; memory that goes back to the system between them comes again page by page, which takes half of the time of small problems. For programs
+/// alone to call, before their first factorisation: it is about all of their memory. Nothing where the C library is not glibc.
+void keep_freed_memory();
+
+}  // namespace elamin
