@@ -3,6 +3,7 @@
 #include "core/factor_counts.hpp"
 #include "path/carry.hpp"
 #include "path/event_error.hpp"
+#include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
 
@@ -250,6 +251,22 @@ void Branch::look_behind(Event& contact, double way) {
   }
 }
 
+// What was neutral may have a sign behind a contact, or a force: a column that may bend in any direction slides along the wall that it has come to.
+void Branch::see_neutral_behind(Event& contact, double way) {
+  Equilibrium from = contact.at;
+  hold_family(newton_, from, current_.family, current_.zero_modes);
+  contact.slides = from.zero_modes.cols() > 0 && opens_along(newton_.energy(), from, difference(contact.closed, closed_));
+  if (contact.slides) return;
+  for (double part = branch::first_past; part <= branch::last_past; part *= 16) {
+    const Equilibrium e = continue_to(newton_, from, from.point.state.load_factor + part * way);
+    if (!e.point.report.converged()) return;
+    if (e.zero_modes.cols() == from.zero_modes.cols()) continue;
+    contact.after = e.point.stability.negative;
+    if (contact.after > contact.before) contact.modes = from.zero_modes;
+    return;
+  }
+}
+
 // Branch points and limit points: where the Morse index changes, and where the load factor turns though it does not.
 bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
@@ -269,6 +286,7 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
     if (c.events.empty()) return true;
     Event& contact = c.events.front();
     contact.after = contact.beyond ? contact.beyond->point.stability.negative : after;
+    if (!contact.beyond && current_.family > 0) see_neutral_behind(contact, c.e.point.state.load_factor - current_.point.state.load_factor);
     if (contact.beyond && contact.onward == -sign_) contact.kind = EventKind::limit;
     return true;
   }

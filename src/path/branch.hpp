@@ -73,6 +73,7 @@ class Branch {
   Segment beside(Segment segment, const Candidate& c) const;
   Candidate with_contact(Candidate c, ContactChange change) const;
   void look_behind(Event& contact, double way);
+  void see_neutral_behind(Event& contact, double way);
   bool undoes(const ContactChange& change) const;
   bool changes_before(const ContactChange& change);
   bool contact_may_explain(const Candidate& c) const;

@@ -47,8 +47,8 @@ inline void carry(Archive& archive, ContactKey& x) {
   archive(particle, other, wall, feature, within_cutoff);
 }
 inline void carry(Archive& archive, Event& x) {
-  auto& [kind, at_parameter, at, modes, before, after, arrival, passing, passing_load, closed, beyond, onward, what, user_event] = x;
-  archive(kind, at_parameter, at, modes, before, after, arrival, passing, passing_load, closed, beyond, onward, what, user_event);
+  auto& [kind, at_parameter, at, modes, before, after, arrival, passing, passing_load, closed, beyond, onward, slides, what, user_event] = x;
+  archive(kind, at_parameter, at, modes, before, after, arrival, passing, passing_load, closed, beyond, onward, slides, what, user_event);
 }
 inline void carry(Archive& archive, Metric& x) {
   auto& [length, load] = x;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace elamin {
 
@@ -125,6 +126,7 @@ void Continuation::set_out(Departure from, const Direction& direction, double st
 
 void Continuation::show(Waypoint waypoint) {
   const double load = waypoint.at.point.state.load_factor;
+  if (waypoint.events.size() == 1 && waypoint.events.front().slides && slides_away(waypoint.at)) return;
   waypoint.at.point.resume = resume_here(waypoint);
   if (arcs()) {
     const Vector from_first = newton_.energy().kinematics().difference(first_.point.state, waypoint.at.point.state);
@@ -196,6 +198,14 @@ double Continuation::beyond(double at) const {
   return at + std::copysign(way, range());
 }
 
+// Where one equilibrium of a family comes to a contact the path goes on from another one: no event, which one it was is the steps' choice.
+bool Continuation::slides_away(Equilibrium at) {
+  if (!moves_in_family(at)) return false;
+  begin_at(at);
+  emit(std::move(at.point));
+  return true;
+}
+
 // Where a stable branch meets another one and goes back, which load steps do not: a path of stable states goes on along the other one.
 bool Continuation::crosses_over(const Event& event) {
   if (!event.arrival || !arcs() || !steps_ || options_.when_unstable != WhenUnstable::jump || event.before + event.after > 0) return false;
@@ -204,7 +214,7 @@ bool Continuation::crosses_over(const Event& event) {
   held.zero_modes = side_by_side(held.zero_modes, event.modes);
   Equilibrium other = continue_to(newton_, held, beyond(event.at.point.state.load_factor));
   if (!other.point.report.converged() || other.point.stability.negative > 0) return false;
-  begin_at(other);
+  begin_anew(other);
   emit(std::move(other.point));
   return true;
 }
@@ -219,9 +229,22 @@ void Continuation::jump(const Event& event) {
   land(std::move(landed), what, event.before, event.at.point.label);
 }
 
+// Of a family one that is away from contacts, if there is one.
+bool Continuation::moves_in_family(Equilibrium& at) {
+  if (family_ == 0) return false;
+  hold_family(newton_, at, family_);
+  if (!part_in_family(newton_, at)) return false;
+  note(fmt::format("load factor {:.10g}: of equilibria side by side one that is away from contacts", at.point.state.load_factor));
+  return true;
+}
+
+void Continuation::begin_anew(Equilibrium& at) {
+  std::ignore = moves_in_family(at);
+  begin_at(at);
+}
+
 // Steps begin anew.
 void Continuation::begin_at(Equilibrium& at) {
-  if (family_ > 0) hold_family(newton_, at, family_);
   ContactSet closed = closed_contacts(newton_.energy(), at);
   set_out({.at = at, .negative = at.point.stability.negative, .closed = std::move(closed)}, towards_end(at));
   at.point.resume = resume_here({at});
@@ -229,7 +252,7 @@ void Continuation::begin_at(Equilibrium& at) {
 
 // The path goes on from where it has snapped to.
 void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
-  begin_at(at);
+  begin_anew(at);
   emit_landing(std::move(at.point), what, before, parent);
 }
 
@@ -237,7 +260,8 @@ void Continuation::land(Equilibrium at, const std::string& what, int before, con
 void Continuation::break_off() {
   if (steps_->status() != Status::not_converged) return end(steps_->status(), steps_->why());
   std::string no_snap;
-  if (!arcs() && options_.when_unstable == WhenUnstable::jump && (snap(no_snap) || load_steps().search())) return;
+  const bool stable = !arcs() || (steps_->negative() == 0 && arc_steps().direction().load * range() > 0);
+  if (options_.when_unstable == WhenUnstable::jump && stable && (snap(no_snap) || (!arcs() && load_steps().search()))) return;
   const State& last = steps_->at().point.state;
   if (const std::string together = collapsed(newton_.energy().model(), last); arcs() && !together.empty())
     return end(Status::converged, fmt::format("the branch ends at load factor {:.10g}, where {}", last.load_factor, together));
@@ -259,7 +283,7 @@ bool Continuation::comes_back(const Equilibrium& landed, const Equilibrium& from
 // that is reached by going down from there, beyond.
 bool Continuation::snap(std::string& why) {
   const Equilibrium last = steps_->at();
-  const double at = last.point.state.load_factor, target = load_steps().goal();
+  const double at = last.point.state.load_factor, target = arcs() ? beyond(at) : load_steps().goal();
   State state = last.point.state;
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().collision_free_step(last.point.state, state) < 1) return false;
@@ -268,10 +292,10 @@ bool Continuation::snap(std::string& why) {
   if (!report.converged()) why = fmt::format("; and no minimum was found beyond, at load factor {:.10g}: {}", target, report.why);
   if (!report.converged() || !(report.energy < before)) return false;
   Equilibrium landed = assess(newton_, state, report);
-  const bool searched = load_steps().searches();
+  const bool searched = arcs() || load_steps().searches();
   if (!bends(newton_.energy().kinematics(), last, landed, limits::load_steps::most_bend) || (!searched && comes_back(landed, last))) {
     if (searched) note(fmt::format("steps cannot tell what happens between load factors {:.10g} and {:.10g}; the branch goes on", at, target));
-    begin_at(landed);
+    begin_anew(landed);
     emit(std::move(landed.point));
     return true;
   }

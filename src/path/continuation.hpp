@@ -44,8 +44,11 @@ class Continuation : public Path {
   std::optional<Resume> resume_here(const Waypoint& waypoint) const;
   bool goes_on_behind(Event& event);
   double beyond(double at) const;
+  [[nodiscard]] bool slides_away(Equilibrium at);
   [[nodiscard]] bool crosses_over(const Event& event);
   void jump(const Event& event);
+  [[nodiscard]] bool moves_in_family(Equilibrium& at);
+  void begin_anew(Equilibrium& at);
   void begin_at(Equilibrium& at);
   void land(Equilibrium at, const std::string& what, int before, const std::string& parent);
   void break_off();

@@ -19,6 +19,7 @@ struct Event {
   ContactSet closed;                   // contact: what is closed beyond
   std::optional<Equilibrium> beyond = {};   // at a contact of bodies: see ContactChange
   int onward = 0;
+  bool slides = false;                 // contact: one of a family of equilibria comes to it, others do not
   std::string what;
   int user_event = -1;                      // which of the options' user_events
 };

@@ -213,4 +213,63 @@ bool rest_in_family(Newton& newton, Equilibrium& e) {
   return false;
 }
 
+bool opens_along(const Energy& energy, const Equilibrium& e, const ContactSet& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const ContactKey& key) {
+    Vector row;
+    double by_load = 0;
+    return slope(energy, key, e.point.state, 0, row, by_load) && (row.transpose() * e.zero_modes).norm() > equilibrium::oblique * row.norm() * e.zero_modes.cwiseAbs().maxCoeff();
+  });
+}
+
+bool part_in_family(Newton& newton, Equilibrium& e) {
+  Energy& energy = newton.energy();
+  if (e.family != 1) return false;
+  const double size = energy.kinematics().smallest_size(), most = newton.tolerance() * std::max(energy.force_scale(), energy.force_floor());
+  std::set<TouchKey> loaded;
+  for (const Touch& t : energy.touches(e.point.state))
+    if (t.force.norm() > most) loaded.insert(t.key());
+  const double farthest = equilibrium::farthest * size;
+  const auto room = [&](const State& state) {
+    double least = farthest;
+    for (const Touch& t : energy.touches(state, farthest))
+      if (!loaded.count(t.key())) least = std::min(least, t.gap);
+    return least;
+  };
+  const auto beside = [&](const Equilibrium& from, double t) -> std::optional<Equilibrium> {
+    State state = from.point.state;
+    energy.kinematics().retract(state, from.zero_modes.col(0), t);
+    if (energy.collision_free_step(from.point.state, state) < 1) return {};
+    const Report report = newton.correct(state, phase_conditions(energy, from.point.state, from.zero_modes), &from.point.state, equilibrium::most_iterations);
+    if (!report.converged()) return {};
+    Equilibrium to = assess(newton, state, report);
+    hold_family(newton, to, from.family, from.zero_modes);
+    if (to.zero_modes.cols() != 1 || to.point.stability.negative != from.point.stability.negative) return {};
+    const double cosine = from.zero_modes.col(0).dot(to.zero_modes.col(0));
+    if (std::abs(cosine) < equilibrium::same_mode) return {};
+    if (cosine < 0) to.zero_modes *= -1;
+    return to;
+  };
+  const double before = room(e.point.state);
+  if (before > equilibrium::near * size) return false;
+  Equilibrium from = e;
+  if (from.zero_modes.cols() == 0) {                                    // what it touches makes it stiff, on one side
+    energy.evaluate(from.point.state);
+    from.zero_modes = newton.factors().lowest(1).vectors;
+  }
+  if (from.zero_modes.cols() != 1) return false;
+  for (const double side : {1.0, -1.0}) {
+    Equilibrium best = from;
+    double here = before, step = side * size / (2 * best.zero_modes.cwiseAbs().maxCoeff());
+    const double shortest = equilibrium::least_along * std::abs(step);
+    for (int k = 0; k < equilibrium::most_apart && here < farthest && std::abs(step) >= shortest; ++k) {
+      std::optional<Equilibrium> next = beside(best, step);
+      const double there = next ? room(next->point.state) : here;
+      if (next && there > here) best = std::move(*next), here = there, step *= 1.5;
+      else step /= 3;
+    }
+    if (here - before > equilibrium::apart * size) return e = std::move(best), true;
+  }
+  return false;
+}
+
 }  // namespace elamin

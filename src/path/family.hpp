@@ -1,5 +1,6 @@
 #pragma once
 // Equilibria side by side at the same load factor, as those of an oval that may lie in any direction in its ring: what is held while one of them stands for all.
+#include "path/contact_gap.hpp"
 #include "path/equilibrium.hpp"
 
 namespace elamin {
@@ -39,5 +40,12 @@ Vector symmetric_direction(const Energy& energy, const State& state, const Eigen
 /// Moves an equilibrium of a family of one direction in a plane along it, downhill, to where no force acts any more: a polygon that stands for a ring holds an oval
 /// a little, in 2N directions of its N links. False, and nothing moves, where that force is rounding, or no such place is found.
 bool rest_in_family(Newton& newton, Equilibrium& e);
+
+/// Moves an equilibrium of a family of one direction along it, away from what it touches without a force, as far as the least gap grows: a column that slides along
+/// a wall would come to it again on the next step. False, and nothing moves, where it touches nothing in that way.
+bool part_in_family(Newton& newton, Equilibrium& e);
+
+/// Whether these gaps change along the mode of a family.
+bool opens_along(const Energy& energy, const Equilibrium& e, const ContactSet& contacts);
 
 }  // namespace elamin

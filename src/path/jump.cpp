@@ -25,11 +25,13 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
   Energy& energy = newton.energy();
   const double at = event.at.point.state.load_factor;
   State state;
-  // From a branch point the snap begins at the unstable equilibrium beyond; where there is none so far away, nearer to the event.
+  // From a branch point, or a contact behind which a family is not stable, the snap begins at the unstable equilibrium beyond; where there is none so far away,
+  // nearer to the event.
+  const bool from_saddle = event.kind == EventKind::branch || (event.kind == EventKind::contact && event.modes.cols() > 0);
   for (int k = 0;; ++k, past = at + (past - at) / 4) {
     state = event.at.point.state;
     energy.kinematics().prescribe(state, past);
-    if (event.kind != EventKind::branch) break;
+    if (!from_saddle) break;
     State beyond = state;
     energy.kinematics().retract(beyond, event.at.tangent, past - at);
     const bool found = newton.correct(beyond, event.modes, &event.at.point.state).converged() && energy.collision_free_step(event.at.point.state, beyond) == 1;
@@ -37,7 +39,7 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
     if (found || k == jump::most_nearer) break;
   }
   const State from = state;
-  if (event.kind == EventKind::branch) std::ignore = newton.leave_saddle(state, event.modes.col(0));   // where not, minimise looks for a way itself
+  if (from_saddle) std::ignore = newton.leave_saddle(state, event.modes.col(0));   // where not, minimise looks for a way itself
   energy.evaluate(from);
   const double before = energy.last_terms().total();
   Report report = go_down(newton, state);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace {
@@ -483,6 +484,26 @@ TEST_CASE("a ring snaps to one oval of a family and goes on, whatever the steps"
         CHECK_ENDS_AT(run, first.end());
         CHECK(run.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-10));
         CHECK(run.events.size() == 2);
+        falls_are_right(run);
+        same_events(first, run);
+      }
+  }
+}
+
+TEST_CASE("what may bend in any direction slides along a wall, whatever the steps", "[paths][slides_along_wall]") {
+  for (const auto& [name, walls] : std::map<std::string, std::vector<std::string>>{
+           {"column_slides_along_walls", {"wall.right.point=[1,0,0]", "wall.left.point=[-1,0,0]"}}, {"mast_slides_along_wall", {"wall.wall.point=[9,0,0]"}}}) {
+    const Run first(name, {in_steps(12), by_load_steps}), without(name, walls);
+    CHECK_ENDS_AT(without, 1);
+    REQUIRE(first.events.size() == 4);
+    CHECK(first.events[2].text("label") == "contact:1");
+    for (const std::string& method : {by_arcs, by_load_steps})
+      for (const int n : {5, 7, 20, 33, 50}) {
+        const Run run(name, {in_steps(n), method});
+        CHECK_ENDS_AT(run, 1);
+        CHECK(run.path.back()["energy"] == Approx(without.path.back()["energy"]).epsilon(1e-10));      // there is a direction in which nothing is in the way
+        CHECK(run.path.back()["wall"] == 0);
+        CHECK(run.path.back()["negative"] == 0);
         falls_are_right(run);
         same_events(first, run);
       }
