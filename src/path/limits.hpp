@@ -31,10 +31,10 @@ constexpr int most_shifts = 6;  // along a neutral mode, until its phase is kept
 constexpr double no_force = 1e-13;  // of the scale: along a family, hardly more than rounding, and well below a residual
 constexpr int most_along = 32;  // steps along a family of about a quarter of the way from one place of rest to the next
 constexpr double at_rest = 1e-9;  // of such a step
-constexpr double near = 1, apart = 1e-3;  // smallest sizes: what an equilibrium of a family is moved away from, and at least by how much
+constexpr double near = 1, apart = 1e-6;  // smallest sizes: what an equilibrium of a family is moved away from, and at least by how much
 constexpr double farthest = 32;  // smallest sizes: what is so far away is not looked for
 constexpr int most_apart = 64;  // steps along a family, of half the smallest size at first, away from that, …
-constexpr double least_along = 1.0 / 64;  // … and the shortest of them
+constexpr double least_along = 1e-5;  // … and the shortest of them
 constexpr double oblique = 1e-3;  // of what a mode moves most: by how much a gap changes that is not where the family touches as a whole
 constexpr double drifted = 1e-13;  // of the phase: rounding [rad]
 constexpr double next_to_nothing = 1e-6;  // of the next stiffness

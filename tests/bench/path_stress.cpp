@@ -1075,6 +1075,38 @@ void column_stop(Case& test) {
   test.agree(t, other);
 }
 
+/// A column in space beside a wall, or between two, which it may come to: it ends as without, in a direction in which nothing is in the way.
+void column_slides(Case& test) {
+  Random& random = test.random;
+  const Ends ends = random_ends(random);
+  const bool dead = ends == Ends::cantilever || random.chance(0.4);
+  Column c = random_column(random, ends, dead, false);
+  while (c.particles > 150) c = random_column(random, ends, dead, false);
+  File f = written(c, "A column in space beside a wall");
+  Way way{.method = random.chance(0.5) ? PathMethod::arc_length : PathMethod::load_steps, .steps = random.whole_decades(3, 200),
+          .to = beyond_critical(random, c) * built_critical(test, c, f)};
+  const Traced alone = test.trace(f, way, "alone");
+  if (!test.reaches(alone, way.to)) return;
+  Vec3 bent = Vec3::Zero();
+  for (int k = 0; k < c.particles; ++k)
+    if (const Vec3 w = sideways(c, alone, alone.last(), k); w.norm() > bent.norm()) bent = w;
+  const double angle = random.between(-1, 1);
+  const Vec3 normal = Eigen::AngleAxisd(angle, c.place.along(1, 0)) * bent.normalized();
+  const double gap = random.between(0.2, 0.95) * bent.norm() * std::cos(angle);
+  const double E = random.decades(1e2, 1e8) * c.euler / (c.diameter * c.diameter);
+  for (const double side : random.chance(0.5) ? std::vector{1.0} : std::vector{1.0, -1.0})
+    f.list("wall").key("name", side > 0 ? "wall" : "other").key("shape", "plane").key("point", Vec3(c.place.at(0, 0) + side * (gap + c.diameter / 2) * normal))
+        .key("normal", Vec3(-side * normal)).key("effective_modulus", E);
+  for (const char* name : {"path", "other"}) {
+    const Traced t = test.trace(f, way, name);
+    if (!test.reaches(t, way.to)) return;
+    test.same_energy("the end with and without walls", t.last().energy(), alone.last().energy());
+    test.expect(t.last().point.stability.negative == 0, [&] { return "the end is not stable"; });
+    way.steps = random.other_steps(way.steps);
+    if (random.chance(0.5)) way.method = way.method == PathMethod::arc_length ? PathMethod::load_steps : PathMethod::arc_length;
+  }
+}
+
 // ---- More of them: load and unload, events, sheets, grains, boxes.
 
 /// The same column is loaded and unloaded: it comes back to where it began, and nothing has happened.
@@ -1370,6 +1402,7 @@ const std::vector<Family> families{
     {"grain_lid", grain_lid}, {"grain_floats", grain_floats}, {"box_lid", box_lid}, {"column_stop", column_stop}, {"column_back", column_back},
     {"events_column", events_column}, {"column_passes", column_passes}, {"two_beams", two_beams}, {"sheet_strip", sheet_strip},
     {"hard_lid", hard_lid}, {"ring_plates", ring_plates}, {"grain_heap", grain_heap}, {"box_tips", box_tips},
+    {"column_slides", column_slides},
 };
 
 /// What is wrong with one problem, one sentence after the other; "": it ended right.
