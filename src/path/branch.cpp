@@ -311,12 +311,11 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   return true;
 }
 
-// From the event the branch leads to both ends of the step. Where the load factor turns with one eigenvalue's sign the determinant keeps its own: one end is
-// enough; no step of the load factor meets a limit point.
+// From the event the branch leads to both ends of the step: from a limit point that leads to one of them alone it may be another branch that was met, as beside a
+// pitchfork that is all but perfect, where both have the same index. No step of the load factor meets a limit point.
 bool Branch::explained(const Event& event, const Segment& segment, const Candidate& c) const {
-  const auto leads_to = [&](const Equilibrium& end) { return segment.leads(event.at, end); };
-  if (event.kind == EventKind::limit) return !c.natural && (leads_to(c.e) || (!singular_ && leads_to(current_)));
-  return leads_to(c.e) && (singular_ || leads_to(current_));
+  if (event.kind == EventKind::limit && c.natural) return false;
+  return segment.leads(event.at, c.e) && (singular_ || segment.leads(event.at, current_));
 }
 
 bool Branch::find_user_events(Segment segment, Candidate& c, std::string& why) {

@@ -510,6 +510,18 @@ TEST_CASE("what may bend in any direction slides along a wall, whatever the step
   }
 }
 
+TEST_CASE("a step to a limit point stays on its branch, whatever the steps", "[paths][limit_of_another_branch]") {
+  const Run first("columns_all_but_symmetric", {in_steps(60), by_load_steps});
+  REQUIRE(first.of("limit").size() == 2);
+  for (const std::string& method : {by_arcs, by_load_steps})
+    for (const int n : {9, 10, 12, 13, 15, 40}) {
+      const Run run("columns_all_but_symmetric", {in_steps(n), method});
+      CHECK_ENDS_AT(run, 1);
+      falls_are_right(run);
+      same_events(first, run);
+    }
+}
+
 TEST_CASE("a column in space falls from a double branch point, whatever the steps", "[paths][column_twelve_jump]") {
   const double mu = 4 * std::pow(std::sin(pi / 10), 2), d = 1e-3, E = 0.96e6, K = pi * E * d / 8, B = pi * E * d * d * d / 64;     // 8 are free
   const double a = d * (1 + std::sqrt(1 - 2 * B * mu / (K * d * d))) / 2, critical = 9 * (B * mu / (2 * K * a)) / 0.74e-3;
