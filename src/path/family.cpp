@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 namespace elamin {
 
@@ -213,6 +215,27 @@ bool rest_in_family(Newton& newton, Equilibrium& e) {
   return false;
 }
 
+namespace {
+
+// The equilibrium of the same family that is farther along its mode, which is told in the same direction; nothing where the mode turns too much on the way.
+std::optional<Equilibrium> neighbour_in_family(Newton& newton, const Equilibrium& from, double along) {
+  const Energy& energy = newton.energy();
+  State state = from.point.state;
+  energy.kinematics().retract(state, from.zero_modes.col(0), along);
+  if (energy.collision_free_step(from.point.state, state) < 1) return {};
+  const Report report = newton.correct(state, phase_conditions(energy, from.point.state, from.zero_modes), &from.point.state, equilibrium::most_iterations);
+  if (!report.converged()) return {};
+  Equilibrium to = assess(newton, state, report);
+  hold_family(newton, to, from.family, from.zero_modes);
+  if (to.zero_modes.cols() != 1 || to.point.stability.negative != from.point.stability.negative) return {};
+  const double cosine = from.zero_modes.col(0).dot(to.zero_modes.col(0));
+  if (std::abs(cosine) < equilibrium::same_mode) return {};
+  if (cosine < 0) to.zero_modes *= -1;
+  return to;
+}
+
+}  // namespace
+
 bool opens_along(const Energy& energy, const Equilibrium& e, const ContactSet& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [&](const ContactKey& key) {
     Vector row;
@@ -235,20 +258,6 @@ bool part_in_family(Newton& newton, Equilibrium& e) {
       if (!loaded.count(t.key())) least = std::min(least, t.gap);
     return least;
   };
-  const auto beside = [&](const Equilibrium& from, double t) -> std::optional<Equilibrium> {
-    State state = from.point.state;
-    energy.kinematics().retract(state, from.zero_modes.col(0), t);
-    if (energy.collision_free_step(from.point.state, state) < 1) return {};
-    const Report report = newton.correct(state, phase_conditions(energy, from.point.state, from.zero_modes), &from.point.state, equilibrium::most_iterations);
-    if (!report.converged()) return {};
-    Equilibrium to = assess(newton, state, report);
-    hold_family(newton, to, from.family, from.zero_modes);
-    if (to.zero_modes.cols() != 1 || to.point.stability.negative != from.point.stability.negative) return {};
-    const double cosine = from.zero_modes.col(0).dot(to.zero_modes.col(0));
-    if (std::abs(cosine) < equilibrium::same_mode) return {};
-    if (cosine < 0) to.zero_modes *= -1;
-    return to;
-  };
   const double before = room(e.point.state);
   if (before > equilibrium::near * size) return false;
   Equilibrium from = e;
@@ -262,7 +271,7 @@ bool part_in_family(Newton& newton, Equilibrium& e) {
     double here = before, step = side * size / (2 * best.zero_modes.cwiseAbs().maxCoeff());
     const double shortest = equilibrium::least_along * std::abs(step);
     for (int k = 0; k < equilibrium::most_apart && here < farthest && std::abs(step) >= shortest; ++k) {
-      std::optional<Equilibrium> next = beside(best, step);
+      std::optional<Equilibrium> next = neighbour_in_family(newton, best, step);
       const double there = next ? room(next->point.state) : here;
       if (next && there > here) best = std::move(*next), here = there, step *= 1.5;
       else step /= 3;
