@@ -311,11 +311,13 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   return true;
 }
 
-// From the event the branch leads to both ends of the step: from a limit point that leads to one of them alone it may be another branch that was met, as beside a
-// pitchfork that is all but perfect, where both have the same index. No step of the load factor meets a limit point.
+// From the event the branch leads to both ends of the step. A limit point that leads back to where the step begins is on this branch, whatever lies beyond; one that
+// leads to the other end alone may be that of another branch, as beside a pitchfork that is all but perfect, where both have the same index. No step of the load
+// factor meets a limit point.
 bool Branch::explained(const Event& event, const Segment& segment, const Candidate& c) const {
-  if (event.kind == EventKind::limit && c.natural) return false;
-  return segment.leads(event.at, c.e) && (singular_ || segment.leads(event.at, current_));
+  const auto leads_to = [&](const Equilibrium& end) { return segment.leads(event.at, end); };
+  if (event.kind == EventKind::limit) return !c.natural && leads_to(singular_ ? c.e : current_);
+  return leads_to(c.e) && (singular_ || leads_to(current_));
 }
 
 bool Branch::find_user_events(Segment segment, Candidate& c, std::string& why) {
