@@ -6,7 +6,7 @@ namespace elamin {
 double free_memory();
 
 /// Lets this program keep up to 256 MB that it has freed, for what it asks for next, in blocks of up to 32 MB. Every factorisation frees and asks for the same
-/// blocks; memory that goes back to the system between them comes again page by page, which takes half of the time of small problems. For programs
+/// blocks; memory that goes back to the system between them comes again page by page, which takes much of the time of small problems. For programs
 /// alone to call, before their first factorisation: it is about all of their memory. Nothing where the C library is not glibc.
 void keep_freed_memory();
 

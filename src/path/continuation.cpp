@@ -200,6 +200,7 @@ double Continuation::beyond(double at) const {
 
 // Where one equilibrium of a family comes to a contact the path goes on from another one: no event, which one it was is the steps' choice.
 bool Continuation::slides_away(Equilibrium at) {
+  if (arcs() && arc_steps().direction().load * range() < 0) return false;       // steps would begin anew the other way
   if (!moves_in_family(at)) return false;
   begin_at(at);
   emit(std::move(at.point));
@@ -233,8 +234,8 @@ void Continuation::jump(const Event& event) {
 bool Continuation::moves_in_family(Equilibrium& at) {
   if (family_ == 0) return false;
   hold_family(newton_, at, family_);
-  if (!part_in_family(newton_, at)) return false;
-  note(fmt::format("load factor {:.10g}: of equilibria side by side one that is away from contacts", at.point.state.load_factor));
+  if (!move_from_contacts(newton_, at)) return false;
+  note(fmt::format("load factor {:.10g}: the path goes on from another equilibrium of the same family, away from contacts", at.point.state.load_factor));
   return true;
 }
 

@@ -244,7 +244,7 @@ bool opens_along(const Energy& energy, const Equilibrium& e, const ContactSet& c
   });
 }
 
-bool part_in_family(Newton& newton, Equilibrium& e) {
+bool move_from_contacts(Newton& newton, Equilibrium& e) {
   Energy& energy = newton.energy();
   if (e.family != 1) return false;
   const double size = energy.kinematics().smallest_size(), most = newton.tolerance() * std::max(energy.force_scale(), energy.force_floor());

@@ -43,7 +43,7 @@ bool rest_in_family(Newton& newton, Equilibrium& e);
 
 /// Moves an equilibrium of a family of one direction along it, away from what it touches without a force, as far as the least gap grows: a column that slides along
 /// a wall would come to it again on the next step. False, and nothing moves, where it touches nothing in that way.
-bool part_in_family(Newton& newton, Equilibrium& e);
+bool move_from_contacts(Newton& newton, Equilibrium& e);
 
 /// Whether these gaps change along the mode of a family.
 bool opens_along(const Energy& energy, const Equilibrium& e, const ContactSet& contacts);
