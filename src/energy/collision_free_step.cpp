@@ -84,11 +84,13 @@ double distance(const Wall& wall, double load_factor, const ExactVector& x, doub
   return nearest(ExactVector{x.hi + aside * r * Vec3::Ones(), x.lo});
 }
 
-// The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches.
-double at_wall(const Model& model, const Wall& wall, int p, const State& from, double load_change, const Vec3& u, double speed, double most) {
+// The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches; `begin`: where the wall is then.
+double at_wall(const Model& model, const Wall& wall, const Region& begin, int p, const State& from, double load_change, const Vec3& u, double speed, double most) {
   constexpr int most_parts = 200;
   constexpr double on_surface = 1e-9, off_surface = 1e-6;        // in radii
   const double r = model.diameter[p] / 2;
+  const auto room_at = [&](double distance) { return distance - particles_keep * std::min(distance, r); };
+  if (room_at(begin.least_distance(from.at(p).hi)) > speed * most) return most;
   const auto at = [&](double s) {
     ExactVector x = from.at(p);
     x.hi += s * u;
@@ -115,8 +117,9 @@ double at_wall(const Model& model, const Wall& wall, int p, const State& from, d
 double at_wall(const Model& model, const Wall& wall, const State& from, const State& to, const Field& u) {
   const double load_change = to.load_factor - from.load_factor;
   const double wall_speed = std::abs(wall.scaling.rate * load_change) * (wall.displacement.norm() + std::abs(wall.radius_change));
+  const Region begin = wall_at(wall, from.load_factor).region;
   double least = 1;
-  for (const int p : wall.particles) least = at_wall(model, wall, p, from, load_change, u.col(p), u.col(p).norm() + wall_speed, least);
+  for (const int p : wall.particles) least = at_wall(model, wall, begin, p, from, load_change, u.col(p), u.col(p).norm() + wall_speed, least);
   return least;
 }
 

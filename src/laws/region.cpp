@@ -25,6 +25,36 @@ double depth(const Region& r, const ExactVector& at) {
 
 bool Region::contains(const ExactVector& x) const { return depth(*this, x) >= 0; }
 
+// In the half-plane through the axis the side is a segment across which ρ lies between both radii, a cap ρ ≤ radius at its height.
+double Region::least_distance(const Vec3& at) const {
+  constexpr double roundings = 16 * epsilon;
+  double least = std::numeric_limits<double>::infinity();
+  const Vec3 x = at - displacement.hi, y = x - center;
+  if (shape == Shape::plane) {
+    least = std::abs(normal.dot(y));
+  } else if (shape == Shape::sphere) {
+    least = std::abs(y.norm() - radius);
+  } else if (shape == Shape::block) {
+    const Vec3 beyond = (lo - x).cwiseMax(x - hi).cwiseMax(0);
+    for (int face = 0; face < 6; ++face) {
+      if (open[face]) continue;
+      Vec3 apart = beyond;
+      apart[face / 2] = x[face / 2] - (face % 2 ? hi : lo)[face / 2];
+      least = std::min(least, apart.norm());
+    }
+  } else {
+    const bool cone = shape == Shape::cone;
+    const double first = cone ? radius_lo : radius, last = cone ? radius_hi : radius, z = x[axis];
+    const double rho = std::hypot(y[(axis + 1) % 3], y[(axis + 2) % 3]), beyond = std::max({axial_lo - z, z - axial_hi, 0.0});
+    const auto offer = [&](double across, double along) { least = std::min(least, std::hypot(across, along)); };
+    if (!open[2]) offer(std::max({rho - std::max(first, last), std::min(first, last) - rho, 0.0}), beyond);
+    if (!open[0]) offer(std::max(rho - first, 0.0), z - axial_lo);
+    if (!open[1]) offer(std::max(rho - last, 0.0), z - axial_hi);
+  }
+  if (!std::isfinite(least)) return least;
+  return least - roundings * (least + at.lpNorm<1>() + displacement.hi.lpNorm<1>() + center.lpNorm<1>());
+}
+
 Region Region::moved(const Vec3& d, double growth) const {
   Region r = *this;
   r.center += d, r.lo += d, r.hi += d;

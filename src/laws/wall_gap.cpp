@@ -209,6 +209,7 @@ class Search {
 
 WallGaps wall_gaps(const Region& region, bool inside, bool curved, const ExactVector& x, double r, double cutoff) {
   WallGaps found;
+  if (region.least_distance(x.hi) > r + cutoff) return found;
   const bool on_side = elamin::on_side(region, inside, x), contained = on_side ? inside : !inside;
   if (!on_side && !region.any_open()) return found;
   const ExactVector from_region = x - region.displacement;

@@ -16,7 +16,7 @@ std::vector<int> coupled_alike(const SparseMatrix& pattern);
 std::vector<int> fill_reducing_order(const SparseMatrix& pattern);
 
 /// What a Cholesky factor in that order takes: its entries that are not zero, and multiplications and additions to compute them, Σ c² of
-/// columns with c entries. Supernodes keep 17 % more of them on sheets of 10⁵ particles (`build/release/tests/scale 300 1`).
+/// columns with c entries. Supernodes keep 17 % more of them on sheets of 10⁵ particles (`build/release/tests/bench scale 300 1`).
 struct FactorSize {
   double entries = 0, operations = 0;
   double bytes() const { return 8 * 1.17 * entries; }

@@ -1,6 +1,6 @@
 // Rigid bodies: pairs and steps per second.
 //
-//     bodies_speed DATA FORMULATION k_n k_na r_c c_n c_t TIMESTEP STEPS GRAVITY [lo|-  hi|-  of x, y, z]
+//     bench bodies_speed DATA FORMULATION k_n k_na r_c c_n c_t TIMESTEP STEPS GRAVITY [lo|-  hi|-  of x, y, z]
 //
 // DATA: a LAMMPS data file of bodies. FORMULATION: lammps, multi or closest. Takes so many steps from rest under gravity along −z between the
 // planes that are given and prints the seconds of the processor, one thread, and the kinetic energy at the end. With
@@ -18,7 +18,7 @@
 
 using namespace elamin;
 
-namespace {
+namespace bodies_speed {
 
 double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -87,8 +87,6 @@ void time_pairs(const Model& m, int times) {
   if (!std::isfinite(sum)) std::exit(2);
 }
 
-}  // namespace
-
 int main(int count, char** arguments) try {
   const std::vector<std::string> words(arguments + 1, arguments + count);
   if (words.size() < 10) {
@@ -111,3 +109,5 @@ int main(int count, char** arguments) try {
   std::fprintf(stderr, "%s\n", e.what());
   return 1;
 }
+
+}  // namespace bodies_speed

@@ -1,6 +1,6 @@
 // Random packings of loose grains, and how often and how fast their minimum is found by solver.method = "auto".
 //
-//     packings [--seed S] [--count M] [--grains N] [--least K] [--method NAME]
+//     bench packings [--seed S] [--count M] [--grains N] [--least K] [--method NAME]
 //
 // Problem number k has the seed S + k (default S = 1, M = 10): N grains (default 200) at random in a box or in a cylinder, alike or of sizes that differ up to threefold,
 // in space or in a plane, on a floor under their weight, with contacts between 1e2 and 1e9 times stiffer than what one weighs; lengths from 1e-3 to 1e3. A packing is
@@ -22,7 +22,7 @@
 
 using namespace elamin;
 
-namespace {
+namespace packings {
 
 Model packing(int grains, unsigned seed) {
   std::mt19937 random(seed);
@@ -64,8 +64,6 @@ Model packing(int grains, unsigned seed) {
   return m;
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
   keep_freed_memory();
   std::map<std::string, std::string> given{{"--seed", "1"}, {"--count", "10"}, {"--grains", "200"}, {"--least", ""}, {"--method", "auto"}};
@@ -97,3 +95,5 @@ int main(int argc, char** argv) {
   fmt::print("ended right: {} of {} ({:.1f} s, the longest {:.1f} s)\n", right, count, watch.seconds(), longest);
   return right >= least ? EXIT_SUCCESS : EXIT_FAILURE;
 }
+
+}  // namespace packings

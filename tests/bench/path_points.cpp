@@ -1,6 +1,6 @@
 // A chain that buckles: what a point of a path in arc length costs.
 //
-//     path_points [PARTICLES [POINTS [MOST]]]        default 1000 1000 0
+//     bench path_points [PARTICLES [POINTS [MOST]]]        default 1000 1000 0
 //
 // A chain in a plane, clamped at both ends, is compressed until it buckles at branch:1, and followed along both side
 // branches, half of the points on each, at each of them with its Morse index under the load factor and held rigidly. One
@@ -19,7 +19,7 @@
 
 using namespace elamin;
 
-namespace {
+namespace path_points {
 
 // Seconds of the processor: a busy machine does not matter.
 double seconds() {
@@ -70,8 +70,6 @@ Traced follow(Newton& newton, const State& start, int points) {
   return t;
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
   keep_freed_memory();
   const int particles = argc > 1 ? std::atoi(argv[1]) : 1000, points = argc > 2 ? std::atoi(argv[2]) : 1000;
@@ -100,3 +98,5 @@ int main(int argc, char** argv) {
               1e3 * evaluation, 1e3 * factorisation, 1e3 * point, multiple);
   return most > 0 && multiple > most ? EXIT_FAILURE : EXIT_SUCCESS;
 }
+
+}  // namespace path_points

@@ -1,7 +1,7 @@
 // Random path problems whose right outcome is known: by theory, by symmetry, or because the same problem with other steps and
 // the other method must come to the same.
 //
-//     path_stress [--seed S] [--count M] [--family NAME] [--only SEED] [--keep DIR] [--jobs J] [--seconds T] [--least N]
+//     bench path_stress [--seed S] [--count M] [--family NAME] [--only SEED] [--keep DIR] [--jobs J] [--seconds T] [--least N]
 //
 // Problem number k has the seed S + k (default S = 1, M = 100); its family is the next one in turn, or NAME. Prints how many
 // ended right, in all and by family, and a line for each that did not. --only: this one problem alone; --keep: its files are
@@ -32,7 +32,7 @@
 
 using namespace elamin;
 
-namespace {
+namespace path_stress {
 
 // ---- Random numbers: splitmix64, the same on every machine.
 
@@ -1429,8 +1429,6 @@ double now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
   keep_freed_memory();
   std::uint64_t seed = 1;
@@ -1512,3 +1510,5 @@ int main(int argc, char** argv) {
   std::printf("ended right: %d of %d (%.1f s, the longest %.1f s: %s)\n", right, done, now() - begun, slowest, slowest_name.c_str());
   return right >= (least < 0 ? done : least) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
+
+}  // namespace path_stress

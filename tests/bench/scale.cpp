@@ -1,7 +1,7 @@
 // What Newton's method does in one iteration on a large sheet: one line of the table that tests/bench/scale prints.
 //
-//     scale ROWS THREADS [FACTOR]
-//     mpirun -n RANKS scale ROWS THREADS
+//     bench scale ROWS THREADS [FACTOR]
+//     mpirun -n RANKS bench scale ROWS THREADS
 //
 // A clamped square sheet, of ROWS particles along a row, under its own weight. Prints the particles, the dofs, seconds for the making of the
 // energy and for an assembly of gradient and Hessian, the analysis, a factorisation and a solution, each the best of three (the energy and
@@ -29,7 +29,7 @@ extern "C" void dgemm_(const char*, const char*, const int*, const int*, const i
 
 using namespace elamin;
 
-namespace {
+namespace scale {
 
 Model sheet_under_weight(int rows) {
   Model model = clamped_sheet(rows - 1.0, rows - 1.0);
@@ -81,9 +81,6 @@ double peak_memory() {
   return used.ru_maxrss * 1024.0;
 }
 
-}  // namespace
-
-namespace {
 
 void measure(int argc, char** argv) {
   const int rows = argc > 1 ? std::atoi(argv[1]) : 100, threads = argc > 2 ? std::atoi(argv[2]) : 1;
@@ -117,11 +114,12 @@ void measure(int argc, char** argv) {
   std::printf(" %8.3f %8.3f\n", memory * 1e-9, size.bytes() * 1e-9);
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
   Ranks* const all = join_ranks();
   if (all && all->rank() > 0) return all->serve(), leave_ranks(), 0;
   measure(argc, argv);
   if (all) all->release(Ranks::Release::end), leave_ranks();
+  return 0;
 }
+
+}  // namespace scale

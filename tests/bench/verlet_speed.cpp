@@ -1,6 +1,6 @@
 // Particle-steps per second of the velocity-Verlet engine.
 //
-//     verlet_speed FILE.toml TIMESTEP STEPS [POSITIONS]
+//     bench verlet_speed FILE.toml TIMESTEP STEPS [POSITIONS]
 //
 // Takes so many steps of the problem's model from its start, on one thread, and prints the seconds of the processor that they took and the
 // particle-steps per second. POSITIONS: a file for the final positions, a particle a line. Fails if a position is lost.
@@ -14,6 +14,8 @@
 #include <exception>
 
 using namespace elamin;
+
+namespace verlet_speed {
 
 int main(int count, char** words) try {
   if (count < 4) {
@@ -39,3 +41,5 @@ int main(int count, char** words) try {
   std::fprintf(stderr, "%s\n", e.what());
   return 1;
 }
+
+}  // namespace verlet_speed

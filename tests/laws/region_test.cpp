@@ -1,6 +1,8 @@
 #include "catch.hpp"
 #include "laws/wall_sites.hpp"
 
+#include <random>
+
 using namespace elamin;
 
 TEST_CASE("a region contains what is inside of it and on its surface", "[laws][region]") {
@@ -44,4 +46,27 @@ TEST_CASE("a region moves as a whole", "[laws][region]") {
   CHECK(cone.radius_hi == 1.625);
   CHECK(cone.axial_lo == -1.0);
   CHECK(cone.axial_hi == 3.5);
+}
+
+// What lets most particles be passed over: were it more than the distance, a wall would lose what touches it.
+TEST_CASE("no face of a region is nearer than its least distance, which of all but cones is the distance", "[laws][region]") {
+  constexpr double r = 0.5, anywhere = std::numeric_limits<double>::infinity();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-12, 12);
+  for (const WallSite& site : wall_sites())
+    for (int k = 0; k < 100; ++k) {
+      const double scale = std::pow(10.0, place(random) / 4);
+      const Vec3 moved(place(random), place(random), place(random)), x = site.point + Vec3(place(random), place(random), place(random)) / (1 + k % 5);
+      const Region region = scaled(site.region, scale).moved_exactly({scale * moved, Vec3::Zero()}, 0);
+      const WallContact wall{region, site.inside, 1e4, false};
+      const Vec3 at = scale * (x + moved);
+      std::array<WallTouch, WallContact::most_faces> touch;
+      const int count = wall.touches({at, Vec3::Zero()}, scale * r, anywhere, touch);
+      const double least = region.least_distance(at), size = scale * 100;
+      for (int face = 0; face < count; ++face) CHECK(touch[face].gap + scale * r >= least);
+      double nearest = anywhere;
+      for (int face = 0; face < count; ++face) nearest = std::min(nearest, touch[face].gap + scale * r);
+      INFO(site.name << ": " << nearest << ", " << least);
+      if (count > 0 && region.shape != Shape::cone) CHECK(nearest - least <= 64 * epsilon * size);
+    }
 }
