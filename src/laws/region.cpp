@@ -45,8 +45,8 @@ double Region::least_distance(const Vec3& at) const {
   } else {
     const bool cone = shape == Shape::cone;
     const double first = cone ? radius_lo : radius, last = cone ? radius_hi : radius, z = x[axis];
-    const double rho = std::hypot(y[(axis + 1) % 3], y[(axis + 2) % 3]), beyond = std::max({axial_lo - z, z - axial_hi, 0.0});
-    const auto offer = [&](double across, double along) { least = std::min(least, std::hypot(across, along)); };
+    const double rho = Eigen::Vector2d(y[(axis + 1) % 3], y[(axis + 2) % 3]).norm(), beyond = std::max({axial_lo - z, z - axial_hi, 0.0});
+    const auto offer = [&](double across, double along) { least = std::min(least, std::sqrt(across * across + along * along)); };
     if (!open[2]) offer(std::max({rho - std::max(first, last), std::min(first, last) - rho, 0.0}), beyond);
     if (!open[0]) offer(std::max(rho - first, 0.0), z - axial_lo);
     if (!open[1]) offer(std::max(rho - last, 0.0), z - axial_hi);

@@ -233,6 +233,8 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   if (!change || !change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
   if (undoes(*change)) return why = "a contact that has just changed changes back where it is", false;
+  // Of unstable branches no energy tells whether the step has gone to another one (lower_already).
+  if (negative_ > 0 && !singular_ && !c.natural && !segment.leads(change->at, current_)) return why = "the corrector went to another branch", false;
   const double way = c.e.point.state.load_factor - current_.point.state.load_factor;
   c = with_contact(std::move(c), std::move(*change));
   if (current_.slack) look_behind(c.events.front(), way);

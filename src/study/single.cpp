@@ -169,6 +169,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
       },
       .progress = [&](const std::string& line, double step) { teller.moved(line, step); },
       .checkpoint = [&](const std::function<void(Archive&)>& of_study) { checkpoints.offer([&](Archive& a) { carry(a), of_study(a); }); },
+      .reached = [&](const PathPoint& point) { teller.reached(point); },
       .enough = [&](const PathPoint& point) { return problem.curve && point.label == problem.curve->of; }};
   const auto follow_curve = [&]() -> Outcome {
     if (!event)

@@ -45,12 +45,13 @@ void Teller::enter(const Stage& stage) {
   if (!problem_.stages.empty()) progress_.enter(stage.number, static_cast<int>(problem_.stages.size()), stage.path.from, stage.path.to);
 }
 
+void Teller::reached(const PathPoint& point) { begin(fmt::format("what comes after step {}, load factor {:.7g},", point.step, point.state.load_factor)); }
+
 void Teller::found(const PathPoint& point, const std::vector<Touch>& touches) {
   const auto closed = std::count_if(touches.begin(), touches.end(), [](const Touch& t) { return t.bears || t.gap < 0; });
   const std::lock_guard lock(mutex_);
   if (problem_.follows_path()) progress_.show(point, static_cast<int>(closed));
-  after_ = fmt::format("what comes after step {}, load factor {:.7g},", point.step, point.state.load_factor);
-  since_point_ = since_line_ = Stopwatch();
+  since_line_ = Stopwatch();
 }
 
 void Teller::moved(const std::string& line, double step) {

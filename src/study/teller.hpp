@@ -22,8 +22,9 @@ class Teller {
   const std::vector<std::string>& warnings() const { return warnings_; }
   void carry(Archive& archive) { archive(warnings_); }
 
-  /// Where the points that come are: in a stage of the path; this one is found; a motion has come to this step.
+  /// Where the points that come are: in a stage of the path; it has come to this one, which is then told; a motion has come to this step.
   void enter(const Stage& stage);
+  void reached(const PathPoint& point);
   void found(const PathPoint& point, const std::vector<Touch>& touches);
   void moved(const std::string& line, double step);
   /// What comes behind the path: "the landscape".

@@ -32,6 +32,8 @@ struct Sink {
   std::function<void(const std::string& line, double step)> progress = {};
   /// At every place that the study can go on from, with what it carries there; in time also within a stop.
   std::function<void(const std::function<void(Archive&)>& carry)> checkpoint = {};
+  /// Of a path: it has come to this point, which is told when it is known whether that is the last one.
+  std::function<void(const PathPoint& point)> reached = {};
   /// Of a path: whether it ends with this point.
   std::function<bool(const PathPoint& point)> enough = {};
 };

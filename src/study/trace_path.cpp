@@ -221,6 +221,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       if (!begun && k > first) point->label.clear();       // "initial" is the first of all
       begun = true;
       held = numbers.among_all(std::move(*point));
+      if (sink.reached) sink.reached(*held);
       tell_notes();
       // What is found while it is to stop need not be what would be found otherwise.
       if (sink.checkpoint && broken.empty() && !interrupted()) sink.checkpoint([&](Archive& archive) { archive(starts), carry(archive); });
