@@ -150,7 +150,7 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
   const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
   std::optional<Segment> fading;
-  const bool kink = !c && !along_contact && (c = reach_kink(arc, s, fading)).has_value();
+  const bool kink = !c && !along_contact && (c = reach_kink(arc, s, fading)).has_value() && !c->events.empty();
   if (!c) return {};
   if (along_contact && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
   if (!kink) {
@@ -246,6 +246,8 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, 
   }
   if (!contacts_ && lost.point.stability.negative == negative_) return {};
   if (t > arc_steps::standing * s && !joins(arc, change->at, current_) && !(fading = fades(*change, lost))) return {};
+  if (!fading && t > arc_steps::standing * s)
+    if (auto earlier = before_it_leaves([&](double at, const Equilibrium& nearest) { return arc.at(at, nearest); }, t, change->after)) return earlier;
   return with_contact(Candidate{.parameter = fading ? fading->b : t, .e = {}}, std::move(*change));
 }
 

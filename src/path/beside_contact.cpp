@@ -78,7 +78,8 @@ std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std
   const Arc arc(newton, at, {rates->x / size, rates->load / size}, metric);
   for (double part = contact_event::onward; part >= contact_event::least_beside; part /= 100) {
     const Equilibrium e = arc.at(part, at);
-    const auto closed = [&](const ContactKey& key) { return gap(energy, key, e.point.state) < 0; };
+    // An overlap by rounding is none: of stiff contacts the index may change before it is more.
+    const auto closed = [&](const ContactKey& key) { return gap(energy, key, e.point.state) < -contact_event::rounding * size_of(energy.model(), key.particle); };
     if (e.point.report.converged() && std::all_of(made.begin(), made.end(), closed) && arc.distance(e.point.state) < part) return e.point.stability.negative;
   }
   return {};

@@ -192,6 +192,16 @@ void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
   });
 }
 
+// What leaves takes its stiffness away before it is gone, so that the index there tells nothing of the way to it: where an unstable branch turns stable, and what leaves
+// makes it unstable again. Then the state a little before.
+std::optional<Branch::Candidate> Branch::before_it_leaves(const Along& at, double where, const ContactSet& after) const {
+  if (negative_ <= 0 || current_.slack || std::includes(after.begin(), after.end(), closed_.begin(), closed_.end())) return {};
+  const double before = branch::before_contact * where;
+  Equilibrium e = at(before, current_);
+  if (!e.point.report.converged() || e.point.stability.negative == negative_) return {};
+  return Candidate{.parameter = before, .e = std::move(e)};
+}
+
 // Whether contacts are closed, or open, at a change that is none of theirs, and were not where the step begins.
 bool Branch::changes_before(const ContactChange& change) {
   ContactSet others = difference(closed_contacts(newton_.energy(), change.at), change.after);
@@ -233,8 +243,8 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   if (!change || !change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
   if (undoes(*change)) return why = "a contact that has just changed changes back where it is", false;
-  // Of unstable branches no energy tells whether the step has gone to another one (lower_already).
-  if (negative_ > 0 && !singular_ && !c.natural && !segment.leads(change->at, current_)) return why = "the corrector went to another branch", false;
+  if (!c.natural)
+    if (std::optional<Candidate> earlier = before_it_leaves(segment.at, c.parameter, change->after)) return c = std::move(*earlier), true;
   const double way = c.e.point.state.load_factor - current_.point.state.load_factor;
   c = with_contact(std::move(c), std::move(*change));
   if (current_.slack) look_behind(c.events.front(), way);

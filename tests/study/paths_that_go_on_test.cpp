@@ -522,6 +522,16 @@ TEST_CASE("a step to a limit point stays on its branch, whatever the steps", "[p
     }
 }
 
+TEST_CASE("a column that bends away from a stiff stop stays on its branch, whatever the steps", "[paths][leaves_stiff_stop]") {
+  const Run first("column_against_stiff_stop", {in_steps(60)});
+  REQUIRE(first.of("limit").size() == 10);
+  for (const int n : {3, 4, 6, 24, 50, 200}) {
+    const Run run("column_against_stiff_stop", {in_steps(n)});
+    CHECK_ENDS_AT(run, 4.3125);
+    same_events(first, run);
+  }
+}
+
 TEST_CASE("a column in space falls from a double branch point, whatever the steps", "[paths][column_twelve_jump]") {
   const double mu = 4 * std::pow(std::sin(pi / 10), 2), d = 1e-3, E = 0.96e6, K = pi * E * d / 8, B = pi * E * d * d * d / 64;     // 8 are free
   const double a = d * (1 + std::sqrt(1 - 2 * B * mu / (K * d * d))) / 2, critical = 9 * (B * mu / (2 * K * a)) / 0.74e-3;
