@@ -247,7 +247,7 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, 
   if (!contacts_ && lost.point.stability.negative == negative_) return {};
   if (t > arc_steps::standing * s && !joins(arc, change->at, current_) && !(fading = fades(*change, lost))) return {};
   if (!fading && t > arc_steps::standing * s)
-    if (auto earlier = before_it_leaves([&](double at, const Equilibrium& nearest) { return arc.at(at, nearest); }, t, change->after)) return earlier;
+    if (auto earlier = before_it_leaves([&](double at, const Equilibrium& nearest) { return arc.at(at, nearest); }, 0, t, change->after)) return earlier;
   return with_contact(Candidate{.parameter = fading ? fading->b : t, .e = {}}, std::move(*change));
 }
 

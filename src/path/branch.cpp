@@ -194,9 +194,9 @@ void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
 
 // What leaves takes its stiffness away before it is gone, so that the index there tells nothing of the way to it: where an unstable branch turns stable, and what leaves
 // makes it unstable again. Then the state a little before.
-std::optional<Branch::Candidate> Branch::before_it_leaves(const Along& at, double where, const ContactSet& after) const {
+std::optional<Branch::Candidate> Branch::before_it_leaves(const Along& at, double from, double where, const ContactSet& after) const {
   if (negative_ <= 0 || current_.slack || std::includes(after.begin(), after.end(), closed_.begin(), closed_.end())) return {};
-  const double before = branch::before_contact * where;
+  const double before = from + branch::before_contact * (where - from);
   Equilibrium e = at(before, current_);
   if (!e.point.report.converged() || e.point.stability.negative == negative_) return {};
   return Candidate{.parameter = before, .e = std::move(e)};
@@ -243,8 +243,10 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
   if (!change || !change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
   if (undoes(*change)) return why = "a contact that has just changed changes back where it is", false;
-  if (!c.natural)
-    if (std::optional<Candidate> earlier = before_it_leaves(segment.at, c.parameter, change->after)) return c = std::move(*earlier), true;
+  if (std::optional<Candidate> earlier = before_it_leaves(segment.at, segment.a, c.parameter, change->after)) {
+    earlier->natural = c.natural;
+    return c = std::move(*earlier), true;
+  }
   const double way = c.e.point.state.load_factor - current_.point.state.load_factor;
   c = with_contact(std::move(c), std::move(*change));
   if (current_.slack) look_behind(c.events.front(), way);
@@ -271,7 +273,7 @@ void Branch::see_neutral_behind(Event& contact, double way) {
   if (contact.slides) return;
   for (double part = branch::first_past; part <= branch::last_past; part *= 16) {
     const Equilibrium e = continue_to(newton_, from, from.point.state.load_factor + part * way);
-    if (!e.point.report.converged()) return;
+    if (!e.point.report.converged()) return void(contact.slides = true);         // what is held is pushed along
     if (e.zero_modes.cols() == from.zero_modes.cols()) continue;
     contact.after = e.point.stability.negative;
     if (contact.after > contact.before) contact.modes = from.zero_modes;

@@ -76,8 +76,8 @@ class Branch {
   void see_neutral_behind(Event& contact, double way);
   bool undoes(const ContactChange& change) const;
   bool changes_before(const ContactChange& change);
-  using Along = std::function<Equilibrium(double arc_length, const Equilibrium& nearest)>;
-  std::optional<Candidate> before_it_leaves(const Along& at, double where, const ContactSet& after) const;
+  using Along = std::function<Equilibrium(double parameter, const Equilibrium& nearest)>;
+  std::optional<Candidate> before_it_leaves(const Along& at, double from, double where, const ContactSet& after) const;
   bool contact_may_explain(const Candidate& c) const;
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
   struct Place { double t, by; };      // on a segment, and how likely: the less the more
