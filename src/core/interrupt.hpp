@@ -11,4 +11,7 @@ inline thread_local const std::function<bool()>* stop_asked = nullptr;
 
 inline bool interrupted() { return interrupt_requested.load(std::memory_order_relaxed) || (stop_asked && (*stop_asked)()); }
 
+/// Whether a long factorisation has been given up since then, because of that: what has been computed with it is not to be told.
+inline std::atomic<bool> gave_up{false};
+
 }  // namespace elamin

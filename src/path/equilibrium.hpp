@@ -24,7 +24,7 @@ struct Equilibrium {
   int family = 0;                      // most directions of a family of equilibria side by side that it may be one of; those that are nearly neutral are among zero_modes
 };
 
-/// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to.
+/// Inertia, zero modes and their names, energies and tangent of a state that Newton has just converged to; of one at which it was interrupted the energies alone.
 Equilibrium assess(Newton& newton, const State& state, const Report& report);
 
 /// Tells the softest eigenpairs of an equilibrium that assess() or with_tangent() has just told, from those of a neighbour (none: from nothing), and how they

@@ -303,7 +303,7 @@ void Multifrontal::eliminate_block(const Front& front) {
 
 // Whether there is any use in going on.
 bool Multifrontal::going() {
-  if (!failed_ && stoppable_ && interrupted()) failed_ = true;
+  if (!failed_ && stoppable_ && interrupted()) failed_ = gave_up = true;
   return !failed_;
 }
 
@@ -374,7 +374,7 @@ bool Multifrontal::factorize(const SparseMatrix& h, double shift, double* l, Blo
 bool Multifrontal::factorize_all(const SparseMatrix& h, double shift, double* l) {
   values_ = h.valuePtr(), shift_ = shift, l_ = l;
   failed_ = out_of_memory_ = false;
-  stoppable_ = all_operations_ > long_work && !interrupted();
+  stoppable_ = all_operations_ > long_work;
   if (all_operations_ >= shared_from && omp_get_max_threads() > 1 && !omp_in_parallel()) share_work();
   else
     for (int s = 0; s < of_.count() && !failed_; ++s) work_on(s);

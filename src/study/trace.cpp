@@ -84,6 +84,7 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
   if (report.status == Status::not_converged)
     if (const std::string what = obstacle(newton.energy(), state); report.why.find(what) == std::string::npos) report.why += "; " + what;
   Equilibrium e = assess(newton, state, report);
+  if (gave_up) report.status = Status::interrupted, report.why = "interrupted", e = assess(newton, state, report);
   sink.point(e.point, true);
   return {report.status, report.why};
 }
@@ -106,6 +107,7 @@ State starting_state(const Problem& problem, const Energy& energy) {
 }
 
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped) {
+  gave_up = false;
   if (problem.follows_path()) return trace_path(problem, model, stored, sink, stopped);
   if (problem.in_time()) return trace_dynamics(problem, model, sink, stopped);
   Energy energy(model);

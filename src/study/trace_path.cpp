@@ -208,6 +208,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       for (const std::string& note : run->path->notes()) sink.note(note);
     };
     while (std::optional<PathPoint> point = broken.empty() && !enough() ? run->path->next() : std::nullopt) {
+      if (gave_up) break;
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
         break;
@@ -228,6 +229,8 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     }
     tell_notes();
     outcome = {run->path->status(), run->path->why()};
+    if (gave_up && outcome.status != Status::interrupted)
+      outcome = {Status::interrupted, held ? fmt::format("interrupted at load factor {:.10g}", held->state.load_factor) : "interrupted"};
     if (enough()) outcome = {Status::converged, "the path ends at " + held->label};
     if (!broken.empty()) outcome = {Status::not_converged, broken};
     if (!run->stage.name.empty()) outcome.why = run->stage.name + ": " + outcome.why;

@@ -1373,7 +1373,8 @@ void grain_heap(Case& test) {
 void box_tips(Case& test) {
   Random& random = test.random;
   const double size = random.decades(1e-6, 1e3), W = random.decades(1e-6, 1e6), b = random.between(0.3, 0.8) * size, c = random.between(0.3, 1) * size;
-  const double k = random.decades(10, 1e6) * W / b * std::max(1.0, c / b), a = random.between(0.2, 1) * c, rounding = random.between(0.05, 0.3) * size;
+  const double stiff = random.decades(10, 1e6) * W / b * std::max(1.0, c / b), a = random.between(0.2, 1) * c, rounding = random.between(0.05, 0.3) * size;
+  const double k = std::max(stiff, 1.5 * W / rounding);           // on two corners the overlap W/2k is less than the rounding's radius
   const Place3 p = anywhere(random, false, size, true);           // s up, t the way of the push
   File f = p.begin("A box tips over");
   Vec3 sides;
