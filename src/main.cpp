@@ -30,6 +30,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -51,6 +52,19 @@ extern "C" void on_interrupt(int) {
   asked = 1;
   elamin::interrupt_requested = true;
 }
+
+// Signals that ask the program to end. They are blocked before the constructors of libraries run, of which OpenBLAS's begins threads.
+sigset_t asking;
+void block_signals() {
+  sigemptyset(&asking);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&asking, signal);
+  pthread_sigmask(SIG_BLOCK, &asking, nullptr);
+}
+extern "C" void* wait_for_signals(void*) {
+  for (int signal = 0;;)
+    if (sigwait(&asking, &signal) == 0) on_interrupt(signal);
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = block_signals;
 
 const char* const description =
     "elamin: static equilibria of elastic structures made of glued particles.\n"
@@ -122,10 +136,17 @@ void open_standard_streams() {
 }
 
 // Ctrl-C, kill and a terminal that is closed (not under nohup) stop a run in order; a reader that has gone, as of `| head`, stops nothing.
+// A thread of its own waits for them, and all others block them: while METIS orders unknowns it has a handler of its own for SIGTERM, which takes it away.
 void take_signals() {
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN), sigdelset(&asking, SIGHUP);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  constexpr std::size_t stack = 1 << 18;         // next to nothing of a limited memory
+  pthread_attr_t small;
+  pthread_t waits;
+  pthread_attr_init(&small), pthread_attr_setstacksize(&small, stack), pthread_attr_setdetachstate(&small, PTHREAD_CREATE_DETACHED);
+  if (pthread_create(&waits, &small, wait_for_signals, nullptr) != 0) pthread_sigmask(SIG_UNBLOCK, &asking, nullptr);
+  pthread_attr_destroy(&small);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);                 // a file that has grown to its limit is one that cannot be written
 }
