@@ -11,7 +11,7 @@ inline thread_local const std::function<bool()>* stop_asked = nullptr;
 
 inline bool interrupted() { return interrupt_requested.load(std::memory_order_relaxed) || (stop_asked && (*stop_asked)()); }
 
-/// Whether a long factorisation has been given up since then, because of that: what has been computed with it is not to be told.
+/// Whether a long factorisation has been abandoned because of an interruption since the study began: what has been computed from then on is not reported.
 inline std::atomic<bool> gave_up{false};
 
 }  // namespace elamin

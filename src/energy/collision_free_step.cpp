@@ -84,7 +84,7 @@ double distance(const Wall& wall, double load_factor, const ExactVector& x, doub
   return nearest(ExactVector{x.hi + aside * r * Vec3::Ones(), x.lo});
 }
 
-// The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches; `begin`: where the wall is then.
+// The part of the way that the centre of particle p may go, `most` at the most; `speed`: no less than any of its approaches; `begin`: the wall's region at the beginning of the way.
 double at_wall(const Model& model, const Wall& wall, const Region& begin, int p, const State& from, double load_change, const Vec3& u, double speed, double most) {
   constexpr int most_parts = 200;
   constexpr double on_surface = 1e-9, off_surface = 1e-6;        // in radii

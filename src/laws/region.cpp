@@ -25,7 +25,7 @@ double depth(const Region& r, const ExactVector& at) {
 
 bool Region::contains(const ExactVector& x) const { return depth(*this, x) >= 0; }
 
-// In the half-plane through the axis the side is a segment across which ρ lies between both radii, a cap ρ ≤ radius at its height.
+// Cylinders and cones in the half-plane of ρ and z: their side lies between both radii and between both ends, their caps are ρ ≤ radius at each end.
 double Region::least_distance(const Vec3& at) const {
   constexpr double roundings = 16 * epsilon;
   double least = std::numeric_limits<double>::infinity();

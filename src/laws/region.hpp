@@ -28,7 +28,8 @@ struct Region {
   /// Whether x is inside (on the surface: inside).
   bool contains(const Vec3& x) const { return contains(ExactVector{x, Vec3::Zero()}); }
   bool contains(const ExactVector& x) const;
-  /// Of all faces that are there none is nearer to x than this, in doubles and less their rounding; the distance itself but inside of a cone, where it may be less.
+  /// A lower bound of the distance from x to the nearest closed face, in doubles, with their rounding subtracted [length]; the distance itself to rounding, but for
+  /// cones, where it may be less. Infinity where no face is closed.
   double least_distance(const Vec3& x) const;
   bool any_open() const { return open[0] || open[1] || open[2] || open[3] || open[4] || open[5]; }
   /// The same region moved by d and with its radius (of a cone: both) larger by `growth`.

@@ -192,8 +192,8 @@ void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
   });
 }
 
-// What leaves takes its stiffness away before it is gone, so that the index there tells nothing of the way to it: where an unstable branch turns stable, and what leaves
-// makes it unstable again. Then the state a little before.
+// An unstable branch may become stable at a limit point or branch point, and unstable again where a contact is lost, whose stiffness vanishes there. Then the Morse index is the
+// same at both ends of the step. This is the state shortly before the contact is lost, if its index is another one; else nothing.
 std::optional<Branch::Candidate> Branch::before_it_leaves(const Along& at, double from, double where, const ContactSet& after) const {
   if (negative_ <= 0 || current_.slack || std::includes(after.begin(), after.end(), closed_.begin(), closed_.end())) return {};
   const double before = from + branch::before_contact * (where - from);

@@ -195,7 +195,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
     e.point.stability.stable = true;
     return e;
   }
-  if (report.status == Status::interrupted) return e;           // who stops a run does not wait for a factor
+  if (report.status == Status::interrupted) return e;           // a run that is stopped ends without another factorisation
   Stability& s = e.point.stability;
   if (!state.hard.empty()) {                                    // what moves keeps the hard contacts closed
     ContactEquilibrium held(energy);

@@ -499,7 +499,7 @@ class Translation {
   std::string study() {
     const bool touches = std::any_of(tables_.begin(), tables_.end(), [](const Table& t) { return t.kind == "wall" || t.kind == "contact"; });
     const std::string jumping = std::string("when_unstable = \"jump\"\n") +
-                                (touches ? "locate = []                      # snaps are told; \"limit\", \"branch\", \"contact\": where each of these is, too, which takes several times as long\n"
+                                (touches ? "locate = []                      # snaps alone are reported; \"limit\", \"branch\", \"contact\" locate these events, too, which takes several times as long\n"
                                          : "locate = [\"limit\", \"branch\"]\n");
     std::string t;
     if (world_.runs.empty()) return "\n[study]                          # the script runs nothing\ntype = \"energy\"\n";
