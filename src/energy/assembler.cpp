@@ -254,13 +254,20 @@ void relative_motion(const Field& v, std::span<const int> stencil, bool anchored
 
 constexpr int most_local = 3 * Assembler::most_sites;
 
-// y = H_e v from the packed lower triangle.
-void packed_product(const double* h, const double* v, int n, double* y) {
-  for (int r = 0; r < n; ++r) y[r] = 0;
-  for (int r = 0; r < n; ++r) {
+// y = H_e v from the packed lower triangle. `size` is n, or 0 where it is not one of the usual ones: then nothing is unrolled.
+template <int size>
+void packed_product(const double* __restrict h, const double* __restrict v, [[maybe_unused]] int n, double* __restrict y) {
+  const int all = size > 0 ? size : n;
+  for (int r = 0; r < all; ++r) y[r] = 0;
+  for (int r = 0; r < all; ++r) {
     for (int c = 0; c < r; ++c, ++h) y[r] += *h * v[c], y[c] += *h * v[r];
     y[r] += *h++ * v[r];
   }
+}
+
+// Bonds and contacts, angles, hinges of four sites.
+auto packed_product_of(int n) {
+  return n == 6 ? packed_product<6> : n == 9 ? packed_product<9> : n == 12 ? packed_product<12> : packed_product<0>;
 }
 
 }  // namespace
@@ -269,11 +276,14 @@ void Assembler::multiply(const Field& v, Field& out) {
   products_.resize(gradients_.size());
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const ElementGroup& group = *groups_[k];
+    const std::span<const int> stencils = group.stencils();
+    const int sites = group.sites(), n = group.gradient_size(), entries = group.hessian_size();
+    const bool anchored = group.anchored();
+    const auto product = packed_product_of(n);
     parallel_for(group.elements(), grain, [&](std::int64_t e) {
       double local[most_local];
-      relative_motion(v, group.stencil(e), group.anchored(), local);
-      packed_product(hessians_.data() + hessian_offset_[k] + e * group.hessian_size(), local, group.gradient_size(),
-                     products_.data() + gradient_offset_[k] + e * group.gradient_size());
+      relative_motion(v, stencils.subspan(e * sites, sites), anchored, local);
+      product(hessians_.data() + hessian_offset_[k] + e * entries, local, n, products_.data() + gradient_offset_[k] + e * n);
     });
   }
   gather(products_, out);

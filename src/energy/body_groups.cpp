@@ -30,7 +30,7 @@ class BodyGroup : public ElementGroup {
  public:
   int elements() const override { return static_cast<int>(stencils_.size()); }
   int sites() const override { return n; }
-  std::span<const int> stencil(int element) const override { return stencils_[element]; }
+  std::span<const int> stencils() const override { return in_a_row(stencils_); }
   bool anchored() const override { return true; }
   bool residual_energy(const State&, const State&, double*) const override { return false; }
 

@@ -17,7 +17,7 @@ class CarriedGroup final : public ElementGroup {
 
   int elements() const override { return inner_->elements(); }
   int sites() const override { return 3 * inner_->sites(); }
-  std::span<const int> stencil(int e) const override { return {stencils_.data() + std::size_t(e) * sites(), std::size_t(sites())}; }
+  std::span<const int> stencils() const override { return stencils_; }
   std::span<const int> between(int e) const override { return inner_->between(e); }
   void values(const State& state, double* value) const override { inner_->values(state, value); }
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;

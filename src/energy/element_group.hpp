@@ -3,7 +3,9 @@
 #include "laws/law.hpp"
 #include "model/state.hpp"
 
+#include <array>
 #include <span>
+#include <vector>
 
 namespace elamin {
 
@@ -15,14 +17,22 @@ struct Tangent {
   double convex = 0;
 };
 
+/// The numbers of rows of n in a row.
+template <std::size_t n>
+std::span<const int> in_a_row(const std::vector<std::array<int, n>>& rows) {
+  return {rows.empty() ? nullptr : rows.front().data(), n * rows.size()};
+}
+
 /// One virtual call a group, none an element.
 class ElementGroup {
  public:
   virtual ~ElementGroup() = default;
   virtual int elements() const = 0;
   virtual int sites() const = 0;
-  /// The element's sites; −1: none, whose derivatives are left out.
-  virtual std::span<const int> stencil(int element) const = 0;
+  /// The sites of all elements, one element after another; −1: none, whose derivatives are left out.
+  virtual std::span<const int> stencils() const = 0;
+  /// Those of one element.
+  std::span<const int> stencil(int element) const { return stencils().subspan(std::size_t(element) * sites(), sites()); }
   /// The sites between which the element's energy is, where they are not those of its derivatives.
   virtual std::span<const int> between(int element) const { return stencil(element); }
   /// Energy of every element.

@@ -12,7 +12,7 @@ class HardPairGroup final : public ElementGroup {
 
   int elements() const override { return static_cast<int>(stencils_.size()); }
   int sites() const override { return 2; }
-  std::span<const int> stencil(int element) const override { return stencils_[element]; }
+  std::span<const int> stencils() const override { return in_a_row(stencils_); }
   void values(const State& state, double* value) const override;
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
   bool residual_energy(const State&, const State&, double*) const override { return false; }
@@ -30,7 +30,7 @@ class HardWallGroup final : public ElementGroup {
 
   int elements() const override { return static_cast<int>(particle_.size()); }
   int sites() const override { return 1; }
-  std::span<const int> stencil(int element) const override { return {&particle_[element], 1}; }
+  std::span<const int> stencils() const override { return particle_; }
   void values(const State& state, double* value) const override;
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override;
   bool residual_energy(const State&, const State&, double*) const override { return false; }

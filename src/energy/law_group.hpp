@@ -64,7 +64,7 @@ class LawGroup final : public ElementGroup {
 
   int elements() const override { return static_cast<int>(stencils_.size()); }
   int sites() const override { return n; }
-  std::span<const int> stencil(int element) const override { return stencils_[element]; }
+  std::span<const int> stencils() const override { return in_a_row(stencils_); }
 
   void values(const State& state, double* value) const override {
     at(state);

@@ -16,11 +16,13 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 class PythonGroup final : public ElementGroup {
  public:
-  explicit PythonGroup(const PythonLaw& law) : law_(law) {}
+  explicit PythonGroup(const PythonLaw& law) : law_(law) {
+    for (const std::vector<int>& element : law_.elements) stencils_.insert(stencils_.end(), element.begin(), element.end());
+  }
 
   int elements() const override { return static_cast<int>(law_.elements.size()); }
   int sites() const override { return law_.sites; }
-  std::span<const int> stencil(int element) const override { return law_.elements[element]; }
+  std::span<const int> stencils() const override { return stencils_; }
   bool anchored() const override { return law_.anchored; }
   bool residual_energy(const State&, const State&, double*) const override { return false; }
 
@@ -69,6 +71,7 @@ class PythonGroup final : public ElementGroup {
   }
 
   PythonLaw law_;
+  std::vector<int> stencils_;
 };
 
 std::shared_ptr<py::object> held(py::object object) {

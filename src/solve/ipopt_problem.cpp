@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace elamin {
 
@@ -181,6 +182,8 @@ void IpoptProblem::look(double moved) {
   report_.history.push_back({report_.energy, report_.residual, moved, 0});
   if (!(report_.residual <= memory_.close)) {
     escaped_ = elamin::escaped(energy_.model(), state_, limits::lost * extent_);
+    lost_ = moved <= std::numeric_limits<double>::epsilon() * extent_ ? lost_ + 1 : 0;
+    if (escaped_.empty() && lost_ == limits::ipopt::most_lost) escaped_ = "Ipopt's steps have become smaller than rounding";
     return;
   }
   const double largest = force_scale();

@@ -81,7 +81,7 @@ class IpoptProblem final : public Ipopt::TNLP {
   bool stale_ = false, reached_ = false;
   std::string escaped_;
   int version_ = 0;                              // of the pattern
-  int waited_ = 0;                               // iterations in which contacts were undecided
+  int waited_ = 0, lost_ = 0;                     // iterations in which contacts were undecided; in a row in which nothing moved
 };
 
 }  // namespace elamin

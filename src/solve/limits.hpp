@@ -132,8 +132,8 @@ constexpr double rounding_of_rates = 1e-9;
 }  // namespace hard
 
 namespace ipopt {
-/// Runs in a row that do not get anywhere; saddles that may be left; steps that Ipopt may take back.
-constexpr int most_rounds_without_gain = 5, most_saddles = 10;
+/// Runs in a row that do not get anywhere; saddles that may be left; steps in a row that are lost in rounding; steps that Ipopt may take back.
+constexpr int most_rounds_without_gain = 5, most_saddles = 10, most_lost = 50;
 constexpr std::size_t most_watched = 10;
 /// What Ipopt takes for no bound.
 constexpr double unbounded = 2e19;
@@ -155,6 +155,8 @@ constexpr std::size_t most_entries = 4000;
 constexpr double seen = 1e5;
 /// Rounds in a row without gain.
 constexpr int most_rounds_without_gain = 3;
+/// Dofs up to which a limited memory has as many pairs as there are dofs, at least so many; beyond NLopt's own number is about as many, or less.
+constexpr int small = 1000, fewest_pairs = 100;
 /// Dofs up to which a column beyond buckling was found within a minute: dense matrices, simplices, models of the energy, boxes.
 constexpr int dense = 500, simplex = 10, quadratic = 60, global = 12;
 }  // namespace nlopt

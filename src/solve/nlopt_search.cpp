@@ -151,6 +151,8 @@ void NloptSearch::optimise(nlopt_opt optimiser) {
   double f = 0;
   nlopt_srand(options_.seed);
   nlopt_set_min_objective(optimiser, &call, this);
+  // NLopt sets 40 MB to zero in each run, room for far more differences of gradients than a small problem has.
+  if (energy_.dofs() <= limits::nlopt::small) nlopt_set_vector_storage(optimiser, std::max(energy_.dofs(), limits::nlopt::fewest_pairs));
   const nlopt_result result = nlopt_optimize(optimiser, z.data(), &f);
   running_ = nullptr;
   if (thrown_) std::rethrow_exception(thrown_);

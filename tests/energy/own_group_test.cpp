@@ -30,7 +30,7 @@ class Wide final : public ElementGroup {
   explicit Wide(int n) : sites_(n, 0) {}
   int elements() const override { return 1; }
   int sites() const override { return static_cast<int>(sites_.size()); }
-  std::span<const int> stencil(int) const override { return sites_; }
+  std::span<const int> stencils() const override { return sites_; }
   void values(const State&, double* value) const override { *value = 0; }
   void derivatives(const State&, const Tangent&, double* value, double* gradient, double* hessian) const override {
     *value = 0, std::fill_n(gradient, gradient_size(), 0.0);

@@ -2,8 +2,8 @@
 //
 // Every walk by a file's own method is held against the equations. By few steps and many, and by both methods, the events and the end are the same.
 // Left out, because it cannot be so:
-//   a fall        is made a part of a step behind its event: where it lands is compared by its kind, not by its load factor; and by the
-//                 other method, which may go on where this one falls, only what comes before the first loss of stability;
+//   a snap        is made a part of a step behind its event: where it lands is compared by its kind, not by its load factor; and by the
+//                 other method, which may go on where this one snaps, only what comes before the first loss of stability;
 //   load steps    pass no limit point: likewise; and `lowest`, `highest` are of arc length alone;
 //   Ipopt         walks by load steps alone.
 #include "catch.hpp"
