@@ -13,6 +13,12 @@
 
 namespace elamin {
 
+double all_memory() {
+  rlimit limit;
+  const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? std::min(there, static_cast<double>(limit.rlim_cur)) : there;
+}
+
 double free_memory() {
   std::ifstream file("/proc/meminfo");
   double free = 0, number = 0;

@@ -2,6 +2,9 @@
 
 namespace elamin {
 
+/// What this machine has, or this program's limit (ulimit -v) where that is less [bytes].
+double all_memory();
+
 /// What this program can have without taking it from others, or beyond its limit (ulimit -v) [bytes]; infinity where the system does not tell.
 double free_memory();
 

@@ -1,5 +1,6 @@
 #include "input/parts.hpp"
 
+#include "core/memory.hpp"
 #include "core/text.hpp"
 #include "input/csv.hpp"
 #include "model/beam.hpp"
@@ -9,8 +10,6 @@
 #include "model/sheet.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,12 +59,6 @@ namespace {
 
 /// Room that a particle takes in the model and its energy, as measured (`elamin check` of 10⁶ in a row, 7·10⁴ in a sheet, 10⁵ grains in a heap) [bytes].
 constexpr double room_in_row = 1700, room_in_sheet = 4000, room_of_grain = 4300;
-
-double memory() {
-  rlimit limit;
-  const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? std::min(there, static_cast<double>(limit.rlim_cur)) : there;
-}
 
 /// Everything that can be built of a list of tables; the names of the others go to left_out.
 template <class Table, class Build>
@@ -120,8 +113,8 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
                                most_particles));
     return false;
   }
-  if (room > memory()) {
-    mistakes.add(fmt::format("{:.0f} particles need {:.1f} GB before anything is solved; there are {:.1f} GB", total, room / 1e9, memory() / 1e9));
+  if (room > all_memory()) {
+    mistakes.add(fmt::format("{:.0f} particles need {:.1f} GB before anything is solved; there are {:.1f} GB", total, room / 1e9, all_memory() / 1e9));
     return false;
   }
   for (const auto* numbers : {&model.id, &model.type, &model.molecule}) {

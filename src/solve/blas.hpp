@@ -1,6 +1,9 @@
 #pragma once
-// What OpenBLAS, under CHOLMOD, MUMPS and LAPACK, needs before it is called.
+// What OpenBLAS, under CHOLMOD, MUMPS and LAPACK, needs before it is called; and what of it two factorisations call.
 #include <stdexcept>
+
+extern "C" void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n, const double* alpha,
+                       const double* a, const int* lda, double* b, const int* ldb);
 
 namespace elamin {
 

@@ -9,8 +9,6 @@
 #include <numeric>
 #include <span>
 
-extern "C" void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*, const int*, double*, const int*);
-
 namespace elamin {
 
 namespace {

@@ -13,8 +13,6 @@
 
 extern "C" {
 void dpotrf_(const char*, const int*, double*, const int*, int*);
-void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*, const int*, double*,
-            const int*);
 void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*, double*, const int*);
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
             const double*, double*, const int*);

@@ -6,6 +6,7 @@
 #include "lammps/script/held.hpp"
 #include "lammps/script/mixing.hpp"
 #include "lammps/script/particles.hpp"
+#include "lammps/script/protocol.hpp"
 #include "lammps/script/table_text.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
-#include <set>
 
 namespace elamin::script {
 namespace {
@@ -45,13 +45,12 @@ class Translation {
     return std::move(result_);
   }
 
-  std::string start_from;                       // a state that a motion goes on from
+  void start_from(const std::string& state) { protocol_.start_from = state; }
 
  private:
   int runs() const { return std::max(1, world_.run_number()); }
   bool staged() const { return runs() > 1; }
   const Atom& atom(int i) const { return world_.atoms[static_cast<std::size_t>(i)]; }
-  static std::string stage(int k) { return "run" + std::to_string(k + 1); }
   void note(const Where& w, const std::string& text) {
     for (const Note& n : result_.notes)
       if (n.text == text && n.where == w) return;
@@ -113,10 +112,10 @@ class Translation {
     bool drives = false;
     for (const auto& [h, members] : by) drives = drives || !h.velocity.isZero(0);
     for (const Run::Active& a : run.fixes) drives = drives || varies(a);
-    driven_.push_back(drives);
-    if (drives && unit_time_ == 0) unit_time_ = run.time();
-    const double begin = at_, end = drives ? begin + run.time() / unit_time_ : begin;
-    along_.push_back(drives ? std::array{begin, end} : std::array{0.0, 1.0});
+    protocol_.driven.push_back(drives);
+    if (drives && protocol_.unit_time == 0) protocol_.unit_time = run.time();
+    const double begin = at_, end = drives ? begin + run.time() / protocol_.unit_time : begin;
+    protocol_.along.push_back(drives ? std::array{begin, end} : std::array{0.0, 1.0});
     at_ = end;
     for (const auto& [h, members] : by) {
       const Fix* fix = h.fix < 0 ? nullptr : &run.fixes[static_cast<std::size_t>(h.fix)].fix;
@@ -127,13 +126,13 @@ class Translation {
       if (letters != "xyz") body += fmt::format("directions = \"{}\"\n", letters);
       if (!h.velocity.isZero(0))
         body += options_.dynamics ? fmt::format("velocity = {}\n", vec(h.velocity))
-                                  : fmt::format("displacement = {}\n", vec(h.velocity * unit_time_));
+                                  : fmt::format("displacement = {}\n", vec(h.velocity * protocol_.unit_time));
       put(k, {"support", fix ? fix->id : "still", body, fix ? fix->where : run.where,
               fix ? fix->text : "no fix integrates these, so that they stay where they are", fix ? fix->serial : 0, {}});
       if (!h.velocity.isZero(0)) {
         Eigen::Index c = 0;
         h.velocity.cwiseAbs().maxCoeff(&c);
-        observed_.insert({group, "xyz"[c]});
+        protocol_.observed.insert({group, "xyz"[c]});
       }
     }
     clamps(run, by);
@@ -182,7 +181,7 @@ class Translation {
   struct Parts { Vec3 fixed, rate; };
   /// Of a fix that goes on along the line of an earlier run, the same parts, so that its table goes on, too.
   Parts parts(int k, const Fix& fix, const Vec3& begin, const Vec3& end) {
-    const auto [from, to] = along_[static_cast<std::size_t>(k)];
+    const auto [from, to] = protocol_.along[static_cast<std::size_t>(k)];
     const auto ends_at = [&](const Parts& p, double at, const Vec3& value) {
       const double size = (p.fixed.cwiseAbs() + at * p.rate.cwiseAbs()).maxCoeff();
       return (p.fixed + at * p.rate - value).cwiseAbs().maxCoeff() <= 8e-15 * size;   // rounding of a formula and of this
@@ -466,7 +465,9 @@ class Translation {
         t += "\n" + table_text(table, number);
       }
     }
-    return t + study();
+    const auto meets = [](const Table& table) { return table.kind == "wall" || table.kind == "contact"; };
+    protocol_.touches = std::any_of(tables_.begin(), tables_.end(), meets);
+    return t + protocol_text(protocol_, reading_, world_, options_);
   }
 
   std::string script_name() const {
@@ -492,59 +493,8 @@ class Translation {
     if (first > 0) text += fmt::format("from_stage = \"{}\"\n", stage(first));
     for (int k = first + 1; k < runs(); ++k)
       if (!t.in_run[static_cast<std::size_t>(k)])
-        off_[k].push_back(quoted(t.name.empty() ? fmt::format("{}.{}", t.kind, number) : fmt::format("{}.{}", t.kind, t.name)));
+        protocol_.off[k].push_back(quoted(t.name.empty() ? fmt::format("{}.{}", t.kind, number) : fmt::format("{}.{}", t.kind, t.name)));
     return text;
-  }
-
-  std::string study() {
-    const bool touches = std::any_of(tables_.begin(), tables_.end(), [](const Table& t) { return t.kind == "wall" || t.kind == "contact"; });
-    const std::string jumping = std::string("when_unstable = \"jump\"\n") +
-                                (touches ? "locate = []                      # snaps alone are reported; \"limit\", \"branch\", \"contact\" locate these events, too, which takes several times as long\n"
-                                         : "locate = [\"limit\", \"branch\"]\n");
-    std::string t;
-    if (world_.runs.empty()) return "\n[study]                          # the script runs nothing\ntype = \"energy\"\n";
-    if (world_.runs.front().still())
-      return fmt::format("\n# {} {}\n[study]\ntype = \"energy\"\n", reading_.short_place(world_.runs.front().where), world_.runs.front().text);
-    if (options_.dynamics) {
-      const Run& run = world_.runs.front();
-      if (!start_from.empty()) t += fmt::format("\n[path]\nstart = \"{}\"\n", escaped(start_from));
-      t += fmt::format("\n# {} {}\n[study]\ntype = \"dynamics\"\n\n[dynamics]\n", reading_.short_place(run.where), run.text);
-      if (run.minimize) return t + "relax = true\nsteps = 1000000\n" + observations();
-      return t +
-             fmt::format("timestep = {}\nsteps = {}\nevery = {}\nallow_unstable = true           # the script's timestep, whatever it is\n",
-                         run.timestep, std::min(run.steps, 2000000000LL), std::max(1LL, run.steps / 100)) +
-             observations();
-    }
-    if (!staged()) {
-      const Run& run = world_.runs.front();
-      t += fmt::format("\n# {} {}\n", reading_.short_place(run.where), run.text);
-      if (driven_.front())
-        t += fmt::format(
-            "[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\n{}",
-            run.time(), jumping);
-      else t += "[study]\ntype = \"equilibrium\"\n";
-      return t + observations();
-    }
-    t += fmt::format("\n[path]\nsteps = 100\n{}", jumping);
-    for (int k = 0; k < runs(); ++k) {
-      const Run& run = world_.runs[static_cast<std::size_t>(k)];
-      t += fmt::format("\n# {} {}\n[[stage]]\nname = \"{}\"\n", reading_.short_place(run.where), run.text, stage(k));
-      if (const auto off = off_.find(k); off != off_.end()) t += fmt::format("off = {}\n", list_of(off->second));
-      if (!driven_[static_cast<std::size_t>(k)]) {
-        t += "from = 0\nto = 1\nsteps = 1\n";
-        continue;
-      }
-      const auto [from, to] = along_[static_cast<std::size_t>(k)];
-      t += fmt::format("from = {}\nto = {}                            # 1: {} of LAMMPS's time\n", from, to, unit_time_);
-    }
-    return t + observations();
-  }
-
-  std::string observations() {
-    std::string t;
-    for (const auto& [group, axis] : observed_)
-      t += fmt::format("\n[[observe]]\nname = \"force_{}_{}\"\ngroup = \"{}\"\nquantity = \"reaction.{}\"\n", group, axis, group, axis);
-    return t;
   }
 
   const Reading& reading_;
@@ -558,12 +508,9 @@ class Translation {
   Translated result_;
   std::vector<Table> tables_;
   std::string presence_text_;
-  std::vector<bool> driven_;                    // of each run
-  double unit_time_ = 0, at_ = 0;               // of load factor 1; the load factor behind the last driven run
-  std::vector<std::array<double, 2>> along_;    // the load factor as each run begins and ends
+  double at_ = 0;                               // the load factor behind the last driven run
   std::map<int, std::vector<Parts>> lines_;     // by the fix's serial
-  std::map<int, std::vector<std::string>> off_;
-  std::set<std::pair<std::string, char>> observed_;
+  Protocol protocol_;
   std::map<int, double> stiffer_;
   bool clamp_told_ = false;
 };
@@ -590,7 +537,7 @@ std::vector<Translated> in_time(const Reading& reading, const Pass& pass, const 
       one.world.runs = {runs[k]};
     }
     Translation t(reading, one, options, data_names[k]);
-    if (k > 0) t.start_from = folders[k - 1] + "/states/final.data";
+    if (k > 0) t.start_from(folders[k - 1] + "/states/final.data");
     all.push_back(t.problem());
   }
   return all;
