@@ -26,14 +26,15 @@ constexpr double EnergyTerms::*term_at[places]{
     &EnergyTerms::body,     &EnergyTerms::wall,     &EnergyTerms::external, &EnergyTerms::external, &EnergyTerms::external,
     &EnergyTerms::external, &EnergyTerms::external};
 
+double distance(const Model& model, int i, int j) { return (model.start.at(j) - model.start.at(i)).hi.norm(); }
+
 // The largest 2K r₀, B/r₀ and E_eff d²: the force of a stretch, rotation or overlap of order one.
 double stiffest(const Model& model) {
   double most = 0;
-  const auto length = [&](int i, int j) { return (model.start.at(j) - model.start.at(i)).hi.norm(); };
   for (const Bond& b : model.bonds)
-    most = std::max(most, 2 * model.bond_types[b.type].stiffness * length(b.particles[0], b.particles[1]));
+    most = std::max(most, 2 * model.bond_types[b.type].stiffness * distance(model, b.particles[0], b.particles[1]));
   for (const Angle& a : model.angles)
-    if (const double l = length(a.particles[0], a.particles[1]); l > 0)
+    if (const double l = distance(model, a.particles[0], a.particles[1]); l > 0)
       most = std::max(most, model.angle_types[a.type].stiffness / l);
   const auto contact = [&](double modulus, const std::vector<int>& particles) {
     for (const int p : particles) most = std::max(most, modulus * model.diameter[p] * model.diameter[p]);
@@ -56,11 +57,10 @@ double stiffest(const Model& model) {
 double rounding_of_glue(const Model& model) {
   double most = 0;
   const auto place = [&](int i) { return model.start.at(i).hi.lpNorm<Eigen::Infinity>(); };
-  const auto length = [&](int i, int j) { return (model.start.at(j) - model.start.at(i)).hi.norm(); };
-  const auto add = [&](double stiffness, int i, int j) { most = std::max(most, 4 * epsilon * stiffness * (length(i, j) + place(i) + place(j))); };
+  const auto add = [&](double stiffness, int i, int j) { most = std::max(most, 4 * epsilon * stiffness * (distance(model, i, j) + place(i) + place(j))); };
   for (const Bond& b : model.bonds) add(2 * model.bond_types[b.type].stiffness, b.particles[0], b.particles[1]);
   for (const Angle& a : model.angles)
-    if (const double l = length(a.particles[0], a.particles[1]); l > 0) add(model.angle_types[a.type].stiffness / (l * l), a.particles[0], a.particles[1]);
+    if (const double l = distance(model, a.particles[0], a.particles[1]); l > 0) add(model.angle_types[a.type].stiffness / (l * l), a.particles[0], a.particles[1]);
   return most;
 }
 
@@ -83,8 +83,8 @@ double stiffest(const ElementGroup& group, const Kinematics& kinematics, const S
   return most;
 }
 
-// Below this forces between bodies are rounding, or parts of one element that cancel: what rounding of a vertex's place does, 4 ε k ℓ,
-// is the usual tolerance 1e-10 of it; and the attraction k_na r_c.
+// Below this forces on bodies are rounding, or parts of one element that cancel: what rounding of a vertex's place does, 4 ε k ℓ, or of the place of
+// a particle that is carried, 8 ε K ℓ and 4 ε B/r² ℓ with its arm ℓ, is the usual tolerance 1e-10 of it; and the attraction k_na r_c.
 double floor_of_bodies(const Model& model) {
   constexpr double rounding = 1e-5;
   double most = 0;
@@ -94,6 +94,15 @@ double floor_of_bodies(const Model& model) {
   for (const RoundedPair& r : model.rounded)
     for (const auto& side : r.bodies) take(r.kernel, side);
   for (const Wall& w : model.walls) take(w.kernel, w.bodies);
+  std::vector<double> arm(model.particles());
+  for (const Glued& g : model.glued) arm[g.particle] = g.arm.norm();
+  const auto carried = [&](double stiffness, const auto& particles) {
+    for (const int p : particles) most = std::max(most, rounding * stiffness * arm[p]);
+  };
+  if (model.glued.empty()) return most;
+  for (const Bond& b : model.bonds) carried(2 * model.bond_types[b.type].stiffness, b.particles);
+  for (const Angle& a : model.angles)
+    if (const double l = distance(model, a.particles[0], a.particles[1]); l > 0) carried(model.angle_types[a.type].stiffness / (l * l), a.particles);
   return most;
 }
 

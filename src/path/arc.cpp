@@ -25,6 +25,14 @@ Direction direction_of(const Equilibrium& e, const Metric& metric, const Directi
 
 double cosine(const Direction& a, const Direction& b, const Metric& metric) { return metric.dot(a.x, a.load, b.x, b.load); }
 
+Chord chord(const Vector& x, double load, const Direction& begin, const Direction& end, const Metric& metric) {
+  const Vector sum = begin.x + end.x;
+  const double load_sum = begin.load + end.load;
+  const double part = metric.dot(x, load, sum, load_sum) / metric.dot(sum, load_sum, sum, load_sum);
+  const Direction off{x - part * sum, load - part * load_sum};
+  return {part, off, std::sqrt(metric.dot(off.x, off.load, off.x, off.load) / metric.dot(x, load, x, load))};
+}
+
 double Arc::position(const State& state) const {
   const Vector x = newton_.energy().kinematics().difference(from_.point.state, state);
   return metric_.dot(x, state.load_factor - from_.point.state.load_factor, direction_.x, direction_.load);

@@ -27,6 +27,14 @@ double span(const Model& model);
 Direction direction_of(const Equilibrium& e, const Metric& metric, const Direction& along);
 double cosine(const Direction& a, const Direction& b, const Metric& metric);
 
+/// A chord (x, λ) of a branch beside the sum of the directions at its ends: what is along that sum is `part` of it, the rest is `off`, in parts of the chord `defect`.
+struct Chord {
+  double part = 0;
+  Direction off;
+  double defect = 0;
+};
+Chord chord(const Vector& x, double load, const Direction& begin, const Direction& end, const Metric& metric);
+
 /// Newton's corrector on a surface across a branch. Where a wall that is moved presses so stiffly that forces change by more than they may
 /// within the spacing of the load factors, no pair (x, λ) fulfils both conditions: there a few iterations lead to the surface, and the
 /// equilibrium at the load factor that has been reached is as near to it as rounding lets it be, if it still `lies_on` it. Not converged:
@@ -56,9 +64,10 @@ class Arc {
   double distance(const State& state) const;
   const Direction& direction() const { return direction_; }
   const Metric& metric() const { return metric_; }
+  /// The hyperplane.
+  Plane plane() const;
 
  private:
-  Plane plane() const;
   [[nodiscard]] Report on_plane(State& state, const Eigen::MatrixXd& held, const State* from) const;
   Direction along(const Equilibrium& nearest) const;
   Newton& newton_;

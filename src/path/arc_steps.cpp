@@ -192,17 +192,14 @@ bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, s
   if (arc.distance(e.point.state) > arc_steps::largest_departure * s) return why = "the corrector moved further than the predictor", false;
   const Direction d = direction_of(e, metric_, start);
   if (cosine(d, start, metric_) < std::cos(arc_steps::largest_angle)) return why = "the branch turns too sharply", false;
-  const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state), mean = d.x + start.x;
-  const double load = e.point.state.load_factor - current_.point.state.load_factor, mean_load = d.load + start.load;
-  const double part = metric_.dot(x, load, mean, mean_load) / metric_.dot(mean, mean_load, mean, mean_load);
-  const Vector off = x - part * mean;
-  const double off_load = load - part * mean_load;
-  if (std::sqrt(metric_.dot(off, off_load, off, off_load)) > arc_steps::largest_defect * std::sqrt(metric_.dot(x, load, x, load)))
+  const Vector x = newton_.energy().kinematics().difference(current_.point.state, e.point.state);
+  const Chord c = chord(x, e.point.state.load_factor - current_.point.state.load_factor, start, d, metric_);
+  if (c.defect > arc_steps::largest_defect)
     return why = "the branch bends too sharply, or there is another one beside it", false;
   // Where positions make up the step, the load factor alone tells whether its rates at both ends lead from the one to the other. Asked of unstable branches: of
   // stable ones the energy tells (lower_already).
-  const double bound = std::max(2 * part * arc_steps::largest_defect * std::max(std::abs(d.load), std::abs(start.load)), arc_steps::told_by_load * options_.load_step);
-  if (negative_ > 0 && !singular_ && !at_contact_ && std::abs(off_load) > bound)
+  const double bound = std::max(2 * c.part * arc_steps::largest_defect * std::max(std::abs(d.load), std::abs(start.load)), arc_steps::told_by_load * options_.load_step);
+  if (negative_ > 0 && !singular_ && !at_contact_ && std::abs(c.off.load) > bound)
     return why = "the load factor does not change as its rates tell: the branch bends too sharply, or there is another one beside it", false;
   return true;
 }

@@ -71,7 +71,9 @@ class Switch {
       const Vector moved = kinematics().difference(event_.at.point.state, state);
       const double load = state.load_factor - event_.at.point.state.load_factor;
       const double size = std::sqrt(metric_.dot(moved, load, moved, load));
-      return Beside{assess(newton_, state, report), {moved / size, load / size}, along, size};
+      const Direction chord{moved / size, load / size};
+      Equilibrium e = with_tangent(newton_, assess(newton_, state, report), event_.at, Arc(newton_, event_.at, chord, metric_).plane());
+      if (straight(e, moved, load, chord)) return Beside{std::move(e), chord, along, size};
     }
     return {};
   }
@@ -85,6 +87,14 @@ class Switch {
   }
 
  private:
+  // Whether the branch leaves along the chord to the equilibrium, as a step along it asks (ArcSteps), in a metric that may be another one: nearer to the
+  // branch point it does.
+  bool straight(const Equilibrium& e, const Vector& moved, double load, const Direction& chord) const {
+    const Direction end = direction_of(e, metric_, chord);
+    return cosine(chord, end, metric_) >= std::cos(arc_steps::largest_angle / 2) &&
+           elamin::chord(moved, load, chord, end, metric_).defect <= arc_steps::largest_defect / 2;
+  }
+
   // Beside the branch point, and not on the branch that is known.
   bool near(const State& state, double a) const {
     const Vector moved = kinematics().difference(event_.at.point.state, state);
