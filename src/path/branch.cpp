@@ -35,12 +35,24 @@ const Event* Branch::deciding(const Candidate& c) {
 }
 
 std::optional<Branch::Candidate> Branch::reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct) {
+  std::optional<Candidate> c = corrected(from, target, why, correct);
+  return c ? with_events(std::move(*c), why) : std::nullopt;
+}
+
+std::optional<Branch::Candidate> Branch::corrected(const Equilibrium& from, double target, std::string& why, const Corrector& correct) {
   Equilibrium e = continue_to(newton_, from, target, correct);
   if (e.point.report.status == Status::interrupted) stop_here(Status::interrupted, "interrupted");
   if (!e.point.report.converged()) return why = e.point.report.why, std::nullopt;
   if (from.pushed && e.point.stability.negative > negative_) return why = "what was pushed is caught", std::nullopt;
-  Candidate c{.parameter = target, .e = std::move(e), .natural = true};
-  const Segment segment = beside(segment_of_loads(newton_, current_.point.state.load_factor, target), c);
+  if (searches() && !e.slack && e.point.stability.negative == 0) {
+    e.soft_values = newton_.factors().soft_values(std::min(equilibrium::softest, newton_.energy().dofs()));
+    if (softens()) see_softest(newton_, e, current_.softest, branch::little * (from.point.state.load_factor - target));
+  }
+  return Candidate{.parameter = target, .e = std::move(e), .natural = true};
+}
+
+std::optional<Branch::Candidate> Branch::with_events(Candidate c, std::string& why) {
+  const Segment segment = beside(segment_of_loads(newton_, current_.point.state.load_factor, c.parameter), c);
   if (!find_events(segment, c, why)) return {};
   return c;
 }
@@ -145,6 +157,16 @@ bool Branch::softens() const {
   return before.size() == 0 || here.size() != before.size() || (here.array() * branch::softened < before.array()).any();
 }
 
+// Behind an event, or where the branch begins, or where nothing has softened yet.
+void Branch::see_softest_here(const Candidate& c, double change) {
+  if (current_.softest.values.size() > 0 || c.e.softest.values.size() == 0) return;
+  newton_.energy().evaluate(current_.point.state);
+  newton_.factors().factorize_holding(current_.zero_modes);
+  see_softest(newton_, current_, c.e.softest, change);
+  Vector& values = current_.softest.values;
+  if (singular_) values = (values.array().abs() <= branch::vanished * infinity_norm(values)).select(0, values);
+}
+
 // Where an eigenvalue changes its sign twice between the ends of a step, or two of them in opposite ways, two branch points lie between that the Morse index does
 // not tell at the ends: the candidate becomes a state between them. It is looked for where Hermite's cubics of the softest eigenvalues, of modes that are alike at
 // both ends, make another index than at the ends: in the middle of where first; or where one is least beside its values at both ends, if that is little.
@@ -152,13 +174,7 @@ void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
   const auto look_at = [&](Equilibrium& e, const Equilibrium& neighbour) {
     see_softest(newton_, e, neighbour.softest, branch::little * (segment.b - segment.a) * segment.load_rate(e));
   };
-  if (current_.softest.values.size() == 0 && c.e.softest.values.size() > 0) {       // behind an event, or where the branch begins, or nothing has softened yet
-    newton_.energy().evaluate(current_.point.state);
-    newton_.factors().factorize_holding(current_.zero_modes);
-    look_at(current_, c.e);
-    Vector& values = current_.softest.values;
-    if (singular_) values = (values.array().abs() <= branch::vanished * infinity_norm(values)).select(0, values);
-  }
+  see_softest_here(c, branch::little * (segment.b - segment.a) * segment.load_rate(current_));
   const auto softest = [&](double ta, const Equilibrium& a, double tb, const Equilibrium& b) -> std::optional<Place> {
     if (a.softest.values.size() == 0 || b.softest.values.size() == 0) return {};
     const double width = tb - ta, la = width * segment.load_rate(a), lb = width * segment.load_rate(b);

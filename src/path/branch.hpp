@@ -65,7 +65,9 @@ class Branch {
   static const Event* deciding(const Candidate& c);
   static bool is_critical(const Event* event) { return event && !event->beyond && (event->kind == EventKind::limit || event->kind == EventKind::branch); }
 
-  /// The equilibrium at a load factor, if it is on the same branch, or what happens before.
+  /// The equilibrium at a load factor, if it is on the same branch; and what happens before. Both.
+  [[nodiscard]] std::optional<Candidate> corrected(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
+  [[nodiscard]] std::optional<Candidate> with_events(Candidate c, std::string& why);
   [[nodiscard]] std::optional<Candidate> reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
   /// Where the branch is, with the tangent behind a contact that has just changed: that of an equilibrium which is farther by `way` of the load factor, or less.
   Equilibrium past_contact(double way);
@@ -86,6 +88,8 @@ class Branch {
   bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
   void stop_where_index_goes_back(const Segment& segment, Candidate& c);
   bool softens() const;
+  /// Tells the softest eigenpairs where the step begins, if they are told at its end alone; `change`: the load factor over which their change is taken.
+  void see_softest_here(const Candidate& c, double change);
   /// Whether what happens on the next step is searched for. What floats and bears no force cannot go on without.
   bool searches() const { return searches_ || (current_.slack && current_.point.stability.zero > 0); }
   /// What happens on the way to a candidate, which is then where that is.

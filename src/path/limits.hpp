@@ -115,6 +115,7 @@ constexpr double creep = 1.0 / 64;  // … this part of a step
 constexpr int caught = patience;  // what counts for as many: one step, refused where what floats is caught, as shorter ones would be, too
 constexpr int fine = 6;  // halvings after which bends are no reason to halve again
 constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents at both ends
+constexpr int most_iterations = 6;  // of the corrector, of a step that is not halved for that: quadratic convergence from the size of a bond's rotation to rounding
 }
 
 /// Bracketed root finding.

@@ -95,15 +95,31 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   Corrector correct = correct_;
   if (!correct && !searches() && !current_.floats)         // the snap is the minimisation
     correct = [this](State& state) { return newton_.correct(state, current_.zero_modes, &current_.point.state, equilibrium::most_iterations); };
-  std::optional<Candidate> c = reach_load(current_, target, why, correct);
+  std::optional<Candidate> c = corrected(current_, target, why, correct);
   const bool pushed = c && ((current_.slack && c->e.slack) || current_.pushed || c->e.pushed);
   if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !pushed &&
       bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
+  const bool proven = !c || !searches() || grid_.halvings() >= load_steps::fine || pushed || current_.family > 0;
+  if (!proven && may_hide_limits(*c)) return why = "the structure softens so much that limit points may lie within the step", std::nullopt;
+  if (c) c = with_events(std::move(*c), why);
+  if (c && !proven && c->events.empty() && c->e.point.report.iterations > load_steps::most_iterations)
+    return why = "the corrector went so far that it may have gone to another branch", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;
   held.zero_modes = side_by_side(held.zero_modes, critical_);
   return reach_load(held, target, why);
+}
+
+// A stable branch that goes back over two limit points, and on to the end of the step, looks like a step without event. Before a limit point the softest eigenvalue
+// falls with the root of the distance,  μ² ∝ λ_c − λ,  so that this is μ / 2|dμ/dλ|.
+bool LoadSteps::may_hide_limits(const Candidate& c) {
+  if (singular_ || current_.slack || negative_ != 0 || c.e.point.stability.negative != 0) return false;
+  const double way = c.parameter - current_.point.state.load_factor;
+  see_softest_here(c, branch::little * way);
+  for (Eigen::Index i = 0; i < current_.softest.values.size(); ++i)
+    if (current_.softest.values[i] > 0 && current_.softest.values[i] < -2 * way * current_.softening[i]) return true;
+  return false;
 }
 
 // Whether nothing that is prescribed goes through anything until then.

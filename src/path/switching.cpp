@@ -73,7 +73,7 @@ class Switch {
       const double size = std::sqrt(metric_.dot(moved, load, moved, load));
       const Direction chord{moved / size, load / size};
       Equilibrium e = with_tangent(newton_, assess(newton_, state, report), event_.at, Arc(newton_, event_.at, chord, metric_).plane());
-      if (straight(e, moved, load, chord)) return Beside{std::move(e), chord, along, size};
+      if (event_.modes.cols() > 1 || straight(e, moved, load, chord)) return Beside{std::move(e), chord, along, size};
     }
     return {};
   }
@@ -88,7 +88,7 @@ class Switch {
 
  private:
   // Whether the branch leaves along the chord to the equilibrium, as a step along it asks (ArcSteps), in a metric that may be another one: nearer to the
-  // branch point it does.
+  // branch point it does. Not asked of a multiple one, where nearer by the modes are not told from what is neutral.
   bool straight(const Equilibrium& e, const Vector& moved, double load, const Direction& chord) const {
     const Direction end = direction_of(e, metric_, chord);
     return cosine(chord, end, metric_) >= std::cos(arc_steps::largest_angle / 2) &&

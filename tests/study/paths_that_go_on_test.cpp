@@ -532,6 +532,49 @@ TEST_CASE("a column that bends away from a stiff stop stays on its branch, whate
   }
 }
 
+TEST_CASE("limit points that lie close together are met by load steps, whatever the steps", "[paths][limits_close_together]") {
+  const Run first("arch_and_ball", {in_steps(100)});
+  REQUIRE(first.of("limit").size() == 1);
+  for (const int n : {4, 7, 13, 29}) {
+    const Run run("arch_and_ball", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    REQUIRE(run.of("limit").size() == 1);
+    CHECK(run.of("limit")[0]["lambda"] == Approx(first.of("limit")[0]["lambda"]).epsilon(to_events));
+    falls_are_right(run);
+  }
+}
+
+TEST_CASE("load steps stay on the branch of an unfolded pitchfork beside contacts, whatever the steps", "[paths][pitchfork_beside_contacts]") {
+  for (const char* name : {"column_into_corner", "columns_side_by_side"}) {
+    const Run first(name, {in_steps(100)});
+    CHECK_ENDS_AT(first, 1);
+    for (const int n : {4, 5, 13, 28, 29, 60}) {
+      const Run run(name, {in_steps(n)});
+      CHECK_ENDS_AT(run, 1);
+      same_events(first, run);
+      CHECK(run.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(to_events));
+    }
+  }
+}
+
+TEST_CASE("side branches that leave a branch point steeply are followed, whatever the steps", "[paths][side_branches_steep]") {
+  for (const int n : {13, 20, 30, 40, 50}) {
+    const Run run("arch_side_branches", {in_steps(n)});
+    INFO(run.what << run.answer.text);
+    CHECK(run.answer.status == 0);
+    CHECK(run.of("branch").size() >= 4);
+    CHECK(run.branches() == 2);
+  }
+}
+
+TEST_CASE("a beam that is glued to a body begins at rest", "[paths][glued_at_rest]") {
+  for (const int particles : {4, 7, 20}) {
+    const Run run("beam_glued_to_hub", {"beam.a.particles=" + std::to_string(particles)});
+    CHECK_ENDS_AT(run, 1);
+    CHECK(run.path.front()["energy"] < 1e-25);
+  }
+}
+
 TEST_CASE("a column in space falls from a double branch point, whatever the steps", "[paths][column_twelve_jump]") {
   const double mu = 4 * std::pow(std::sin(pi / 10), 2), d = 1e-3, E = 0.96e6, K = pi * E * d / 8, B = pi * E * d * d * d / 64;     // 8 are free
   const double a = d * (1 + std::sqrt(1 - 2 * B * mu / (K * d * d))) / 2, critical = 9 * (B * mu / (2 * K * a)) / 0.74e-3;
