@@ -56,15 +56,15 @@ class Builder {
  private:
   void add_own(const std::vector<OwnLaw>& own) {
     for (const OwnLaw& law : own) {
-      int wrong = -1;
+      std::optional<int> wrong;
       for (const std::vector<int>& element : law.elements)
         for (const int p : element)
           if (p < 0 || p >= model_.particles()) wrong = p;
       for (const ObserveTable& o : p_.observe)
         if (o.name == law.term)
           mistakes_.add(o.place, "name", fmt::format("\"{}\" is the name of a law that the program brings along", o.name));
-      if (wrong >= 0)
-        mistakes_.add(fmt::format("the law \"{}\" is of a particle number {}; the problem has {}, which count from 0", law.term, wrong,
+      if (wrong)
+        mistakes_.add(fmt::format("the law \"{}\" is of a particle number {}; the problem has {}, which count from 0", law.term, *wrong,
                                   model_.particles()));
       else
         model_.own.push_back(law);

@@ -242,9 +242,8 @@ def test_wrong_laws_are_refused():
         fails_by_name("its name must be of letters", name)
     p = elamin.Problem()
     p.particles([[0, 0, 0], [1, 0, 0]], 1.0)
-    p.law("own", [[0, 1]], formula="r01").law("own", [[0, 1]], formula="r01**2").study(type="energy")
-    with pytest.raises(ValueError, match="there is a term own already"):
-        p.n
+    with pytest.raises(elamin.InputError, match="law own: there is a law of this name already; give it another name"):
+        p.law("own", [[0, 1]], formula="r01").law("own", [[0, 1]], formula="r01**2")
     p = elamin.Problem()
     p.particles([[0, 0, 0], [1, 0, 0]], 1.0, name="pair")
     p.law("own", [[0, 1]], formula="r01").study(type="energy").observe(name="own", group="pair", quantity="position.x")

@@ -152,7 +152,14 @@ def test_wrong_arrays_are_refused():
     fails("there is no particle 3", pairs=[[0, 3]])
     fails("there is no particle -1", pairs=[[0, -1]])
     fails("one particle twice", pairs=[[1, 1]])
-    fails("must be integers of the shape", pairs=[[0.5, 1]])
+    fails("there is no particle -1", triples=[[-1, 0, 1]])
+    fails("pairs: must be integers", pairs=[[0.5, 1]])
+    fails("pairs: must be integers", pairs=[[True, False]])
+    fails(r"pairs: must have the shape \(m, 2\), has \(1, 3\)", pairs=[[0, 1, 2]])
+    for wrong, match in (([-1], "group: particles: there is no particle -1"), ([0.5], "group: particles: must be integers"),
+                         ([True, False], "group: particles: must be integers")):
+        with pytest.raises(elamin.InputError, match=match):
+            column().group(name="g", particles=wrong)
     fails("stiffness: must be not negative", K=-1.0)
     fails("rest_length: must be positive", r0=0.0)
     fails("one particle twice", triples=[[0, 1, 0]])
@@ -237,3 +244,5 @@ def test_bonds_and_angles_join_structures_too():
             assert p.terms()["bond"] - after["bond"] == pytest.approx(0.25 + (r - 4) ** 2, rel=1e-12)
         with pytest.raises(elamin.InputError, match="no id of a particle"):
             beams(first).bonds([[0, 8 + n]], 1.0, 1.0).n
+        with pytest.raises(elamin.InputError, match="bonds: pairs: there is no particle -1"):
+            beams(first).bonds([[-1, 1]], 1.0, 1.0)

@@ -11,20 +11,44 @@ from ._errors import InputError
 Floats = NDArray[np.float64]
 
 
-def _rows(array: ArrayLike, width: int, name: str) -> NDArray[np.int64]:
-    a = np.asarray(array)
+def numbers_of_particles(array: ArrayLike, name: str) -> NDArray[np.int64]:
+    """Integers from 0, of any shape."""
+    try:
+        a = np.asarray(array)
+    except ValueError:
+        raise InputError(f"{name}: must be an array of integers, numbers of particles from 0; its rows are not of one length") from None
     if a.size == 0:
-        return np.empty((0, width), dtype=np.int64)
-    if a.ndim != 2 or a.shape[1] != width or not np.issubdtype(a.dtype, np.integer):
-        raise InputError(f"{name}: must be integers of the shape (m, {width}), numbers of particles from 0; has {a.shape} of {a.dtype}")
+        return np.empty(a.shape, dtype=np.int64)
+    if not np.issubdtype(a.dtype, np.integer):
+        raise InputError(f"{name}: must be integers, numbers of particles from 0; is of {a.dtype}")
+    for wrong in (a.min(), a.max()):
+        if not 0 <= int(wrong) < 2**31:
+            raise InputError(f"{name}: there is no particle {wrong}; particles count from 0")
     return a.astype(np.int64)
 
 
-def _each(value: ArrayLike, count: int, name: str, least: float, strict: bool) -> Floats:
-    a = np.asarray(value, dtype=float)
+def _rows(array: ArrayLike, width: int, name: str) -> NDArray[np.int64]:
+    a = numbers_of_particles(array, name)
+    if a.size == 0:
+        return np.empty((0, width), dtype=np.int64)
+    if a.ndim != 2 or a.shape[1] != width:
+        raise InputError(f"{name}: must have the shape (m, {width}), has {a.shape}")
+    return a
+
+
+def one_or_each(value: ArrayLike, count: int, name: str) -> Floats:
+    """A number for each, from one or from as many."""
+    try:
+        a = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: must be one number, or {count} of them; is {value!r}") from None
     if a.ndim > 1 or (a.ndim == 1 and a.shape[0] != count):
         raise InputError(f"{name}: must be one number, or {count} of them; has the shape {a.shape}")
-    a = np.broadcast_to(a, (count,))
+    return np.broadcast_to(a, (count,))
+
+
+def _each(value: ArrayLike, count: int, name: str, least: float, strict: bool) -> Floats:
+    a = one_or_each(value, count, name)
     wrong = ~np.isfinite(a) | (a <= least if strict else a < least)
     if wrong.any():
         raise InputError(f"{name}: must be {'positive' if strict else 'not negative'} and finite, is {a[wrong][0]}")
@@ -83,9 +107,8 @@ class Arrays:
         if not len(rows):
             return
         n = len(self.x)
-        if rows.min() < 0 or rows.max() >= n:
-            wrong = rows.max() if rows.max() >= n else rows.min()
-            raise InputError(f"{name}: there is no particle {wrong}; p.particles has given {n}, which count from 0")
+        if rows.max() >= n:
+            raise InputError(f"{name}: there is no particle {rows.max()}; p.particles has given {n}, which count from 0")
         s = np.sort(rows, axis=1)
         same = (s[:, 1:] == s[:, :-1]).any(axis=1)
         if same.any():

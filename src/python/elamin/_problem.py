@@ -16,7 +16,7 @@ from . import _elamin
 from ._elamin import Document, Law, Minimum, Mode, PathIterator, Stability, State, Step, System
 from ._errors import InputError, NotConverged
 from ._law import Function, from_formula, from_functions
-from ._particles import Arrays
+from ._particles import Arrays, numbers_of_particles
 from ._results import Figure, Run, StoredState, _escaped
 from ._tables import MANY, Tables
 
@@ -210,7 +210,7 @@ class Problem(Tables):
     def _ids(self, particles: ArrayLike) -> List[int]:
         if self._document.has("lammps"):
             raise InputError("group: particles of a [lammps] data file have its ids; give ids")
-        return [int(i) + 1 for i in np.asarray(particles, dtype=int).ravel()]
+        return [int(i) + 1 for i in numbers_of_particles(particles, "group: particles").ravel()]
 
     def bonds(self, pairs: ArrayLike, stiffness: ArrayLike, rest_length: Optional[ArrayLike] = None) -> "Problem":
         """Adds bonds, U = K (r − r₀)².
@@ -253,7 +253,10 @@ class Problem(Tables):
                 first site, which keeps all digits of small distances. (Of a formula that is known.)
             parameters: of the formula, a number or one for each element.
         """
-        source = _LawSource(name, np.array(elements), value, gradient, hessian, formula, translation_invariant, dict(parameters))
+        if any(law.name == name for law in self._laws):
+            raise InputError(f"law {name}: there is a law of this name already; give it another name")
+        at = numbers_of_particles(elements, f"law {name}: elements")
+        source = _LawSource(name, at, value, gradient, hessian, formula, translation_invariant, dict(parameters))
         law = source.law()
         self._laws.append(source)
         self._made.append(law)
