@@ -73,9 +73,19 @@ def test_formula_and_functions_agree():
     assert abs(a.hessian(x) - b.hessian(x)).max() <= 32 * EPS * abs(b.hessian(x)).max()
 
 
-@pytest.mark.parametrize("formula, sites", [("r01**3 + r02*r12", 3), ("exp(-r01/2)*(1 + c012)**2 + c012*r12", 3),
-                                            ("k*(z0 - 0.3)**2/2 + x0*y1", 2), ("sqrt(1 + r03**2)*c021 + c123 + x2", 4),
-                                            ("2.5e-1*log(r01)", 2)])
+# Coordinates in more than one place, kinks, steps, branches.
+FORMULAS = [("r01**3 + r02*r12", 3), ("exp(-r01/2)*(1 + c012)**2 + c012*r12", 3), ("k*(z0 - 0.3)**2/2 + x0*y1", 2),
+            ("sqrt(1 + r03**2)*c021 + c123 + x2", 4), ("2.5e-1*log(r01)", 2), ("k*(sqrt((x0 - 10)**2 + (z0 - 3)**2) - 9)**2/2", 1),
+            ("exp(x0*z0/10)", 1), ("1/(1 + x0**2 + z0**2)", 1), ("sqrt(x0**2 + y0**2 + z0**2 + 1)", 1), ("sin(x0)*cos(z0)", 1),
+            ("(x0**2 + z0**2)**2", 1), ("x0*y0*z0", 1), ("k*exp(-(x0 - 3)**2 - z0**2)", 1), ("exp(-r01)/r01", 2),
+            ("k*(x1 - x0)**2*(z1 - z0)**2", 2), ("exp(-(r01 - 1)**2)*(1 - c012)**2*r12**2", 3),
+            ("Max(z0, 0)**3", 1), ("Max(x0, y0, z0, 0)**2", 1), ("Min(z0, 1)**2", 1), ("k*Max(2 - r01, 0)**2.5", 2),
+            ("Abs(z0)**3", 1), ("(abs(z0) - z0)**2", 1), ("abs(log(r01))", 2), ("Heaviside(z0)*z0**3", 1), ("Heaviside(z0)", 1),
+            ("Piecewise((z0**2, z0 > 0), (0, True))", 1), ("Piecewise((log(z0), z0 > 0.1), (x0, True))", 1),
+            ("Piecewise((z0**2, (z0 > 0) & (x0 > 0)), (x0, True))", 1), ("sqrt(Max(z0, 0) + 1)*sqrt((x0 - 1)**2)", 1)]
+
+
+@pytest.mark.parametrize("formula, sites", FORMULAS)
 def test_formulas_are_differentiated(formula, sites):
     rng = np.random.default_rng(3)
     x = rng.standard_normal((5, sites, 3))
@@ -94,6 +104,27 @@ def test_formulas_are_differentiated(formula, sites):
         e = e.reshape(x0.shape)
         assert abs((p.energy(x0 + e) - p.energy(x0 - e)) / (2 * h) - g[k]) <= 1e-6 * np.abs(g).max()
         assert np.abs((p.gradient(x0 + e) - p.gradient(x0 - e)).ravel() / (2 * h) - H[k]).max() <= 1e-6 * np.abs(H).max()
+
+
+def test_branches_that_are_not_taken_do_not_count():
+    p = elamin.Problem()
+    p.particles([[0, 0, -1.0], [3.0, 0, 4.0]], 0.1)
+    p.law("own", [[0], [1]], formula="sqrt(Max(z0, 0))").study(type="energy")       # its slope is 0/0 where z0 < 0
+    assert p.energy() == 2 and p.gradient()[:, 2].tolist() == [0, 0.25]
+    assert p.hessian().toarray()[[2, 5], [2, 5]].tolist() == [0, -1 / 32]
+    q = elamin.Problem()
+    q.particles([[0, 0, -1.0]], 0.1)
+    q.law("own", [[0]], formula="Piecewise((z0, z0 > 0))").study(type="energy")     # defined where z0 > 0
+    assert q.energy() == np.inf and q.energy([[0, 0, 2.0]]) == 2
+
+
+def test_parameters_may_have_any_name():
+    p = elamin.Problem()
+    p.particles([[0, 0, 2.0]], 0.1)
+    names = ("t0", "_t0", "select", "numpy", "sign", "E", "I")
+    p.law("own", [[0]], formula="sqrt(1 + z0**2)*Max(z0, 0)/sqrt(1 + z0**2)*" + "*".join(names), **{name: 2.0 for name in names})
+    p.study(type="energy")
+    assert p.energy() == pytest.approx(2.0 ** 8, rel=8 * EPS) and p.gradient()[0, 2] == pytest.approx(2.0 ** 7, rel=8 * EPS)
 
 
 def test_a_formula_by_complex_steps():
@@ -228,9 +259,21 @@ def test_wrong_laws_are_refused():
 
     fails("give value, gradient and hessian, or a formula", value=value)
     fails("r02; allowed: x0, y0, z0", formula="r01 + r02")
-    fails("cannot be read", formula="r01 +* 2")
+    for formula in ("r01 +* 2", "(", "", "Piecewise(z0)", "r01(3)", "0 < z0 < 1"):
+        fails("cannot be read", formula=formula)
+    for formula in ("r01, 2", "r01 > 2", "1/0", "sqrt(-1)*r01", "exp", "True"):
+        fails("is no real number; it must be an energy", formula=formula)
+    fails("sympy has no derivative of the formula 'z0%2'; allowed are", formula="z0%2")
+    fails("law own: k: must be one number, or 1 of them; has the shape .2,.", formula="k*r01", k=[1, 2])
+    fails("law own: k: must be one number, or 1 of them; is 'stiff'", formula="k*r01", k="stiff")
     fails("is a variable of the formula", formula="r01", r01=3.0)
     fails("particle number 7; the problem has 2", elements=[[0, 7]], formula="r01")
+    functions = dict(value=value, gradient=gradient, hessian=hessian)
+    for law in ({"formula": "r01"}, functions):
+        for wrong in (-1, -100000000, 2**32 + 1):
+            fails(f"law own: elements: there is no particle {wrong}; particles count from 0", elements=[[wrong, 1]], **law)
+        fails("law own: elements: must be integers", elements=[[0.5, 1]], **law)
+        fails("law own: elements: must be an array of integers", elements=[[0, 1], [1]], **law)
     fails("particle twice", elements=[[1, 1]], formula="r01")
     fails("must have the shape", elements=[0, 1], formula="r01")
     fails("its value has 3 numbers for 1 elements", kind=ValueError, value=lambda x: np.zeros(3), gradient=gradient, hessian=hessian)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._elamin import Law
 from ._errors import InputError
+from ._particles import one_or_each
 
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Any]
@@ -87,6 +88,16 @@ def _variables(sites: int) -> Dict[str, _Variable]:
     return known
 
 
+def _branches(sympy: Any, expression: Any) -> Any:
+    """The same with Max, Min, |a| and steps as Piecewise, whose derivative is that of the branch: without sympy's δ at the kinks.
+
+    A term of a few of them becomes one Piecewise, so that a branch that is not taken is not computed with: the slope of √Max(a, 0) is 0/0
+    where a < 0.
+    """
+    terms = sympy.Add.make_args(expression.rewrite(sympy.Piecewise))
+    return sympy.Add(*(sympy.piecewise_fold(t) if t.count(sympy.Piecewise) <= 3 else t for t in terms))
+
+
 def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mapping[str, ArrayLike]) -> Law:
     """A law from a formula in the sites' distances r01, cosines of angles c012 (at the middle site), coordinates x0, y0, z0."""
     try:
@@ -94,7 +105,7 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
     except ImportError as error:
         raise InputError("a formula is differentiated by sympy, which is not installed (Debian: python3-sympy); "
                          "give functions instead") from error
-    at = np.asarray(elements, dtype=np.int32)
+    at = np.asarray(elements)
     if at.ndim != 2:
         raise InputError(f"law {name}: elements must have the shape (m, sites), has {at.shape}")
     m, sites = at.shape
@@ -103,29 +114,39 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
     for parameter in parameters:
         if parameter in known:
             raise InputError(f"law {name}: {parameter} is a variable of the formula; give the parameter another name")
-    symbols = {word: sympy.Symbol(word, real=True) for word in [*known, *parameters]}
+    # With names that no function of numpy's has, and none of the intermediate results t0, t1, … below.
+    symbols = {word: sympy.Symbol("_" + word, real=True, positive=True if word in known and known[word].kind == "r" else None)
+               for word in [*known, *parameters]}
     functions = {f: getattr(sympy, f) for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
-                                                 "pi", "Piecewise", "Max", "Min", "Abs", "Heaviside")}
-    functions["abs"] = sympy.Abs
-    unknown = sorted(words - set(symbols) - set(functions))
+                                                 "pi", "Piecewise", "Max", "Min", "Heaviside")}
+    functions["Abs"] = functions["abs"] = lambda a: sympy.Max(a, -a)
+    unknown = sorted(words - set(symbols) - set(functions) - {"True"})
     if unknown:
         allowed = ", ".join([*known, *parameters])
         raise InputError(f"law {name}: the formula has {', '.join(unknown)}; allowed: {allowed}, and the functions {', '.join(functions)}")
     try:
         expression = sympy.sympify(formula, locals={**functions, **symbols})
-    except (sympy.SympifyError, TypeError, SyntaxError, AttributeError) as error:
-        raise InputError(f"law {name}: the formula {formula!r} cannot be read: {error}") from error
+    except Exception as error:                             # sympy's parser lets Python's errors of all kinds through
+        why = getattr(error, "base_exc", None) or error
+        raise InputError(f"law {name}: the formula {formula!r} cannot be read: {why}") from error
+    if not isinstance(expression, sympy.Expr) or expression.has(sympy.I, sympy.zoo, sympy.oo, -sympy.oo, sympy.nan):
+        raise InputError(f"law {name}: the formula {formula!r} is no real number; it must be an energy")
+    expression = _branches(sympy, expression)
     used = [v for v in known if symbols[v] in expression.free_symbols]
     arguments = [symbols[v] for v in [*used, *parameters]]
 
     def numeric(e: Any) -> Callable[[List[Floats]], Floats]:
-        f = sympy.lambdify(arguments, e, modules="numpy", cse=True)
+        f = sympy.lambdify(arguments, e, modules="numpy", cse=lambda whole: sympy.cse(whole, sympy.numbered_symbols("t"), list=False))
         return lambda values: np.broadcast_to(np.asarray(f(*values), dtype=float), (m,))
 
     value_of = numeric(expression)
-    first = [numeric(sympy.diff(expression, symbols[v])) for v in used]
-    second = [[numeric(sympy.diff(expression, symbols[v], symbols[w])) for w in used[:k + 1]] for k, v in enumerate(used)]
-    given: List[Floats] = [np.broadcast_to(np.asarray(a, dtype=float), (m,)) for a in parameters.values()]
+    slopes_in = [sympy.diff(expression, symbols[v]) for v in used]
+    if any(slope.has(sympy.Derivative) for slope in slopes_in):
+        raise InputError(f"law {name}: sympy has no derivative of the formula {formula!r}; allowed are +, -, *, /, ** and the functions "
+                         f"{', '.join(functions)}")
+    first = [numeric(slope) for slope in slopes_in]
+    second = [[numeric(sympy.diff(slope, symbols[w])) for w in used[:k + 1]] for k, slope in enumerate(slopes_in)]
+    given = [one_or_each(a, m, f"law {name}: {parameter}") for parameter, a in parameters.items()]
 
     def value(x: Floats) -> Floats:
         with np.errstate(all="ignore"):

@@ -248,7 +248,7 @@ class Problem(Tables):
             gradient: ∂U/∂x, (m, sites, 3) [force].
             hessian: ∂²U/∂x∂x, (m, 3·sites, 3·sites) [force/length].
             formula: instead of the functions, U in the distances r01, r02, … of the sites, cosines c012 of the angle at site 1, coordinates
-                x0, y0, … and parameters. sympy differentiates it.
+                x0, y0, … and parameters. sympy differentiates it; Max, Min, Abs, Heaviside and Piecewise branch by branch.
             translation_invariant: of functions: U is the same where an element is moved as a whole. x is then relative to the element's
                 first site, which keeps all digits of small distances. (Of a formula that is known.)
             parameters: of the formula, a number or one for each element.
