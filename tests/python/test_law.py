@@ -304,6 +304,14 @@ def test_check_law_tells_right_from_wrong():
     assert max(elamin.check_law(value, gradient, hessian, x)) < 1e-7
     assert elamin.check_law(value, lambda x: 2 * gradient(x), hessian, x)[0] > 0.5
     assert elamin.check_law(value, gradient, lambda x: 2 * hessian(x), x)[1] > 0.5
+    with pytest.raises(elamin.InputError, match=r"the Hessian must have the shape \(4, 6, 6\), has \(4, 3, 6\)"):
+        elamin.check_law(value, gradient, lambda x: hessian(x)[:, :3], x)
+    with pytest.raises(elamin.InputError, match=r"the gradient must have the shape \(4, 2, 3\), has \(4,\)"):
+        elamin.check_law(value, value, hessian, x)
+    with pytest.raises(elamin.InputError, match=r"the value must have the shape \(4,\), has \(4, 2, 3\)"):
+        elamin.check_law(gradient, gradient, hessian, x)
+    with pytest.raises(elamin.InputError, match=r"x must have the shape \(m, sites, 3\), has \(2, 3\)"):
+        elamin.check_law(value, gradient, hessian, x[0])
 
 
 def test_what_moves_in_time_is_refused(tmp_path):

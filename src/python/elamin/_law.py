@@ -190,17 +190,26 @@ def check_law(value: Function, gradient: Function, hessian: Function, x: ArrayLi
         The largest deviations of gradient and Hessian, each relative to the largest entry. About 1e-9 where they are right.
     """
     x = np.array(x, dtype=float)
+    if x.ndim != 3 or x.shape[2] != 3:
+        raise InputError(f"check_law: x must have the shape (m, sites, 3), has {x.shape}")
     m, s, _ = x.shape
+
+    def found(function: Function, what: str, at: Floats, *shape: int) -> Floats:
+        a = np.asarray(function(at), dtype=float)
+        if a.size != int(np.prod(shape)):
+            raise InputError(f"check_law: the {what} must have the shape {shape}, has {a.shape}")
+        return a.reshape(shape)
+
     spread = np.abs(x - x[:, :1]).max() if s > 1 else np.abs(x).max()
     h = step if step is not None else 1e-5 * (spread if spread > 0 else 1.0)
-    g, H = np.asarray(gradient(x)).reshape(m, 3 * s), np.asarray(hessian(x)).reshape(m, 3 * s, 3 * s)
+    g, H = found(gradient, "gradient", x, m, s, 3).reshape(m, 3 * s), found(hessian, "Hessian", x, m, 3 * s, 3 * s)
     dg, dH = np.empty_like(g), np.empty_like(H)
     for k in range(3 * s):
         step_x = np.zeros((m, 3 * s))
         step_x[:, k] = h
         up, down = x + step_x.reshape(x.shape), x - step_x.reshape(x.shape)
-        dg[:, k] = (np.asarray(value(up)) - np.asarray(value(down))) / (2 * h)
-        dH[:, :, k] = (np.asarray(gradient(up)) - np.asarray(gradient(down))).reshape(m, 3 * s) / (2 * h)
+        dg[:, k] = (found(value, "value", up, m) - found(value, "value", down, m)) / (2 * h)
+        dH[:, :, k] = (found(gradient, "gradient", up, m, s, 3) - found(gradient, "gradient", down, m, s, 3)).reshape(m, 3 * s) / (2 * h)
 
     def off(a: Floats, b: Floats) -> float:
         largest = float(np.abs(b).max())
