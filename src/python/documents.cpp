@@ -1,10 +1,14 @@
 // A problem as Python puts it together: the tables of a problem file, from a file, a dict, or one by one.
+#include "core/suggest.hpp"
 #include "input/document.hpp"
+#include "input/key_tree.hpp"
 #include "input/settings.hpp"
 #include "core/text.hpp"
 #include "python/module.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace elamin::python {
 
@@ -108,6 +112,15 @@ void update(Document& document, const std::string& key, const py::dict& values) 
   document.sha256.clear();
 }
 
+// All tables of that name go; one that is not there may be missing.
+void erase(Document& document, const std::string& key) {
+  const std::vector<std::string> known = key_tree().names();
+  if (!find(document.root, key) && std::find(known.begin(), known.end(), key) == known.end())
+    throw InputError(fmt::format("clear: {} is no table; allowed: {}{}", in_quotes(key), listed(known), did_you_mean(key, known)));
+  std::erase_if(document.root, [&](const Entry& e) { return e.key == key; });
+  document.sha256.clear();
+}
+
 void set(Document& document, const std::string& key, const py::object& value) {
   Mistakes mistakes(document.file);
   apply({key, to_toml(node_of(value, key))}, document, mistakes);
@@ -131,10 +144,7 @@ void add_documents(py::module_& module) {
       .def("append", &append, py::arg("table"), py::arg("values"))
       .def("update", &update, py::arg("table"), py::arg("values"))
       .def("set", &set, py::arg("key"), py::arg("value"))
-      .def("erase", [](Document& d, const std::string& key) {
-        std::erase_if(d.root, [&](const Entry& e) { return e.key == key; });
-        d.sha256.clear();
-      }, py::arg("key"))
+      .def("erase", &erase, py::arg("key"))
       .def("has", [](const Document& d, const std::string& key) { return find(d.root, key) != nullptr; }, py::arg("key"))
       .def("tables", [](const Document& d) { return python_of(Node{{}, d.root}); })
       .def("toml", [](const Document& d) { return to_toml(d); })

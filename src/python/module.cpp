@@ -48,7 +48,10 @@ Field field_of(const py::array_t<double, py::array::c_style | py::array::forceca
   return field;
 }
 
-void set_default_threads(int n) { default_threads = n; }
+void set_default_threads(int n) {
+  if (n < 1) throw InputError(fmt::format("set_threads: must be an integer of at least 1, is {}", n));
+  default_threads = n;
+}
 void take_default_threads() {
   if (const int n = default_threads; n > 0) set_threads(n);
 }
@@ -75,7 +78,8 @@ PYBIND11_MODULE(_elamin, module) {
   });
   module.attr("version") = elamin::version();
   module.def("json_schema", &elamin::json_schema, "The JSON schema of a problem file.");
-  module.def("set_threads", &set_default_threads, py::arg("count"), "Threads that each call uses; 0: as many as there are cores.");
+  module.def("set_threads", &set_default_threads, py::arg("count"),
+             "Threads that each call uses; by default as many as OpenMP has (OMP_NUM_THREADS, all cores).");
   module.def("rest_threads", [] { omp_pause_resource_all(omp_pause_soft); },
              "Ends OpenMP's idle threads, so that the process can be forked.");
   add_documents(module);

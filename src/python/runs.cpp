@@ -12,6 +12,8 @@
 #include "study/prepare.hpp"
 #include "study/run.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 namespace elamin::python {
@@ -21,6 +23,7 @@ namespace {
 // The exit status and the verdicts of [[expect]], as sentences with whether they are met.
 py::tuple run_document(const Document& document, const std::vector<PythonLaw>& laws, const std::string& directory, bool quiet, bool force,
                        bool report, int threads) {
+  if (threads < 0) throw InputError(fmt::format("threads: must be an integer of at least 0, is {}", threads));
   const RunResult result = without_lock([&] {
     std::vector<OwnLaw> own;
     for (const PythonLaw& law : laws) own.push_back(own_law(law));

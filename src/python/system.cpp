@@ -58,6 +58,11 @@ State from_parts(const py::tuple& t) {
   return s;
 }
 
+double finite_load_factor(double load_factor) {
+  if (!std::isfinite(load_factor)) throw InputError(fmt::format("load_factor: must be a finite number, is {}", load_factor));
+  return load_factor;
+}
+
 }  // namespace
 
 void add_states(py::module_& module) {
@@ -68,8 +73,8 @@ void add_states(py::module_& module) {
                              "What the rounding of x left out (n, 3) [length].")
       .def_property_readonly("bodies", &poses, "Of the rigid bodies position and quaternion w, x, y, z (b, 7).")
       .def_readonly("load_factor", &State::load_factor)
-      .def("at_load_factor", [](State s, double load_factor) { return s.load_factor = load_factor, s; }, py::arg("load_factor"),
-           "The same positions with another load factor.")
+      .def("at_load_factor", [](State s, double load_factor) { return s.load_factor = finite_load_factor(load_factor), s; },
+           py::arg("load_factor"), "The same positions with another load factor.")
       .def(py::pickle(&parts, &from_parts));
 }
 
@@ -104,7 +109,7 @@ std::shared_ptr<System> build(const Document& document, const std::vector<Python
 State state_at(System& s, const Array& x, std::optional<Array> bodies, double load_factor) {
   State state(field_of(x, s.model.particles(), "x"));
   state.bodies = s.start().bodies;
-  state.load_factor = load_factor;
+  state.load_factor = finite_load_factor(load_factor);
   if (!bodies) return state;
   if (bodies->ndim() != 2 || bodies->shape(0) != static_cast<py::ssize_t>(state.bodies.size()) || bodies->shape(1) != 7)
     throw InputError(fmt::format("bodies: must have the shape ({}, 7), a position and a quaternion w, x, y, z each", state.bodies.size()));
@@ -112,7 +117,10 @@ State state_at(System& s, const Array& x, std::optional<Array> bodies, double lo
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {
     const auto i = static_cast<py::ssize_t>(b);
     const Eigen::Quaterniond turned(at(i, 3), at(i, 4), at(i, 5), at(i, 6));
-    state.bodies[b] = {{{at(i, 0), at(i, 1), at(i, 2)}, Vec3::Zero()}, turned.normalized()};
+    const Vec3 centre(at(i, 0), at(i, 1), at(i, 2));
+    if (!centre.allFinite() || !std::isfinite(turned.norm()) || turned.norm() == 0)
+      throw InputError(fmt::format("bodies: body {} has numbers that are not finite, or a quaternion of length 0; give finite ones", b));
+    state.bodies[b] = {{centre, Vec3::Zero()}, turned.normalized()};
   }
   return state;
 }
@@ -226,25 +234,25 @@ Minimum minimum(System& s, const std::optional<State>& from, double load_factor,
                 const std::optional<double>& tolerance, const std::optional<int>& most) {
   if (from) check_state(s, *from);
   Problem p = with_solver(s, method, tolerance, most);
-  p.study = StudyType::equilibrium, p.path.start_lambda = load_factor;
+  p.study = StudyType::equilibrium, p.path.start_lambda = finite_load_factor(load_factor);
   return without_lock([&] {
     Minimum found;
-    if (!from) {                                       // supports and walls go there in steps
+    if (from) {
+      Energy energy(s.model);
+      Newton newton(energy, solver_options(p));
+      State state = *from;
+      energy.kinematics().prescribe(state, load_factor);
+      const Report report = minimiser_of(p, newton)(state);
+      energy.evaluate(state, false);
+      found.point = assess(newton, state, report).point;
+    } else {                                           // supports and walls go there in steps
       Model model = s.model;
       const Sink sink{.stage = [](const Stage&, Energy&) {}, .point = [&](const PathPoint& point, bool) { found.point = point; },
                       .modes = {}, .note = [](const std::string&) {}};
       const Outcome outcome = trace(p, model, std::nullopt, sink);
       found.point.report.why = outcome.why;
-      return found;
     }
-    Energy energy(s.model);
-    Newton newton(energy, solver_options(p));
-    State state = *from;
-    energy.kinematics().prescribe(state, load_factor);
-    const Report report = minimiser_of(p, newton)(state);
-    energy.evaluate(state, false);
-    found.point = assess(newton, state, report).point;
-    if (!report.converged()) found.point.stability.stable = false;
+    if (!found.point.report.converged()) found.point.stability.stable = false;
     return found;
   });
 }
@@ -305,7 +313,7 @@ void add_systems(py::module_& module) {
       .def_property_readonly("free", &free_coordinates)
       .def("start", [](System& s, std::optional<double> load_factor) {
         State state = s.start();
-        if (load_factor) s.energy.kinematics().prescribe(state, *load_factor);
+        if (load_factor) s.energy.kinematics().prescribe(state, finite_load_factor(*load_factor));
         return state;
       }, py::arg("load_factor"))
       .def("state", &state_at, py::arg("x"), py::arg("bodies"), py::arg("load_factor"))

@@ -146,6 +146,39 @@ def test_minimise_finds_what_the_path_has():
         elamin.minimise(p, method="newtn")
 
 
+def test_what_has_not_converged_is_not_stable():
+    p = elamin.Problem(plane="xz")
+    p.beam(name="b", particles=12, from_=[0, 0, 0], to=[11, 0, 0], diameter=1.0, youngs_modulus=1.0)
+    p.group(name="clamp", of="b", first=2).group(name="tip", of="b", last=1)
+    p.support(group="clamp").load(group="tip", force=[0, 0, -1e-2])
+    for x0 in (None, p.x0):
+        few, enough = (elamin.minimise(p, x0, load_factor=1, max_iterations=most) for most in (2, None))
+        assert enough.converged and enough.stable
+        assert not few.converged and not few.stable and not few.stability.stable
+
+
+def test_load_factors_and_threads_that_cannot_be_are_refused(tmp_path):
+    p = column()
+    for wrong in (np.nan, np.inf, -np.inf):
+        for work in (lambda: elamin.minimise(p, load_factor=wrong), lambda: elamin.minimise(p, p.x0, load_factor=wrong),
+                     lambda: p.energy(p.x0, wrong), lambda: p.energy(None, wrong), lambda: p.start.at_load_factor(wrong)):
+            with pytest.raises(elamin.InputError, match="load_factor: must be a finite number, is -?(nan|inf)"):
+                work()
+    for wrong in (0, -1):
+        with pytest.raises(elamin.InputError, match=f"set_threads: must be an integer of at least 1, is {wrong}"):
+            elamin.set_threads(wrong)
+    with pytest.raises(elamin.InputError, match="threads: must be an integer of at least 0, is -1"):
+        p.run(tmp_path / "run", threads=-1)
+
+
+def test_poses_of_bodies_that_cannot_be_are_refused():
+    p = elamin.Problem()
+    p.body(name="cube", shape="cube", edge=1.0, rounding_diameter=0.1, density=1.0, position=[0, 0, 0]).study(type="energy")
+    for wrong in ([0, 0, 0, 0, 0, 0, 0], [np.nan, 0, 0, 1, 0, 0, 0], [0, 0, 0, np.inf, 0, 0, 0]):
+        with pytest.raises(elamin.InputError, match="body 0 has numbers that are not finite, or a quaternion of length 0"):
+            p.energy(np.empty((0, 3)), bodies=[wrong])
+
+
 def test_minimise_goes_to_the_load_in_steps():
     p = elamin.Problem(plane="xz")
     p.beam(name="b", particles=10, from_=[0, 0, 0], to=[9, 0, 0], diameter=1.0, youngs_modulus=1.0)

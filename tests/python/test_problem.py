@@ -196,6 +196,14 @@ def test_keys_are_changed_and_copies_are_apart():
     assert r.energy(q.x0 * 1.01, 0.3) == q.energy(q.x0 * 1.01, 0.3)
 
 
+def test_tables_that_cannot_be_are_not_cleared():
+    p = column()
+    p.clear("expect").clear("load")
+    assert "load" not in p.tables
+    with pytest.raises(elamin.InputError, match='clear: "laod" is no table; allowed: title, .*; did you mean "load"'):
+        p.clear("laod")
+
+
 def test_what_check_says_and_pictures():
     p = column()
     assert "14 particles, 13 bonds, 12 angles" in p.check()
