@@ -122,11 +122,14 @@ std::string next_steps(const std::string& directory, bool has_report, bool stopp
 }
 
 // Of an option that needs a number above 0; `what`: of which kind.
-CLI::Validator positive(const std::string& what) {
-  return {[what](std::string& text) {
+CLI::Validator number_of(const std::string& what, bool (*allowed)(double)) {
+  return {[=](std::string& text) {
             double value = 0;
-            return CLI::detail::lexical_cast(text, value) && value > 0 ? "" : "must be a positive " + what + ", is " + text;
+            return CLI::detail::lexical_cast(text, value) && allowed(value) ? "" : "must be a " + what + ", is " + text;
           }, ""};
+}
+CLI::Validator positive(const std::string& what) {
+  return number_of("positive " + what, [](double value) { return value > 0; });
 }
 
 // What was closed leads nowhere: else a file of results would get its number, and what is printed with it.
@@ -188,7 +191,7 @@ int answer(int argc, char** argv) {
   };
   const auto checkpointed = [&](CLI::App* command) {
     command->add_option("--checkpoint", options.checkpoint, "seconds between two checkpoints, from which elamin resume goes on (default: 1; 0: one at every row)")
-        ->check(CLI::Range(0.0, 1e9).description(""));
+        ->check(number_of("number of seconds from 0 to 1e9", [](double value) { return value >= 0 && value <= 1e9; }));
   };
   const auto running = [&](CLI::App* command) {
     common(command);

@@ -7,6 +7,7 @@
 #include "core/suggest.hpp"
 #include "study/prepare.hpp"
 #include "scratch_directory.hpp"
+#include "study/program.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -193,4 +194,12 @@ TEST_CASE("Settings that address nothing, or set nonsense") {
   CHECK_THROWS_WITH(elamin::parse_setting("path.steps"),
                     "--set: \"path.steps\": must be KEY=VALUE, such as path.steps=50");
   CHECK_THROWS_WITH(elamin::parse_setting("=5"), "--set: \"=5\": must be KEY=VALUE, such as path.steps=50");
+}
+
+TEST_CASE("Seconds between checkpoints") {
+  for (const std::string wrong : {"nan", "-1", "inf", "often"}) {
+    const auto answer = elamin_says("--checkpoint " + wrong + " none.toml");
+    CHECK(answer.status == 1);
+    CHECK(answer.text.find("--checkpoint: must be a number of seconds from 0 to 1e9, is " + wrong) != std::string::npos);
+  }
 }
