@@ -111,9 +111,9 @@ void check_range(PathTable& t, Mistakes& mistakes) {
 
 /// Load factors that the path is to meet, from lo to hi.
 void check_within(PathTable& t, const char* key, const std::vector<double>& list, double lo, double hi, Mistakes& mistakes) {
-  const auto outside = std::find_if(list.begin(), list.end(), [&](double at) { return at < lo || at > hi; });
-  if (outside != list.end())
-    mistakes.add(t.place, key, fmt::format("{} lies outside the path, whose load factors run from {} to {}", *outside, lo, hi));
+  for (const double at : list)
+    if (at < lo || at > hi)
+      mistakes.add(t.place, key, fmt::format("{} lies outside the path, whose load factors run from {} to {}", at, lo, hi));
 }
 
 void check_deflation(PathTable& t, Mistakes& mistakes) {

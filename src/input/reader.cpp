@@ -387,6 +387,8 @@ bool Reader::read_file(const Key& key, const Node& node, std::string& value) {
   const auto path = std::filesystem::absolute(std::filesystem::path(folder_) / value, error).lexically_normal();
   if (!std::filesystem::exists(path, error))
     mistake(node.place, inside(key.name), "there is no file " + in_quotes(value) + "; it is sought from the folder of this file");
+  else if (std::string_view(key.name) != "run" && !std::filesystem::is_regular_file(path, error))      // a run is a directory
+    mistake(node.place, inside(key.name), in_quotes(value) + " is a folder or a device; it must be a file");
   value = path.string();
   return true;
 }

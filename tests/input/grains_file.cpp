@@ -43,6 +43,10 @@ TEST_CASE("A table of grains") {
   scratch.file("g.csv", "0,0,0,1\n3,0,0,2\n");
   CHECK(problem("") == "");
   CHECK(problem("diameter = 1") == "4:12: grains.a.diameter: stands in the fourth column of the file; leave it out");
+  for (const std::string file : {"/tmp", "/dev/zero"})
+    CHECK(said_of("[[grains]]\nname = \"a\"\nfile = \"" + file + "\"\n[[support]]\ngroup = \"b\"\n") ==
+          "3:8: grains.a.file: \"" + file + "\" is a folder or a device; it must be a file\n"
+          "5:9: support.1.group: \"b\" names no group; there are: all, a");
   scratch.file("g.csv", "0,0,0,1\n0,0,0,2\n");
   CHECK(problem("") ==
         "1:1: grains.a: a 2 is in the same place as a 1, [0, 0, 0]; particles must lie apart");
