@@ -25,7 +25,7 @@ double component(const Vec3& v, Component c) {
     case Component::x: return v[0];
     case Component::y: return v[1];
     case Component::z: return v[2];
-    case Component::norm: return v.stableNorm();
+    case Component::norm: return length_of(v);
     case Component::c11: return v[0];
     case Component::c22: return v[1];
     case Component::c12: return v[2];
@@ -162,7 +162,7 @@ Observables::Subject Observables::subject_of(const ObserveTable& o, std::vector<
     else if (o.quantity == Quantity::area) {
       const Vec3 area = vector_area(model_.start, subject.entities);
       subject.about = area.normalized();
-      if (!(area.stableNorm() > flat * std::pow(sides_of(model_.start).maxCoeff(), 2)))
+      if (!(length_of(area) > flat * std::pow(sides_of(model_.start).maxCoeff(), 2)))
         wrong("observe.group", "the group \"" + o.group + "\" encloses no area at the start, along whose normal it could be counted");
     }
   }
@@ -236,13 +236,13 @@ double Observables::derivative(const ObserveTable& o, Seen& seen) const {
 double Observables::of_shape(const ObserveTable& o, const Subject& subject, const State& state) const {
   const std::vector<int>& of = subject.entities;
   switch (o.quantity) {
-    case Quantity::distance: return way(state, of, subject.to).stableNorm();
+    case Quantity::distance: return length_of(way(state, of, subject.to));
     case Quantity::angle:
       if (subject.through.empty()) return angle(*o.axis, way(state, of, subject.to), subject.about);
       return opening(way(state, subject.through, of), way(state, subject.through, subject.to), subject.about);
     case Quantity::slope: return angle(*o.axis, end_bond(state, of, o.end == RowEnd::last), subject.about);
     case Quantity::extent: return extent(state, of, static_cast<int>(o.component));
-    case Quantity::end_to_end: return way(state, {of.front()}, {of.back()}).stableNorm();
+    case Quantity::end_to_end: return length_of(way(state, {of.front()}, {of.back()}));
     case Quantity::area: return vector_area(state, of).dot(*subject.about);
     default: return 0;
   }

@@ -25,6 +25,8 @@ ExactVector place_of(const State& state, int entity) {
   return entity < n ? state.at(entity) : state.bodies[entity - n].position;
 }
 
+double length_of(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
+
 Vec3 way(const State& state, const std::vector<int>& from, const std::vector<int>& to) {
   const ExactVector origin = place_of(state, from.front());
   return mean_way(state, origin, to) - mean_way(state, origin, from);

@@ -10,6 +10,9 @@ namespace elamin {
 /// Where a particle is, or the centre of mass of a body (see model/entities.hpp).
 ExactVector place_of(const State& state, int entity);
 
+/// |v|, summed in one order wherever v is stored, as Eigen's stableNorm is not; without overflow.
+double length_of(const Vec3& v);
+
 /// From the mean of some places to the mean of others, of entities; neither is empty [length].
 Vec3 way(const State& state, const std::vector<int>& from, const std::vector<int>& to);
 

@@ -74,6 +74,18 @@ TEST_CASE("a displacement far below the rounding of the position keeps its digit
   CHECK(values[1] == Approx(1.2345678901234567e-25).epsilon(1e-6));
 }
 
+TEST_CASE("a length has the same bits wherever its vector is stored", "[observables]") {
+  const Model m = sample_model();
+  Problem problem;
+  problem.observe = {observe("least", "all", Quantity::position, Component::norm, Reduce::min), observe("most", "all", Quantity::position, Component::norm, Reduce::max)};
+  State state = m.start;
+  for (int k = 1; k <= 50; ++k) {
+    for (int i = 0; i < m.particles(); ++i) state.position.col(i) = Vec3(std::sin(k), std::sin(2 * k), std::sin(3 * k));
+    const auto values = Observables(problem, m).evaluate(state, Field::Zero(3, 5), {});
+    CHECK(values[0] == values[1]);
+  }
+}
+
 TEST_CASE("a reaction that cancels is summed without loss", "[observables]") {
   const Model m = sample_model();
   Problem problem;
