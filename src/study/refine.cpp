@@ -4,12 +4,16 @@
 #include "core/text_file.hpp"
 #include "input/finer.hpp"
 #include "input/read.hpp"
+#include "results/columns.hpp"
 #include "results/json.hpp"
 #include "results/refinement.hpp"
 #include "study/imperfection.hpp"
 #include "study/sweep.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -35,6 +39,25 @@ std::vector<Setting> level_of(const Document& document, const std::vector<Settin
   mistakes.raise();
   level.insert(level.end(), loads.begin(), loads.end());
   return level;
+}
+
+/// Ends of the path or of a stage are compared where all levels end at one event or at one load factor: where a path ends by its number of points, or closes to a
+/// loop, is a matter of its steps.
+void leave_out_ends(const std::vector<RunTables>& runs, const std::string& at, RefinedValues& refined) {
+  constexpr double same = 1e-12;
+  if (std::none_of(refined.values.begin(), refined.values.end(), [&](const RefinedValue& v) { return v.at == at; })) return;
+  std::set<std::string> labels;
+  std::vector<double> ends;
+  for (const RunTables& run : runs) {
+    std::string why;
+    const Row& last = run.path->rows.back();
+    labels.insert(at == "final" ? csv_text(last[static_cast<std::size_t>(column_index(run.path->columns, "label"))]) : at);
+    ends.push_back(value_at("lambda", at, run, why).value_or(0));
+  }
+  const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
+  if ((labels.size() == 1 && is_event(*labels.begin())) || *most - *least <= same * std::max(std::abs(*least), std::abs(*most))) return;
+  std::erase_if(refined.values, [&](const RefinedValue& v) { return v.at == at; });
+  refined.remarks.push_back(fmt::format("{} is not at one load factor, and not compared: the levels end at {:.10g}", at, fmt::join(ends, ", ")));
 }
 
 }  // namespace
@@ -73,6 +96,8 @@ std::vector<Verdict> finish_refinement(const PreparedRuns& prepared, const std::
       std::erase_if(refined.values, [](const RefinedValue& v) { return v.at == "final"; });
       refined.remarks.push_back(fmt::format("level {} ends early, and its end is not compared: {}", k + 1, results[k]->why));
     }
+  leave_out_ends(tables, "final", refined);
+  for (const StageTable& s : first.problem.stages) leave_out_ends(tables, s.name, refined);
   Json all;
   all["by"] = first.problem.refine->by;
   all["levels"] = Json::array();

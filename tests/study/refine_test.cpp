@@ -189,3 +189,15 @@ TEST_CASE("A level that does not converge is told, and its end is not compared",
   CHECK(answer.text.find("level 3 ends early, and its end is not compared: 3 iterations were not enough") != std::string::npos);
   CHECK(csv_rows(scratch / "r/refine.csv").size() == 1);
 }
+
+TEST_CASE("Ends at different load factors are told, and not compared", "[refine]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("p.toml", five + by_section + "rise = 0.6\nrest = \"as_built\"\n[[group]]\nname = \"feet\"\nids = [1, 5]\n[[group]]\nname = \"crown\"\n"
+                                                  "of = \"b\"\nmiddle = 1\n[[support]]\ngroup = \"feet\"\n[[load]]\ngroup = \"crown\"\nforce = [-0.1, 0, 0]\n[path]\n"
+                                                  "method = \"arc_length\"\nsteps = 20\npoints = 8\n[refine]\n");
+  const Answer answer = elamin_says("'" + file + "' -o '" + (scratch / "r") + "'", 60);
+  INFO(answer.text);
+  CHECK(answer.status == 0);
+  CHECK(answer.text.find("final is not at one load factor, and not compared: the levels end at 0.") != std::string::npos);
+  for (const auto& row : csv_rows(scratch / "r/refine.csv")) CHECK(row[0] != "final");
+}
