@@ -1,6 +1,7 @@
 #include "results/film.hpp"
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "lammps/state.hpp"
 #include "results/vtu.hpp"
 
@@ -39,11 +40,11 @@ void Reel::drop(const std::set<std::int64_t>& steps) {
   if (!steps.empty()) drop(steps, [](const std::string& text) { return text; });
 }
 
-void Reel::drop(const std::set<std::int64_t>& steps, const std::function<std::string(const std::string&)>& changed) {
+bool Reel::drop(const std::set<std::int64_t>& steps, const std::function<std::optional<std::string>(const std::string&)>& changed) {
   if (std::exchange(dropped_, false)) {
     std::erase_if(frames_, [&](const Frame& f) { return steps.count(f.step) > 0; });
     end_ = out_.size() - footer_.size();
-    return;
+    return true;
   }
   const std::string file = file_ + ".new";
   std::ifstream in(file_, std::ios::binary);
@@ -56,15 +57,17 @@ void Reel::drop(const std::set<std::int64_t>& steps, const std::function<std::st
     text.resize(f.bytes);
     in.read(text.data(), static_cast<std::streamsize>(f.bytes));
     if (steps.count(f.step)) continue;
-    const std::string now = changed(text);
-    out.add(now);
-    left.push_back({f.step, now.size()});
+    const std::optional<std::string> now = changed(text);
+    if (!now) return std::remove(file.c_str()), false;
+    out.add(*now);
+    left.push_back({f.step, now->size()});
   }
   end_ = out.size();
   out.add(footer_);
   if (std::rename(file.c_str(), file_.c_str()) != 0) cannot_write(file_);
   out_ = std::move(out);                                       // which goes on writing there
   frames_ = std::move(left);
+  return true;
 }
 
 namespace {
@@ -126,12 +129,17 @@ void Film::drop(const std::set<std::int64_t>& steps) {
   for (auto& [end, reel] : reels_) reel.drop(steps);
 }
 
-void Film::finish(const std::set<std::int64_t>& dropped) {
+bool Film::finish(const std::set<std::int64_t>& dropped) {
   for (auto& [end, reel] : reels_) {
     const auto box = boxes_.find(end);
-    if (box == boxes_.end()) reel.drop(dropped);
-    else reel.drop(dropped, [&](const std::string& frame) { return in_box(frame, box->second); });
+    if (box == boxes_.end() && dropped.empty()) continue;
+    const bool whole = reel.drop(dropped, [&](const std::string& frame) -> std::optional<std::string> {
+      if (interrupted()) return {};
+      return box == boxes_.end() ? frame : in_box(frame, box->second);
+    });
+    if (!whole) return false;
   }
+  return true;
 }
 
 }  // namespace elamin

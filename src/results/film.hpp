@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,8 +28,8 @@ class Reel {
   void carry(Archive& archive) { archive(frames_, end_); }
   void add(std::int64_t step, const std::string& text);
   void drop(const std::set<std::int64_t>& steps);
-  /// The same, and what is left is changed.
-  void drop(const std::set<std::int64_t>& steps, const std::function<std::string(const std::string&)>& changed);
+  /// The same, and what is left is changed; nothing: the file stays as it was, and the answer is no.
+  bool drop(const std::set<std::int64_t>& steps, const std::function<std::optional<std::string>(const std::string&)>& changed);
 
  private:
   struct Frame {
@@ -54,8 +55,9 @@ class Film {
   void add(const Shot& shot);
   /// The files frames/STEP.vtu stay.
   void drop(const std::set<std::int64_t>& steps);
-  /// The same, and no more frames will come: those of the .lammpstrj get one and the same box, around all of them.
-  void finish(const std::set<std::int64_t>& dropped);
+  /// The same, and no more frames will come: those of the .lammpstrj get one and the same box, around all of them. No: it
+  /// was interrupted, where some files may be at their end, as `dropping` takes them up.
+  bool finish(const std::set<std::int64_t>& dropped);
   /// Reading, `dropping` as Reel has it.
   void carry(Archive& archive, bool dropping = false);
   explicit operator bool() const { return !words_.empty(); }

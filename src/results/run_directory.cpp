@@ -280,13 +280,14 @@ void RunDirectory::set_landscape(Table table, const Json& json) {
   write_text(results_.file("landscape.json"), json.dump(1) + "\n");
 }
 
-void RunDirectory::finish(const Summary& summary) {
+bool RunDirectory::finish(const Summary& summary) {
   if (summary.status != status_name(Status::interrupted)) {
     for (const int step : frames_.dropped_at_end()) dropped_.insert(step);
     drop_files(dropped_);
-    film_.finish(dropped_);
+    if (!film_.finish(dropped_)) return false;
   }
   write_summary(results_.file("summary.json"), summary, record_.path(), record_.events(), curve_);
+  return true;
 }
 
 std::string RunDirectory::state_name(const std::string& label) const {

@@ -96,8 +96,9 @@ class RunDirectory {
   /// A line of log.txt, with the time.
   void log(const std::string& line);
 
-  /// Writes summary.json; the frames are chosen for good, unless the run is one that may go on.
-  void finish(const Summary& summary);
+  /// Writes summary.json; the frames are chosen for good, unless the run is one that may go on. No: it was interrupted before, and
+  /// is to be finished as one that may.
+  bool finish(const Summary& summary);
 
   const Record& record() const { return record_; }
   const std::string& directory() const { return results_.path(); }

@@ -105,17 +105,16 @@ Checkpointing::Checkpointing(RunDirectory& results, std::optional<RunRecord> rec
 void Checkpointing::offer(const std::function<void(Archive&)>& carry) {
   const double most = every_ > 0 ? largest_part * elapsed_.seconds() : std::numeric_limits<double>::infinity();
   if (!any_ || (keeping_ > most && !interrupted())) return;
+  results_.keep_dropped_frames();                               // what is kept, in memory too, speaks of them
   const auto keep = [&] {
     const Timed timed(keeping_);
     Archive archive;
     carry(archive);
-    latest_.state = archive.bytes(), kept_ = true;
+    latest_.state = archive.bytes(), latest_.phase = Phase::going, kept_ = true;
   };
   keep();
   if (since_.seconds() < every_ || writing_ > most) return;
   const Timed timed(writing_);
-  results_.keep_dropped_frames();
-  if (!written_) keep();                                        // from here on they are kept
   if (!results_.settled()) write(Phase::dropping), results_.settle(), keep();
   write(Phase::going);
   since_ = Stopwatch();
@@ -134,7 +133,7 @@ void Checkpointing::write(Phase phase) {
 }
 
 void Checkpointing::stop() {
-  if (kept_) write(Phase::going);
+  if (kept_) write(latest_.phase);
 }
 
 void Checkpointing::try_to_stop() {
@@ -145,11 +144,11 @@ void Checkpointing::try_to_stop() {
 }
 
 void Checkpointing::end(const std::function<void(Archive&)>& carry) {
-  if (!written_) return;
+  if (!any_) return;
   Archive archive;
   carry(archive);
-  latest_.state = archive.bytes();
-  write(Phase::ending);
+  latest_.state = archive.bytes(), latest_.phase = Phase::ending, kept_ = true;
+  if (written_) write(Phase::ending);
 }
 
 void Checkpointing::remove() { remove_checkpoint(results_.directory()); }

@@ -65,7 +65,7 @@ class Checkpointing {
   void stop();
   /// The same where that may not be possible either.
   void try_to_stop();
-  /// The run is all but at its end, which begins here, with all that it carries.
+  /// The run is all but at its end, which begins here, with all that it carries: the last place to go on from.
   void end(const std::function<void(Archive&)>& carry);
   /// The results are whole.
   void remove();

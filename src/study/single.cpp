@@ -217,7 +217,13 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     summary.resumed = resumed;
     summary.tolerances = {{"residual", problem.solver.tolerance}};
     if (total.seconds() > options.checkpoint) flush_to_disk(options.directory);      // what took less is soon run again
-    results.finish(summary);
+    if (!results.finish(summary)) {
+      outcome = {Status::interrupted, "interrupted while films were brought to their end, which elamin resume does"};
+      teller.log(fmt::format("{}: {}", status_name(outcome.status), outcome.why));
+      summary.status = status_name(outcome.status), summary.message = outcome.why;
+      checkpoints.stop();
+      results.finish(summary);
+    }
     if (outcome.status != Status::interrupted) checkpoints.remove();
   } catch (const std::exception& error) {
     results.break_off(problem.title, told(error) + "; what was found until then is kept, and elamin resume goes on from there");
