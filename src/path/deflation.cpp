@@ -124,7 +124,7 @@ std::vector<PathPoint> deflate(Newton& newton, const std::vector<State>& states,
       const EigenPairs pairs = newton.factors().lowest(std::min(deflation::most_modes, energy.dofs()));
       for (Eigen::Index m = 0; m < pairs.vectors.cols(); ++m)
         for (const double way : {0.02, -0.02, 0.3, -0.3}) {
-          if (count == options.deflate) break;
+          if (count == options.deflate || interrupted()) break;
           const Vector& v = pairs.vectors.col(m);
           const double rotation = distortion(energy, base, v);
           State guess = base;

@@ -1,3 +1,4 @@
+#include "core/interrupt.hpp"
 #include "path/carry.hpp"
 #include "path/continuation.hpp"
 #include "path/deflation.hpp"
@@ -54,9 +55,10 @@ class Diagram final : public Path {
       return take(std::move(*point));
     }
     pass_notes();
+    if (interrupted()) return end(now_->status(), now_->why());
     finish_branch();
-    if (worst_ == Status::interrupted) return end(worst_, why_);
     if (waiting_.empty()) switch_branches();
+    if (interrupted()) return end(Status::interrupted, "interrupted while side branches were looked for");
     if (waiting_.empty()) return look_for_others();
     next_branch();
   }
@@ -122,6 +124,7 @@ class Diagram final : public Path {
       metric_ = metric_for(newton_.energy(), event.at, options_.to - options_.from);
       const ArcOptions a = arc_options(options_);
       const std::vector<SideBranch> sides = side_branches(newton_, event, metric_, a.load_step, a.rotation);
+      if (interrupted()) return;
       if (sides.empty()) note(fmt::format("{}: no side branch was found", event.at.point.label));
       for (const SideBranch& side : sides) waiting_.push_back({switched_, side});
       ++switched_;
@@ -150,7 +153,9 @@ class Diagram final : public Path {
     deflated_ = true;
     std::vector<std::string> sentences;
     parent_.clear();
-    for (PathPoint& point : deflate(newton_, points_, options_, sentences)) {
+    std::vector<PathPoint> others = deflate(newton_, points_, options_, sentences);
+    if (interrupted()) return end(Status::interrupted, "interrupted while other equilibria were looked for");
+    for (PathPoint& point : others) {
       branch_ = ++numbering().branches;
       compare(point, true);
       emit(std::move(point));

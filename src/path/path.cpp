@@ -1,5 +1,6 @@
 #include "path/path.hpp"
 
+#include "core/interrupt.hpp"
 #include "path/carry.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,11 @@ void Path::carry(Archive& archive) {
   archive(numbering_, branch_, parent_, ended_, ready_, branch_points_, status_, why_, notes_);
 }
 
-void Path::end(Status status, std::string why) { ended_ = true, status_ = status, why_ = std::move(why); }
+// A search that was cut short finds nothing, too: a path that ends while it is to stop has not come to its end.
+void Path::end(Status status, std::string why) {
+  const bool cut_short = status != Status::interrupted && interrupted();
+  ended_ = true, status_ = cut_short ? Status::interrupted : status, why_ = cut_short ? "interrupted" : std::move(why);
+}
 
 void Path::emit(PathPoint point) {
   point.step = numbering_.steps++;

@@ -1,5 +1,7 @@
 #include "study/modes.hpp"
 
+#include "core/interrupt.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -85,6 +87,7 @@ Outcome trace_modes(const Problem& problem, Newton& newton, const Sink& sink) {
     return {report.status, report.why};
   }
   const std::vector<Mode> modes = lowest_modes(newton, e, problem.modes.count);
+  if (interrupted()) return tell_interrupted(newton, state, sink);
   sink.modes(e.point, modes);
   return {report.status, std::to_string(modes.size()) + " lowest modes; " + report.why};
 }

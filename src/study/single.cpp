@@ -1,5 +1,6 @@
 #include "study/single.hpp"
 
+#include "core/interrupt.hpp"
 #include "core/say.hpp"
 #include "core/text_file.hpp"
 #include "core/timing.hpp"
@@ -198,6 +199,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
                                 [&](const std::string& line) { teller.log(line), teller.moved(line, problem.path.to); },
                                 [&](const std::string& warning) { teller.warn(warning); });
     }
+    // Whatever was looked for meanwhile need not have been found, the check at the end included.
+    if (outcome.status != Status::interrupted && interrupted()) outcome = {Status::interrupted, "interrupted"}, summary.check.reset();
     if (outcome.status == Status::interrupted) checkpoints.stop();
     else if (results.has_film()) checkpoints.end(carry);
     teller.finish();

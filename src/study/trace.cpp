@@ -20,6 +20,7 @@ Outcome trace_energy(const Problem& problem, Newton& newton, const Sink& sink) {
   const State state = starting_state(problem, newton.energy());
   newton.energy().evaluate(state);
   Equilibrium e = assess(newton, state, {});
+  if (interrupted()) return tell_interrupted(newton, state, sink);
   e.point.report.residual = newton.energy().relative(newton.energy().gradient());
   e.point.report.status = Status::converged;
   if (e.point.report.residual > problem.solver.tolerance) e.point.stability.stable = false;                // it is no equilibrium
@@ -84,7 +85,7 @@ Outcome trace_equilibrium(const Problem& problem, Newton& newton, const Sink& si
   if (report.status == Status::not_converged)
     if (const std::string what = obstacle(newton.energy(), state); report.why.find(what) == std::string::npos) report.why += "; " + what;
   Equilibrium e = assess(newton, state, report);
-  if (gave_up) report.status = Status::interrupted, report.why = "interrupted", e = assess(newton, state, report);
+  if (gave_up || interrupted()) report.status = Status::interrupted, report.why = "interrupted", e = assess(newton, state, report);
   sink.point(e.point, true);
   return {report.status, report.why};
 }
@@ -104,6 +105,13 @@ State starting_state(const Problem& problem, const Energy& energy) {
   State state = energy.model().restart.value_or(energy.model().start);
   energy.kinematics().prescribe(state, starting_load_factor(problem));
   return state;
+}
+
+Outcome tell_interrupted(Newton& newton, const State& state, const Sink& sink) {
+  Report report;
+  report.status = Status::interrupted, report.why = "interrupted";
+  sink.point(assess(newton, state, report).point, true);
+  return {report.status, report.why};
 }
 
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped) {

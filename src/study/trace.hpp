@@ -49,6 +49,9 @@ State starting_state(const Problem& problem, const Energy& energy);
 /// A sentence: the energy is not finite at the state, and why.
 std::string not_finite(const Energy& energy, const State& state);
 
+/// Yields a state of which, since the study is to stop, nothing but its energies is told.
+Outcome tell_interrupted(Newton& newton, const State& state, const Sink& sink);
+
 /// Runs the study and yields its points as they are found; stored: what stands beside the state that a path starts from; stopped: where the same study
 /// of this problem was when it was stopped, from which it goes on with the same bits, beginning with the stage that it is in.
 Outcome trace(const Problem& problem, const Model& model, const std::optional<StateSupplement>& stored, const Sink& sink, Archive* stopped = nullptr);

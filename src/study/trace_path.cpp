@@ -208,7 +208,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       for (const std::string& note : run->path->notes()) sink.note(note);
     };
     while (std::optional<PathPoint> point = broken.empty() && !enough() ? run->path->next() : std::nullopt) {
-      if (gave_up) break;
+      if (gave_up || interrupted()) break;              // what is found while it is to stop need not be what would be found otherwise
       if (!std::isfinite(point->energy.total())) {
         broken = fmt::format("load factor {:.10g}: {}", point->state.load_factor, not_finite(run->energy, point->state));
         break;
@@ -224,12 +224,11 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       held = numbers.among_all(std::move(*point));
       if (sink.reached) sink.reached(*held);
       tell_notes();
-      // What is found while it is to stop need not be what would be found otherwise.
       if (sink.checkpoint && broken.empty() && !interrupted()) sink.checkpoint([&](Archive& archive) { archive(starts), carry(archive); });
     }
     tell_notes();
     outcome = {run->path->status(), run->path->why()};
-    if (gave_up && outcome.status != Status::interrupted)
+    if ((gave_up || interrupted()) && outcome.status != Status::interrupted)
       outcome = {Status::interrupted, held ? fmt::format("interrupted at load factor {:.10g}", held->state.load_factor) : "interrupted"};
     if (enough()) outcome = {Status::converged, "the path ends at " + held->label};
     if (!broken.empty()) outcome = {Status::not_converged, broken};

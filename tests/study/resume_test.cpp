@@ -7,6 +7,7 @@
 
 #include "core/directory_lock.hpp"
 #include "core/interrupt.hpp"
+#include "core/timing.hpp"
 #include "study/resume.hpp"
 #include "study/run.hpp"
 
@@ -111,6 +112,61 @@ void compare_stopped(const std::string& text, int stops, double checkpoint = at_
   CHECK((files_of(options.directory) == before));
 }
 
+/// Stops a run at so many places spread over it, one each: it is interrupted there, or whole, and goes on to the same files.
+void stop_everywhere(const std::string& text, int stops) {
+  const ScratchDirectory scratch;
+  RunOptions options{.file = scratch.file("p.toml", text), .settings = {}, .directory = scratch / "whole", .threads = 1, .quiet = true, .checkpoint = at_stops};
+  long looks = 0;
+  {
+    const Stop counting(0);
+    REQUIRE(elamin::run(options).exit_status == exit_done);
+    looks = counting.looks();
+  }
+  for (int k = 0; k < stops; ++k) {
+    const long at = 1 + looks * (2 * k + 1) / (2 * stops);
+    INFO("stopped at look " << at << " of " << looks);
+    options.directory = scratch / std::to_string(k);
+    {
+      const Stop stop(at);
+      REQUIRE(elamin::run(options).exit_status == exit_interrupted);
+    }
+    REQUIRE(elamin::resume({.directory = options.directory, .threads = 1, .checkpoint = at_stops, .quiet = true}).exit_status == exit_done);
+    same_files(options.directory, scratch / "whole");
+  }
+}
+
+/// A flat arch that is pressed at its crown: two branch points before it snaps.
+const std::string arch = R"(plane = "xz"
+[[beam]]
+name = "a"
+particles = 13
+from = [-1, 0, 0]
+to = [1, 0, 0]
+rise = 0.3276815499288849
+rest = "as_built"
+diameter = 0.01
+axial_stiffness = 12721.259807204735
+bending_stiffness = 1
+[[group]]
+name = "feet"
+ids = [1, 13]
+[[group]]
+name = "crown"
+of = "a"
+middle = 1
+[[support]]
+group = "feet"
+[[load]]
+group = "crown"
+force = [0, 0, -20]
+[path]
+method = "arc_length"
+steps = 20
+branches = 4
+frames = 5
+)";
+const std::string deflated = pressed_column_observed + "[path]\nsteps = 6\nwhen_unstable = \"follow\"\ndeflate = 4\n";
+
 std::string example(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
 
 }  // namespace
@@ -124,6 +180,13 @@ TEST_CASE("arc length with side branches, deflation and limit points goes on wit
   compare_stopped(pressed_column_observed + "[path]\nmethod = \"arc_length\"\nsteps = 15\nbranches = 1\nframes = 6\n", 6);
   compare_stopped(example("truss_tall"), 5);
   compare_stopped(truss + "[path]\nsteps = 10\nto = 0.1\ndeflate = 2\n", 3);
+}
+
+TEST_CASE("what is looked for when a run is stopped is not taken for what is not there", "[resume]") {
+  stop_everywhere(arch, 30);
+  stop_everywhere(deflated, 30);
+  stop_everywhere(pressed_column_observed + "[study]\ntype = \"modes\"\n[modes]\ncount = 3\n", 6);
+  stop_everywhere(pressed_column_observed + "[study]\ntype = \"energy\"\n", 2);
 }
 
 TEST_CASE("paths with contacts, hard ones and bodies too, go on with the same bits", "[resume]") {
@@ -156,8 +219,8 @@ TEST_CASE("a sweep goes on with the runs that are left, a bisection too", "[resu
 
 namespace {
 
-/// Starts the program, and kills it after so long if it has not ended; gives its exit status, −1: killed.
-int killed_after(std::vector<std::string> arguments, double seconds) {
+/// Starts the program, and sends it a signal after so long if it has not ended; gives its exit status, −1: killed.
+int signalled_after(std::vector<std::string> arguments, double seconds, int signal) {
   arguments.insert(arguments.begin(), ELAMIN_PROGRAM);
   std::vector<char*> line;
   for (std::string& a : arguments) line.push_back(a.data());
@@ -171,10 +234,11 @@ int killed_after(std::vector<std::string> arguments, double seconds) {
   int status = 0;
   for (double passed = 0; passed < seconds; passed += 1e-3, usleep(1000))
     if (waitpid(process, &status, WNOHANG) == process) return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  kill(process, SIGKILL);
+  kill(process, signal);
   waitpid(process, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
+int killed_after(std::vector<std::string> arguments, double seconds) { return signalled_after(std::move(arguments), seconds, SIGKILL); }
 
 }  // namespace
 
@@ -201,6 +265,31 @@ TEST_CASE("a program that is killed at any moment goes on with the same bits", "
     same_files(scratch / directory, scratch / "whole");
   }
   CHECK(kills >= 4);
+}
+
+TEST_CASE("a program that is asked to stop at any moment says that it did, and goes on with the same bits", "[resume][kills]") {
+  const ScratchDirectory scratch;
+  std::mt19937 random(5);
+  int stops = 0;
+  for (const std::string& text : {arch, deflated}) {
+    const std::string name = "p" + std::to_string(text.size()), file = scratch.file(name + ".toml", text);
+    const auto run = [&](const std::string& directory) { return std::vector<std::string>{file, "-o", scratch / directory, "--quiet", "--threads", "1"}; };
+    const elamin::Stopwatch watch;
+    REQUIRE(killed_after(run(name), 60) == exit_done);
+    std::uniform_real_distribution<double> moment(0.1 * watch.seconds(), watch.seconds());
+    for (int k = 0; k < 8; ++k) {
+      const std::string directory = name + "-" + std::to_string(k);
+      int status = signalled_after(run(directory), moment(random), k % 2 ? SIGINT : SIGTERM);
+      if (status == exit_interrupted) ++stops, status = killed_after({"resume", scratch / directory, "--quiet", "--threads", "1"}, 60);
+      if (status < 0) {                                         // before it listened
+        CHECK(!fs::exists(scratch / directory));
+        continue;
+      }
+      CHECK(status == exit_done);
+      same_files(scratch / directory, scratch / name);
+    }
+  }
+  CHECK(stops >= 4);
 }
 
 TEST_CASE("what cannot go on is refused with a sentence", "[resume]") {
