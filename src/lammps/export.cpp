@@ -131,11 +131,8 @@ class ScriptMaker {
 
   void pairs(std::size_t s) {
     const auto& contacts = study_.stages[s].model.contacts;
-    bool hertz = false, all_hertz = true, lj = false, all_lj = true;
-    for (const auto& rule : types_.stages[s].rules) {
-      hertz = hertz || rule.hertz >= 0, all_hertz = all_hertz && rule.hertz >= 0;
-      lj = lj || rule.lj >= 0, all_lj = all_lj && rule.lj >= 0;
-    }
+    bool hertz = false, lj = false;
+    for (const auto& rule : types_.stages[s].rules) hertz = hertz || rule.hertz >= 0, lj = lj || rule.lj >= 0;
     for (const PairContact& c : contacts)
       if (c.hard) refuse(fmt::format("contact between '{}' and '{}': it is hard; LAMMPS has elastic ones", c.between[0], c.between[1]));
     std::set<CutoffStyle> cutoffs;
@@ -148,7 +145,7 @@ class ScriptMaker {
     }
     const bool smooth = !cutoffs.empty() && *cutoffs.begin() == CutoffStyle::smooth;
     const std::string lj_style = smooth ? "lj/smooth" : "lj/cut";
-    const bool hybrid = (hertz && lj) || (hertz && !all_hertz) || (lj && !all_lj);
+    const bool hybrid = hertz && lj;
     std::string lj_cutoffs = lammps_number(longest);
     if (smooth) lj_cutoffs = lammps_number(longest / 2) + " " + lj_cutoffs;
     std::vector<std::string> lines;
@@ -157,13 +154,14 @@ class ScriptMaker {
     } else {
       lines.push_back(fmt::format("pair_style {}{}{}{}", hybrid ? "hybrid/overlay" : "", hertz ? (hybrid ? " granular" : "granular") : "",
                                   lj ? (hybrid ? " " : "") + lj_style : "", lj ? " " + lj_cutoffs : ""));
-      if (hertz) law_lines(s, true, hybrid ? " granular " : " ", lines);
-      if (lj) law_lines(s, false, hybrid ? " " + lj_style + " " : " ", lines);
+      // Not `none`: between types that have one and the same sub-style alone, LAMMPS's hybrid styles take it as to be mixed.
+      if (hertz) law_lines(s, true, hybrid ? " granular " : " ", "hertz 0 0 tangential linear_nohistory 0 0", lines);
+      if (lj) law_lines(s, false, hybrid ? " " + lj_style + " " : " ", hybrid ? "" : "0 1 " + lj_cutoffs, lines);
       if (lj && *cutoffs.begin() != CutoffStyle::cut)
         lines.push_back(fmt::format("pair_modify {}shift yes", hybrid ? "pair " + lj_style + " " : ""));
     }
     if (lines == pair_lines_) return;
-    put("# contact: E = 2 E_eff and nu = 0, whatever E and nu the problem has; \"none\": no contact, or left out by exclude_bonds");
+    put("# contact: E = 2 E_eff and nu = 0, whatever E and nu the problem has; \"hertz 0\": no contact, or left out by exclude_bonds");
     for (const std::string& line : lines) put("{}", line);
     put("");
     pair_lines_ = lines;
@@ -176,8 +174,8 @@ class ScriptMaker {
     return text + lammps_number(c.cutoff);
   }
 
-  /// What most pairs of types have first, with wildcards, then the others.
-  void law_lines(std::size_t s, bool hertz, const std::string& style, std::vector<std::string>& lines) const {
+  /// What most pairs of types have first, with wildcards, then the others. `nothing`: the law of pairs without one; "": they get no line.
+  void law_lines(std::size_t s, bool hertz, const std::string& style, const std::string& nothing, std::vector<std::string>& lines) const {
     const auto& contacts = study_.stages[s].model.contacts;
     const auto of = [&](int a, int b) { const auto& r = types_.rule(s, a, b); return hertz ? r.hertz : r.lj; };
     std::map<int, int> count;
@@ -186,12 +184,11 @@ class ScriptMaker {
     int most = -1, times = 0;
     for (const auto& [table, n] : count)
       if (n > times) most = table, times = n;
-    if (!hertz && count.count(-1)) most = -1;               // "none" would take the contact away, too
+    if (nothing.empty() && count.count(-1)) most = -1;
     const auto line = [&](const std::string& types, int table) {
-      lines.push_back(fmt::format("pair_coeff {}{}{}", types, table < 0 ? " none" : style, table < 0 ? "" : law(contacts[table])));
+      lines.push_back(fmt::format("pair_coeff {}{}{}", types, style, table < 0 ? nothing : law(contacts[table])));
     };
-    if (hertz || most >= 0) line("* *", most);
-    else if (std::none_of(lines.begin(), lines.end(), [](const std::string& l) { return l.starts_with("pair_coeff"); })) line("* *", -1);
+    if (most >= 0 || !nothing.empty()) line("* *", most);
     for (int a = 1; a <= types_.count; ++a)
       for (int b = a; b <= types_.count;) {
         const int table = of(a, b);

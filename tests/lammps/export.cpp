@@ -118,6 +118,15 @@ TEST_CASE("an exported script says walls, contact, supports and loads in LAMMPS'
                    "0 damping velocity region wall_floor"));
   CHECK(has(walls, "fix wall_bowl in_bowl wall/gran/region granular hertz/material 2000000 0 0 tangential"));
 
+  // Pairs that are left out have a law without force: `none` would not keep LAMMPS's hybrid styles from it.
+  REQUIRE(elamin_says("export " + scratch.file("beam.toml", "[[beam]]\nname = \"s\"\nparticles = 3\nfrom = [0, 0, 0]\nto = [2, 0, 0]\n"
+      "diameter = 1.2\nthickness = 1.0\nyoungs_modulus = 100\ndensity = 1\n[[contact]]\nbetween = [\"s\", \"s\"]\n"
+      "youngs_modulus = 1000\npoissons_ratio = 0.3\n[[support]]\ngroup = \"s\"\n[study]\ntype = \"energy\"\n") +
+      " -o " + scratch / "in.lmp").status == 0);
+  const std::string beam = text_of(scratch / "in.lmp");
+  CHECK(has(beam, "pair_style granular\npair_coeff * * hertz/material "));
+  CHECK(has(beam, "pair_coeff 1 2 hertz 0 0 tangential linear_nohistory 0 0\npair_coeff 2 3 hertz 0 0 tangential linear_nohistory 0 0\n"));
+
   REQUIRE(elamin_says("export " + root + "tests/lammps/export/cohesion_smooth.toml -o " + scratch / "in.lmp").status == 0);
   const std::string cohesion = text_of(scratch / "in.lmp");
   CHECK(has(cohesion, "special_bonds lj 0 0 0 coul 1 1 1"));
