@@ -26,9 +26,11 @@ struct File {
   std::map<std::string, std::size_t> labels;    // the first line of each
 };
 
-/// Words that name a thing of the script: what it makes, that nothing further is told of it once it went wrong.
-bool makes_a_name(const std::string& command) {
-  return command == "region" || command == "variable" || command == "group" || command == "compute" || command == "fix";
+/// How the mistake begins that follows where this command has made nothing of that name; "": it makes no names.
+std::string missing(const std::string& command, const std::string& name) {
+  if (command == "variable") return "there is no variable " + in_quotes(name);
+  const bool makes = command == "region" || command == "group" || command == "compute" || command == "fix";
+  return makes && !name.empty() ? in_quotes(name) + " is no " + command : "";
 }
 
 class Reader {
@@ -103,7 +105,8 @@ class Reader {
       in_.run_command();
     } catch (const NeedsPositions& needs) {
       stop(needs, file);
-    } catch (const Silent&) {
+    } catch (const Silent& silent) {
+      leave_out(first_word(line.text), silent.what);
     } catch (const InputError& e) {              // of a file that the command reads
       for (const Mistake& m : e.mistakes())
         tell(m.line > 0 ? m : Mistake{file.path, in_.where.line, 1, in_.words[0].text, m.sentence()});
@@ -111,21 +114,23 @@ class Reader {
       const std::size_t w = wrong.word < in_.words.size() ? wrong.word : 0;
       const Place at = line.place(in_.words.empty() ? line.text.find_first_not_of(" \t") : in_.words[w].offset);
       const std::string command = in_.words.empty() ? first_word(line.text) : in_.words[0].text;
-      if (in_.words.size() > 1 && makes_a_name(command)) broken_.insert(in_.words[1].text);
-      if (wrong.unknown && in_.options.skip) {
-        in_.reading.told.push_back({Told::Fate::not_understood, command, wrong.what(), 1, in_.where});
-        return;
-      }
+      const std::string what = wrong.what();
       // What follows from a mistake that was told is not told again.
-      for (const std::string& name : broken_)
-        if (!name.empty() && std::string(wrong.what()).starts_with(in_quotes(name) + " is no")) return;
-      for (const std::string& name : broken_)
-        if (std::string(wrong.what()) == "there is no variable " + in_quotes(name)) return;
-      tell({file.path, at.line, at.column, command, wrong.what()});
+      const bool follows =
+          std::any_of(broken_.begin(), broken_.end(), [&](const std::string& m) { return what == m || what.starts_with(m + ";"); });
+      if (in_.words.size() > 1)
+        if (const std::string name = missing(command, in_.words[1].text); !name.empty()) broken_.insert(name);
+      if (follows || (wrong.unknown && in_.options.skip)) return leave_out(command, what);
+      tell({file.path, at.line, at.column, command, what});
     }
   }
 
-  struct Silent {};
+  /// A command that needs what was not made.
+  struct Silent { std::string what; };
+
+  void leave_out(const std::string& command, const std::string& why) {
+    if (in_.options.skip) in_.reading.told.push_back({Told::Fate::not_understood, command, why, 1, in_.where});
+  }
 
   static std::string first_word(const std::string& text) {
     const std::size_t begin = std::min(text.find_first_not_of(" \t\r\f\v\n"), text.size());
@@ -133,7 +138,8 @@ class Reader {
   }
 
   std::string lookup(const std::string& name) const {
-    if (broken_.count(name) && !in_.names.variables.count(name)) throw Silent();
+    const std::string what = missing("variable", name);
+    if (broken_.count(what) && !in_.names.variables.count(name)) throw Silent{what};
     return text_of(name, in_.world, in_.names);
   }
 
@@ -336,7 +342,7 @@ std::string Interpreter::path_of(const std::string& name, std::size_t w) const {
   if (name.empty() || name.find('\0') != std::string::npos) throw Wrong(w, "a file's name is missing");
   if (!options.include_anywhere) {
     std::error_code unknown;
-    const fs::path whole = fs::weakly_canonical(path, unknown);
+    const fs::path whole = fs::weakly_canonical(fs::absolute(path), unknown);
     const fs::path base = unknown ? fs::path() : fs::weakly_canonical(root.empty() ? fs::path(".") : root, unknown);
     const fs::path inner = whole.lexically_relative(base);
     if (unknown || inner.empty() || *inner.begin() == "..")

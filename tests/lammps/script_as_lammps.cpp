@@ -1,0 +1,58 @@
+// Commands that do something else in LAMMPS than they seem to say. The numbers are LAMMPS's (29 Sep 2021), of a dump with %.17g.
+#include "catch.hpp"
+#include "energy/energy.hpp"
+#include "lammps/script_reading.hpp"
+
+namespace elamin::as_lammps {                    // names of its own: tests of a folder are compiled together
+
+using script::Reading;
+
+namespace {
+
+const std::string box = "units lj\natom_style sphere\nboundary f f f\nregion box block -5 5 -5 5 -5 5\ncreate_box 2 box\n";
+const std::string atoms = "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 0.8 0 0\n";
+const std::string spheres = "set group all diameter 1.0\nset group all density 2\n";
+const std::string stiff = "pair_style granular\npair_coeff * * hertz 1000 0 tangential linear_nohistory 0 0\n";
+const std::string soft = "pair_style granular\npair_coeff * * hertz 0 0 tangential linear_nohistory 0 0\n";
+const std::string two = box + atoms + spheres;  // 0.2 within each other
+constexpr double touching = -44.721359549995775;          // the force on the first
+const std::string end = "fix 1 all nve/sphere\nrun 0\n";
+
+double first_force(const ImportedProblem& p) { return Energy(p.model).forces(p.model.start)(0, 0); }
+double first_force(const std::string& text) { return first_force(imported(text)); }
+bool near(double value, double expected) { return std::abs(value - expected) <= 1e-14 * std::abs(expected); }
+
+std::string report_of(const std::string& text, const script::TranslationOptions& options = {}) {
+  const Reading r = reading_of(text);
+  return script::report(r, script::translated(r, r.passes.at(0), options, "p.data").notes);
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string refused_motion(const std::string& text) {
+  try {
+    report_of(text, {true, false, false});
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a mistake about the name that a command makes is told", "[script]") {
+  const auto told = [](const std::string& line) { return script_mistakes(two + stiff + line + end); };    // the line is the 12th
+  CHECK(told("fix grav grav gravity 1 vector 0 0 -1\n") == "12:10: fix: \"grav\" is no group; there are: all");
+  CHECK(told("group clamp region clamp\n") == "12:20: group: \"clamp\" is no region; there are: box");
+  CHECK(holds(told("region tube tube z 0 0 1 INF INF\n"), "12:13: region: \"tube\" is no style of a region"));
+  CHECK(holds(told("fix setforse all setforse 0 0 0\n"), "12:18: fix: \"setforse\" is no fix that is known here"));
+  CHECK(script_mistakes("units lj\nregion box box 0 1\ncreate_box 1 box\n").starts_with("2:12: region: \"box\" is no style of a region"));
+  script::ReadingOptions skip;                   // what follows from what is left out is left out, and told
+  skip.skip = true;
+  const Reading r = reading_of(two + stiff + "region r prism 0 1 0 1 0 1 0 0 0\ngroup g region r\nvariable a python f\n"
+                               "create_atoms 1 single ${a} 0 0\n" + end, skip);
+  const std::string left_out = script::report(r, {});
+  for (const char* line : {"in.lmp:12: region", "in.lmp:13: group", "in.lmp:14: variable", "in.lmp:15: create_atoms"}) CHECK(holds(left_out, line));
+}
+
+}  // namespace elamin::as_lammps
