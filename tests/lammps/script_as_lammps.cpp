@@ -55,4 +55,23 @@ TEST_CASE("a mistake about the name that a command makes is told", "[script]") {
   for (const char* line : {"in.lmp:12: region", "in.lmp:13: group", "in.lmp:14: variable", "in.lmp:15: create_atoms"}) CHECK(holds(left_out, line));
 }
 
+TEST_CASE("atoms that are moved before a run of no steps, or before none, are where they are then", "[script]") {
+  const std::string apart = box + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 2 0 0\n" + spheres + stiff + "group g id 2\nfix 1 all nve/sphere\n";
+  for (const std::string run : {"run 0\n", "run 1\n"}) {
+    INFO(run);
+    CHECK(near(first_force(apart + "displace_atoms g move -1.2 0 0\n" + run), touching));
+    CHECK(near(first_force(apart + "set atom 2 x 0.8\n" + run), touching));
+  }
+  CHECK(first_force(apart + "run 0\nset atom 2 x 0.8\n") == 0);
+  CHECK(imported(apart + "set atom 2 x 0.8\n").model.start.position(0, 1) == 0.8);
+}
+
+TEST_CASE("behind a clear a run of no steps is a problem, too", "[script]") {
+  const Reading r = reading_of(two + soft + "clear\n" + two + stiff + end);       // nothing was run before
+  REQUIRE(r.passes.size() == 1);
+  CHECK(near(first_force(imported(r)), touching));
+  CHECK(reading_of(two + stiff + "fix 1 all nve\nrun 10\nclear\n" + two + stiff + end).passes.size() == 2);
+  CHECK(reading_of(two + stiff + end + "clear\n" + two + stiff + end).passes.size() == 2);
+}
+
 }  // namespace elamin::as_lammps

@@ -69,6 +69,12 @@ void create_random(Interpreter& in, int type) {
   }
 }
 
+/// Throws unless it may be put elsewhere.
+void newborn(const World& w, const Atom& a) {
+  w.at(a);
+  if (a.born < w.run_number()) throw Wrong(0, "displaces atoms that were there in an earlier run; they go on from where they are", true);
+}
+
 /// The number of one atom: a number, or v_name of style equal or atom.
 Value each_value(const Interpreter& in, std::size_t i) {
   if (i < in.size() && in.word(i).starts_with("v_")) {
@@ -290,7 +296,7 @@ void set(Interpreter& in) {
       a.molecule = static_cast<int>(v);
     });
     else if (k == "x" || k == "y" || k == "z") each([&](Atom& a, double v) {
-      w.at(a);
+      newborn(w, a);
       a.x[k[0] - 'x'] = v;
     });
     else if (k == "vx" || k == "vy" || k == "vz") each([&](Atom& a, double v) { a.v[k[1] - 'x'] = v; });
@@ -359,8 +365,7 @@ void displace_atoms(Interpreter& in) {
   for (std::size_t k = 0; k < w.atoms.size(); ++k) {
     Atom& a = w.atoms[k];
     if (!World::there(a) || !w.in(a, g)) continue;
-    w.at(a);
-    if (a.born < w.run_number()) throw Wrong(0, "displaces atoms that were there in an earlier run; they go on from where they are", true);
+    newborn(w, a);
     for (int c = 0; c < 3; ++c) a.x[c] += d[static_cast<std::size_t>(c)].at(k);
   }
 }

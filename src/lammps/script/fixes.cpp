@@ -416,6 +416,8 @@ void record(Interpreter& in, const Span& span) {
   World& w = in.world;
   if (span.steps == 0 && !span.minimize && !w.runs.empty()) return in.ignore("a run of no steps moves nothing");
   Run r = in_force(in, span);
+  for (const int k : r.atoms)
+    if (Atom& a = w.atoms[static_cast<std::size_t>(k)]; a.born == w.run_number()) a.start = a.x;
   if (r.still()) {                                 // a study only if nothing else is run
     w.still = std::move(r);
     return;
@@ -433,7 +435,6 @@ void record(Interpreter& in, const Span& span) {
   for (const int k : r.atoms) {
     const auto i = static_cast<std::size_t>(k);
     Atom& a = w.atoms[i];
-    if (a.born == w.run_number()) a.start = a.x;
     if (driven[i] && !r.minimize) a.x += velocity[i] * r.time();
     else if (moving[i] && !(held[i] && r.minimize)) a.moved = true;      // in a run what is held goes on at the velocity that it had
   }

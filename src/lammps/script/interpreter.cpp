@@ -362,7 +362,8 @@ void Interpreter::begin_file(const std::string& name, std::size_t w, bool return
 }
 
 void Interpreter::end_pass() {
-  const bool ran = !world.runs.empty();
+  const bool still = world.runs.empty() && world.still && world.is_of_now(*world.still);
+  const bool ran = !world.runs.empty() || still;
   const bool anything = std::any_of(world.atoms.begin(), world.atoms.end(), World::there) || !world.body_file.empty();
   if (!ran && !(anything && reading.passes.empty())) return;
   if (reading.passes.size() >= most_passes) {
@@ -372,9 +373,12 @@ void Interpreter::end_pass() {
   std::map<std::string, std::string> loops;
   for (const auto& [name, v] : names.variables)
     if (v.style == Variable::Style::loop || v.style == Variable::Style::index) loops[name] = text_of(name, world, names);
+  if (ran && !reading.passes.empty() && reading.passes.back().world.runs.empty()) reading.passes.pop_back();   // which ran nothing
   reading.passes.push_back({world, loops, std::nullopt});
   World& made = reading.passes.back().world;
-  if (!ran && made.still && made.is_of_now(*made.still)) made.runs.push_back(*made.still);
+  if (still) made.runs.push_back(*made.still);
+  if (ran) return;
+  for (Atom& a : made.atoms) a.start = a.x;
 }
 
 }  // namespace elamin::script
