@@ -55,6 +55,30 @@ TEST_CASE("a mistake about the name that a command makes is told", "[script]") {
   for (const char* line : {"in.lmp:12: region", "in.lmp:13: group", "in.lmp:14: variable", "in.lmp:15: create_atoms"}) CHECK(holds(left_out, line));
 }
 
+TEST_CASE("pairs that neigh_modify leaves out do not touch", "[script]") {
+  const std::string groups = "group a id 1\ngroup b id 2\n";
+  CHECK(near(first_force(two + stiff + end), touching));
+  CHECK(near(first_force(two + stiff + "neigh_modify every 1 delay 0 check yes exclude type 1 1\n" + end), touching));
+  for (const std::string what : {"type 1 2", "type 2 1", "group a b", "group b all"}) {
+    INFO(what);
+    CHECK(first_force(two + stiff + groups + "neigh_modify delay 0 exclude " + what + "\n" + end) == 0);
+    CHECK(near(first_force(two + stiff + groups + "neigh_modify exclude " + what + "\nneigh_modify exclude none\n" + end), touching));
+  }
+  const std::string molecules = "units lj\natom_style hybrid sphere angle\nboundary f f f\nregion box block -5 5 -5 5 -5 5\ncreate_box 2 box\n" +
+                                atoms + spheres + stiff;
+  CHECK(first_force(molecules + "neigh_modify exclude molecule/intra all\n" + end) == 0);
+  CHECK(near(first_force(molecules + "set atom 2 mol 1\nneigh_modify exclude molecule/intra all\n" + end), touching));
+  CHECK(first_force(two + "pair_style lj/cut 2\npair_coeff * * 1 .7\nneigh_modify exclude type 1 2\n" + end) == 0);
+  CHECK(holds(script_mistakes(two + stiff + "neigh_modify exclude molecule/inter all\n" + end), "12:22: neigh_modify: \"molecule/inter\" says of no pairs"));
+  // Coefficients that change later do not bring them back.
+  const ImportedProblem p = imported(two + stiff + "neigh_modify exclude type 1 2\nfix 1 all nve/sphere\nrun 1\n"
+                                     "pair_coeff 1 2 hertz 500 0 tangential linear_nohistory 0 0\nrun 1\n");
+  REQUIRE(p.problem.stages.size() == 2);
+  REQUIRE(p.problem.contacts.size() == 4);
+  CHECK(p.problem.contacts.back().effective_modulus == 0);
+  CHECK(p.problem.contacts.back().from_stage == "run2");
+}
+
 TEST_CASE("atoms that are moved before a run of no steps, or before none, are where they are then", "[script]") {
   const std::string apart = box + "create_atoms 1 single 0 0 0\ncreate_atoms 2 single 2 0 0\n" + spheres + stiff + "group g id 2\nfix 1 all nve/sphere\n";
   for (const std::string run : {"run 0\n", "run 1\n"}) {

@@ -361,6 +361,31 @@ void evaluate_formulas(Interpreter& in, Run::Active& a, const Span& span) {
     }
 }
 
+/// Pairs that are left out in a run.
+std::vector<Run::Excluded> excluded(const World& w, const std::vector<int>& atoms) {
+  using Of = Exclusion::Of;
+  constexpr std::size_t most_molecules = 1000;
+  std::vector<Run::Excluded> all;
+  const auto add = [&](const Exclusion& e, const std::vector<int>& I, const std::vector<int>& J) {
+    if (!I.empty() && !J.empty() && (I != J || I.size() > 1)) all.push_back({{I, J}, e.where, e.text});
+  };
+  for (const Exclusion& e : w.exclusions) {
+    std::array<std::vector<int>, 2> sides;
+    std::map<int, std::vector<int>> molecules;
+    for (const int k : atoms) {
+      const Atom& a = w.atoms[static_cast<std::size_t>(k)];
+      for (std::size_t s = 0; s < 2; ++s)
+        if (e.of == Of::types ? a.type == e.which[s] : w.in(a, e.which[s])) sides[s].push_back(k);
+      if (e.of == Of::molecules && w.in(a, e.which[0])) molecules[a.molecule].push_back(k);
+    }
+    if (e.of != Of::molecules) add(e, sides[0], sides[1]);
+    if (molecules.size() > most_molecules)
+      throw Wrong(0, fmt::format("`{}` is of {} molecules; at most {} are taken", e.text, molecules.size(), most_molecules));
+    for (const auto& [number, members] : molecules) add(e, members, members);
+  }
+  return all;
+}
+
 /// The checks of a run, and what is in force in it.
 Run in_force(Interpreter& in, const Span& span) {
   World& w = in.world;
@@ -390,6 +415,7 @@ Run in_force(Interpreter& in, const Span& span) {
     evaluate_formulas(in, a, span);
     r.fixes.push_back(std::move(a));
   }
+  r.excluded = excluded(w, r.atoms);
   r.pairs = w.pairs, r.special_lj = w.special_lj, r.special_coul = w.special_coul;
   const auto coefficients = [&](const auto& list, const std::vector<Coefficient>& all, std::map<int, Coefficient>& to, const char* what) {
     for (const auto& glue : list)

@@ -111,7 +111,8 @@ void include(Interpreter&), jump(Interpreter&), label(Interpreter&), next(Interp
 void units(Interpreter&), dimension(Interpreter&), boundary(Interpreter&), atom_style(Interpreter&), lattice(Interpreter&),
     region(Interpreter&), create_box(Interpreter&), change_box(Interpreter&), timestep(Interpreter&), reset_timestep(Interpreter&),
     special_bonds(Interpreter&), bond_style(Interpreter&), bond_coeff(Interpreter&), angle_style(Interpreter&), angle_coeff(Interpreter&),
-    mass(Interpreter&), pair_style(Interpreter&), pair_coeff(Interpreter&), pair_modify(Interpreter&);
+    mass(Interpreter&), pair_style(Interpreter&), pair_coeff(Interpreter&), pair_modify(Interpreter&),
+    neigh_modify(Interpreter&);
 // building.cpp
 void create_atoms(Interpreter&), create_bonds(Interpreter&), set(Interpreter&), group(Interpreter&), delete_atoms(Interpreter&),
     delete_bonds(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&), compute(Interpreter&),

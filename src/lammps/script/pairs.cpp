@@ -249,5 +249,41 @@ void pair_coeff(Interpreter& in) {
   w.pairs.coefficients.push_back(std::move(c));
 }
 
+void neigh_modify(Interpreter& in) {
+  in.wants(3, "neigh_modify KEYWORD VALUE …");
+  using Of = Exclusion::Of;
+  World& w = in.world;
+  static const std::vector<std::string> lists{"every", "delay", "check", "once", "cluster", "page", "one", "binsize", "custom"};
+  bool excludes = false;
+  for (std::size_t i = 1; i < in.size();) {
+    const std::string& k = in.word(i);
+    if (i + 1 >= in.size()) throw Wrong(i, in_quotes(k) + " is followed by nothing");
+    const std::string& of = in.word(i + 1);
+    if (k.starts_with("collection/")) break;
+    if (k == "include" && of != "all") throw Wrong(i, "contacts within one group alone are not taken; exclude leaves pairs out", true);
+    if (k == "include" || std::find(lists.begin(), lists.end(), k) != lists.end()) {
+      i += 2;
+      continue;
+    }
+    if (k != "exclude") throw Wrong(i, in_quotes(k) + " is no keyword of neigh_modify that is taken; exclude is", true);
+    excludes = true;
+    const auto word = [&](std::size_t n) {
+      if (i + n >= in.size())
+        throw Wrong(in.size() - 1, "is followed by too few words; exclude type M N, group A B or molecule/intra A are");
+      return i + n;
+    };
+    const auto type = [&](std::size_t n) { return static_cast<int>(in.integer(word(n), 1, w.atom_types)); };
+    const auto group = [&](std::size_t n) { return w.group(in.word(word(n)), word(n)); };
+    const auto add = [&](Of what, std::array<int, 2> which) { w.exclusions.push_back({what, which, in.where, in.text()}); };
+    if (of == "type") add(Of::types, {type(2), type(3)}), i += 4;
+    else if (of == "group") add(Of::groups, {group(2), group(3)}), i += 4;
+    else if (of == "molecule/intra" || of == "molecule") add(Of::molecules, {group(2), group(2)}), i += 3;
+    else if (of == "none") w.exclusions.clear(), i += 2;
+    else
+      throw Wrong(i + 1, in_quotes(of) + " says of no pairs that are left out here; type, group, molecule/intra and none do", true);
+  }
+  if (!excludes) in.ignore("neighbour lists: elamin finds all pairs that touch");
+}
+
 }  // namespace command
 }  // namespace elamin::script

@@ -326,6 +326,30 @@ class Translation {
     return keys + fmt::format("exclude_bonds = {}\n", bonds);
   }
 
+  /// Pairs that neigh_modify leaves out: tables without force behind those of the run.
+  void exclusions(int k, const Run& run, const std::vector<const PairCoefficient*>& acting) {
+    using Law = PairCoefficient::Law;
+    int behind = 0;                               // the last table of this run; where it is another one, they come anew
+    for (std::size_t t = 0; t < tables_.size(); ++t)
+      if (tables_[t].kind == "contact" && tables_[t].in_run[static_cast<std::size_t>(k)]) behind = static_cast<int>(t) + 1;
+    for (const Run::Excluded& e : run.excluded)
+      for (const Law law : {Law::hertz, Law::lj, Law::rounded}) {
+        if (std::none_of(acting.begin(), acting.end(), [&](const PairCoefficient* c) { return c->law == law; })) continue;
+        if (law == Law::rounded) refuse(e.where, "neigh_modify", "pairs of rounded bodies are not left out here; exclude is of particles");
+        PairCoefficient none;
+        none.law = law, none.effective_modulus = 0, none.sigma = none.cutoff = 1, none.where = e.where;
+        put(k, {"contact",
+                "",
+                fmt::format("between = [\"{}\", \"{}\"]\n", groups_.of(e.members[0], "excluded", k),
+                            groups_.of(e.members[1], "excluded", k)) +
+                    contact_keys(none, *style_of(run, law), run),
+                e.where,
+                e.text,
+                behind,
+                {}});
+      }
+  }
+
   void contacts(int k, const Run& run) {
     using Law = PairCoefficient::Law;
     std::vector<PairCoefficient> list = run.pairs.coefficients;
@@ -380,6 +404,7 @@ class Translation {
           if (!up.empty()) add({i}, up);
         }
     }
+    exclusions(k, run, acting);
   }
 
   // What comes and goes --------------------------------------------------------------------------------------------------------

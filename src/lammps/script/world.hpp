@@ -93,6 +93,14 @@ struct Pairs {
   std::vector<PairCoefficient> coefficients;
 };
 
+/// Pairs that neigh_modify leaves out: of two types, of two groups (their bits), or of one molecule within a group.
+struct Exclusion {
+  enum class Of { types, groups, molecules } of;
+  std::array<int, 2> which;
+  Where where;
+  std::string text;                              // the command
+};
+
 /// A fix that matters to equilibria.
 struct Fix {
   enum class Kind { integrate, move, hold, gravity, force, wall, viscous, plane, ignored } kind = Kind::ignored;
@@ -136,6 +144,8 @@ struct Run {
   std::vector<Active> fixes;
   std::vector<int> atoms;                        // that are there
   Pairs pairs;
+  struct Excluded { std::array<std::vector<int>, 2> members; Where where; std::string text; };
+  std::vector<Excluded> excluded;                // pairs of one of the first and one of the second that do not touch
   std::map<int, Coefficient> bonds, angles;      // of the types in use
   std::array<double, 3> special_lj{}, special_coul{};
   double time() const { return static_cast<double>(steps) * timestep; }
@@ -180,6 +190,7 @@ struct World {
   std::vector<double> mass;                      // by type
   std::vector<Coefficient> bond_coefficients, angle_coefficients;   // by type from 0
   Pairs pairs;
+  std::vector<Exclusion> exclusions;
   std::vector<Fix> fixes;
   int fix_serial = 0;
   std::string body_file;                         // the data file that bodies are from
