@@ -98,4 +98,56 @@ TEST_CASE("behind a clear a run of no steps is a problem, too", "[script]") {
   CHECK(reading_of(two + stiff + end + "clear\n" + two + stiff + end).passes.size() == 2);
 }
 
+TEST_CASE("group subtract takes members out of a group that is there; regions with open faces are everywhere", "[script]") {
+  const auto members = [](const std::string& lines) {
+    const script::World w = reading_of(two + stiff + lines).passes.at(0).world;
+    std::string ids;
+    for (const script::Atom& a : w.atoms)
+      if (w.in(a, w.group("g", 0))) ids += std::to_string(a.id);
+    return ids;
+  };
+  CHECK(members("group g id 1 2\ngroup one id 1\ngroup g subtract g one\n") == "2");
+  CHECK(members("group g id 2\ngroup one id 1\ngroup g subtract one g\n").empty());
+  CHECK(members("region R cylinder z 0 0 0.5 -1 1\ngroup g region R\n") == "1");
+  CHECK(members("region R cylinder z 0 0 0.5 -1 1 open 1\ngroup g region R\n") == "12");
+}
+
+TEST_CASE("pair_style said again keeps the coefficients of the same style", "[script]") {
+  CHECK(near(first_force(two + stiff + "pair_style granular\n" + end), touching));
+  CHECK(near(first_force(two + "pair_style lj/cut 2\npair_coeff * * 1 .7\npair_style lj/cut 1.5\n" + end), 1.3788252780796117));
+  CHECK(first_force(two + "pair_style lj/cut 2\npair_coeff * * 1 .7\npair_style lj/cut 0.75\n" + end) == 0);      // the new cutoff
+  CHECK(first_force(two + stiff + "pair_style lj/cut 2\npair_coeff * * 0 1\npair_style granular\n" + end) == 0);
+}
+
+TEST_CASE("units have LAMMPS's timesteps; halves are rounded up; gravity in two dimensions has no z", "[script]") {
+  for (const auto& [units, dt] : {std::pair("lj", 0.005), {"si", 1e-8}, {"cgs", 1e-8}, {"micro", 2.0}, {"nano", 0.00045}})
+    CHECK(reading_of("timestep 7\nunits " + std::string(units) + "\n" + two.substr(9) + stiff + end).passes.at(0).world.timestep == dt);
+  CHECK(first_force(two + soft + "fix a all addforce $(round(-2.5)+10*round(2.5)) 0 0\n" + end) == 28);
+  const ImportedProblem p = imported("dimension 2\n" + two + stiff + "fix g all gravity 1 chute 20\nfix e all enforce2d\n" + end);
+  const Field f = Energy(p.model).forces(p.model.start);
+  CHECK(near(f(0, 0), -44.363196893445227));
+  CHECK(near(f(1, 1), -0.98404381136451624));
+}
+
+TEST_CASE("atoms of a union are drawn within the box around its parts", "[script]") {
+  const script::World w = reading_of(box + "region A sphere 0 0 0 1\nregion B sphere 1 0 0 1\nregion U union 2 A B\nregion I intersect 2 A B\n"
+                                           "create_atoms 1 random 3 4711 U\ncreate_atoms 1 random 1 4711 I\n").passes.at(0).world;
+  const Vec3 expected[]{
+        Vec3(0.56429731033942532, 0.42992991648145473, -0.16789369618887717),
+        Vec3(0.81597223031147026, 0.36351656325325199, -0.37712140259198912),
+        Vec3(0.080879954658858333, -0.10040136571060931, 0.55424650178954304),
+        Vec3(0.52143243677980844, 0.42992991648145473, -0.16789369618887717)};
+  REQUIRE(w.atoms.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) CHECK((w.atoms[k].x - expected[k]).norm() < 1e-15);
+}
+
+TEST_CASE("a wall has the surface that its region has when a run begins; velocities are added where that is said", "[script]") {
+  const std::string text = two + soft + "fix 1 all nve/sphere\nregion R plane 0 0 -0.3 0 0 1\n"
+                           "fix w all wall/gran/region granular hertz 1000 0 tangential linear_nohistory 0 0 region R\nregion R delete\n";
+  CHECK(imported(text + "region R plane 0 0 -0.1 0 0 1\nrun 0\n").model.walls.at(0).region.center[2] == -0.1);
+  CHECK(holds(script_mistakes(text + "run 0\n"), "the region \"R\" of the fix w is there no more"));
+  const script::World w = reading_of(two + "velocity all set 1 2 3\nvelocity all set 0.5 NULL 1 sum yes\n").passes.at(0).world;
+  CHECK(w.atoms.at(0).v == Vec3(1.5, 2, 4));
+}
+
 }  // namespace elamin::as_lammps

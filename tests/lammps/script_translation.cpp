@@ -38,7 +38,7 @@ TEST_CASE("what is in force at a run becomes tables", "[script]") {
   const ImportedProblem p = imported(three_in_a_row +
       "group one id 1\ngroup three id 3\nfix 1 all nve\nfix m one move linear 0.01 NULL -0.02\nfix h three setforce NULL 0 0\n"
       "fix g all gravity 2 vector 0 0 -3\n"
-      "fix f three addforce 1 2 3\nfix v all viscous 0.1\nregion tube cylinder x 0 0 1.5 INF 4 side in open 2\n"
+      "fix f three addforce 1 2 3\nfix h three setforce NULL 0 0\nfix v all viscous 0.1\nregion tube cylinder x 0 0 1.5 INF 4 side in open 2\n"
       "fix w one wall/gran/region granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 region tube\nrun 20\n");
   INFO(p.files.toml);
   CHECK(p.model.bonds.size() == 2);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace elamin::script::command {
@@ -30,9 +31,23 @@ class Random {
   long long seed_;
 };
 
-/// A box around a region, as far as there is one.
-void clip(const ScriptRegion& r, Vec3& lo, Vec3& hi) {
-  if (r.kind != ScriptRegion::Kind::shape || !r.inside || r.shape.shape == Shape::plane) return;
+/// The box around a region that LAMMPS has: of a union if all of its parts have one, of an intersection if one of them has.
+std::optional<std::array<Vec3, 2>> box_of(const World& w, const ScriptRegion& r) {
+  if (!r.inside || (r.kind == ScriptRegion::Kind::shape && r.shape.shape == Shape::plane)) return std::nullopt;
+  if (r.kind != ScriptRegion::Kind::shape) {
+    const bool unite = r.kind == ScriptRegion::Kind::unite;
+    std::optional<std::array<Vec3, 2>> whole;
+    for (const std::string& name : r.parts) {
+      const auto part = box_of(w, w.regions.at(name));
+      if (!part && unite) return std::nullopt;
+      if (!part) continue;
+      if (!whole) whole = part;
+      const auto& [lo, hi] = *part;
+      if (unite) whole = {whole->at(0).cwiseMin(lo), whole->at(1).cwiseMax(hi)};
+      else whole = {whole->at(0).cwiseMax(lo), whole->at(1).cwiseMin(hi)};
+    }
+    return whole;
+  }
   const Region& s = r.shape;
   Vec3 a = s.lo, b = s.hi;
   if (s.shape == Shape::sphere) a = s.center.array() - s.radius, b = s.center.array() + s.radius;
@@ -41,7 +56,7 @@ void clip(const ScriptRegion& r, Vec3& lo, Vec3& hi) {
     a = s.center.array() - radius, b = s.center.array() + radius;
     a[s.axis] = s.axial_lo, b[s.axis] = s.axial_hi;
   }
-  lo = lo.cwiseMax(a), hi = hi.cwiseMin(b);
+  return std::array{a, b};
 }
 
 void create_random(Interpreter& in, int type) {
@@ -52,7 +67,7 @@ void create_random(Interpreter& in, int type) {
   Vec3 lo = w.lo, hi = w.hi;
   if (region) {
     w.matches(in.word(5), lo, 5);
-    clip(w.regions.at(in.word(5)), lo, hi);
+    if (const auto box = box_of(w, w.regions.at(in.word(5)))) lo = lo.cwiseMax(box->at(0)), hi = hi.cwiseMin(box->at(1));
   }
   if (in.size() > 6) throw Wrong(6, in_quotes(in.word(6)) + " is no keyword of create_atoms that is taken", true);
   Random random(seed);

@@ -80,6 +80,11 @@ struct Making {
       const double phi = constant(6) * (pi / 180), theta = constant(7) * (pi / 180);
       d = Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
     } else throw Wrong(std::min<std::size_t>(5, in.size() - 1), "vector, chute and spherical are taken", true);
+    if (in.world.dimension == 2) {                // LAMMPS: without z, and angles within the plane
+      if (style == "chute") d = Vec3(d[0], d[2], 0);
+      if (style == "spherical") d = Vec3(std::sin(constant(7) * (pi / 180)), d[2], 0);
+      d[2] = 0;
+    }
     if (!(d.norm() > 0)) throw Wrong(6, "the direction has no length");
     fix.direction = d / d.norm();
     fix.vector = fix.end = g * fix.direction;
@@ -136,6 +141,7 @@ struct Making {
     if (found->second.kind != ScriptRegion::Kind::shape)
       throw Wrong(i + 1, "a wall of several regions together is not taken; give each its own fix", true);
     no_more(i + 2);
+    fix.region = in.word(i + 1);
     add_wall(found->second.shape, found->second.inside, modulus, "");
     fix.walls.back().formulas = found->second.formulas;
   }
@@ -412,6 +418,13 @@ Run in_force(Interpreter& in, const Span& span) {
     for (const int k : r.atoms)
       if (w.in(w.atoms[static_cast<std::size_t>(k)], g)) a.members.push_back(k);
     if (a.members.empty()) continue;
+    if (!f.region.empty()) {                      // it may have been made anew
+      const auto region = w.regions.find(f.region);
+      if (region == w.regions.end() || region->second.kind != ScriptRegion::Kind::shape)
+        throw Wrong(0, fmt::format("the region {} of the fix {} is there no more", in_quotes(f.region), f.id));
+      Fix::Wall& wall = a.fix.walls[0];
+      wall.region = region->second.shape, wall.inside = region->second.inside, wall.formulas = region->second.formulas;
+    }
     evaluate_formulas(in, a, span);
     r.fixes.push_back(std::move(a));
   }

@@ -315,7 +315,8 @@ class Formula {
     struct One { const char* name; double (*call)(double); };
     static constexpr One ones[]{{"sqrt", std::sqrt}, {"exp", std::exp},   {"ln", std::log},     {"log", std::log10}, {"abs", std::abs},
                                 {"sin", std::sin},   {"cos", std::cos},   {"tan", std::tan},    {"asin", std::asin}, {"acos", std::acos},
-                                {"atan", std::atan}, {"ceil", std::ceil}, {"floor", std::floor}, {"round", std::round}};
+                                {"atan", std::atan}, {"ceil", std::ceil}, {"floor", std::floor},
+                                {"round", [](double x) { return x - std::floor(x) >= 0.5 ? std::ceil(x) : std::floor(x); }}};
     for (const One& o : ones) {
       if (w != o.name) continue;
       wants(1, 1);

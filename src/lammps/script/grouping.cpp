@@ -116,11 +116,12 @@ void group(Interpreter& in) {
     mark(w, bit, [&](const Atom& a) { return std::any_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
   else if (style == "intersect")
     mark(w, bit, [&](const Atom& a) { return std::all_of(others.begin(), others.end(), [&](int g) { return w.in(a, g); }); });
-  else if (style == "subtract")
-    mark(w, bit, [&](const Atom& a) {
-      return w.in(a, others[0]) && std::none_of(others.begin() + 1, others.end(), [&](int g) { return w.in(a, g); });
-    });
-  else if (style == "include") {
+  else if (style == "subtract") {                // those of the first come in, then members of the others go, as in LAMMPS
+    mark(w, bit, [&](const Atom& a) { return w.in(a, others[0]); });
+    for (std::size_t i = 1; i < others.size(); ++i)
+      for (Atom& a : w.atoms)
+        if (World::there(a) && w.in(a, others[i])) a.groups &= ~(1u << bit);
+  } else if (style == "include") {
     if (in.word(3) != "molecule") throw Wrong(3, in_quotes(in.word(3)) + " is nothing that a group includes; molecule is");
     std::set<int> molecules;
     for (const Atom& a : w.atoms)

@@ -130,7 +130,16 @@ void pair_style(Interpreter& in) {
   if (mixed && p.styles.empty()) throw Wrong(1, "is followed by no style");
   const auto cohesive = [](const PairStyle& s) { return s.name.starts_with("lj/"); };
   if (std::count_if(p.styles.begin(), p.styles.end(), cohesive) > 1) throw Wrong(1, "has cohesion of two styles; one is taken", true);
-  in.world.pairs = std::move(p);
+  Pairs& old = in.world.pairs;
+  if (!mixed && !old.hybrid && !old.overlay && !old.styles.empty() && old.styles[0].name == p.styles[0].name) {
+    PairStyle& style = p.styles[0];              // LAMMPS keeps the coefficients, and gives them the new numbers of the style
+    style.shift = old.styles[0].shift, style.mix = old.styles[0].mix;
+    p.coefficients = std::move(old.coefficients);
+    for (PairCoefficient& c : p.coefficients)
+      if (c.law == PairCoefficient::Law::lj) c.cutoff = style.cutoff, c.inner_cutoff = style.inner_cutoff;
+      else if (style.name == "gran/hertz/history") c.effective_modulus = style.gran_modulus, c.damping = style.damping;
+  }
+  old = std::move(p);
 }
 
 void pair_modify(Interpreter& in) {

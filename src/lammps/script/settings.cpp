@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace elamin::script::command {
 namespace {
@@ -40,7 +41,9 @@ int axis_of(const Interpreter& in, std::size_t i) {
 void units(Interpreter& in) {
   in.wants(2, "units STYLE", 2);
   in.world.units = in.word(1);
-  if (!in.world.timestep_set) in.world.timestep = in.word(1) == "si" ? 1e-8 : in.word(1) == "lj" ? 0.005 : 1;
+  static const std::map<std::string, double> timesteps{{"lj", 0.005},      {"real", 1},  {"metal", 0.001}, {"si", 1e-8}, {"cgs", 1e-8},
+                                                       {"electron", 0.001}, {"micro", 2}, {"nano", 0.00045}};
+  if (const auto known = timesteps.find(in.word(1)); known != timesteps.end()) in.world.timestep = known->second;
   in.ignore("numbers are taken as they are; elamin's units are any that go together");
   if (in.word(1) != "lj" && in.word(1) != "si" && in.word(1) != "cgs" && in.word(1) != "micro" && in.word(1) != "nano")
     throw Wrong(1,
@@ -269,7 +272,7 @@ void change_box(Interpreter& in) {
 
 void timestep(Interpreter& in) {
   in.wants(2, "timestep DT", 2);
-  in.world.timestep = in.positive(1), in.world.timestep_set = true;
+  in.world.timestep = in.positive(1);
 }
 
 void reset_timestep(Interpreter& in) {

@@ -43,8 +43,10 @@ bool World::matches(const std::string& name, const Vec3& x, std::size_t word, in
   const ScriptRegion& r = found->second;
   if (r.moves) throw Wrong(word, in_quotes(name) + " moves; where it is is not followed", true);
   bool within;
-  if (r.kind == ScriptRegion::Kind::shape) within = r.shape.contains(x);
-  else {
+  if (r.kind == ScriptRegion::Kind::shape) {
+    if (r.shape.any_open()) return true;         // of LAMMPS, too: what has an open face is everywhere
+    within = r.shape.contains(x);
+  } else {
     const bool all = r.kind == ScriptRegion::Kind::intersect;
     within = all;
     for (const std::string& part : r.parts)

@@ -124,6 +124,7 @@ struct Fix {
     std::array<double, 2> grown{};               // ΔR of its radius
   };
   std::vector<Wall> walls;
+  std::string region;                            // whose surface the wall is, as it is when a run begins
   std::string damping;                           // keys of [[wall]] for dynamics
   std::string body;                              // keys of [[wall]] of bodies
   bool trap_modulus = false;                     // E/(2(1 − ν)) of hertz/material
@@ -169,7 +170,6 @@ struct World {
   std::array<std::string, 3> boundary{"p", "p", "p"};
   Where boundary_where;
   double timestep = 0.005;
-  bool timestep_set = false;
   std::array<double, 3> special_lj{}, special_coul{};
   double lattice = 1;
   long long step = 0;
