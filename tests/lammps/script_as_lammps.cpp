@@ -55,6 +55,17 @@ TEST_CASE("a mistake about the name that a command makes is told", "[script]") {
   for (const char* line : {"in.lmp:12: region", "in.lmp:13: group", "in.lmp:14: variable", "in.lmp:15: create_atoms"}) CHECK(holds(left_out, line));
 }
 
+TEST_CASE("`none` between types of one sub-style does not end their contact in LAMMPS", "[script]") {
+  const std::string hybrid = two + "pair_style hybrid/overlay granular lj/cut 1\n"
+                                   "pair_coeff * * granular hertz 1000 0 tangential linear_nohistory 0 0\n";
+  CHECK(holds(script_mistakes(hybrid + "pair_coeff 1 2 none\n" + end), "14:1: pair_coeff: `none` between types 1 and 2"));
+  CHECK(first_force(hybrid + "pair_coeff 1 1 lj/cut 0 1\npair_coeff 1 2 none\n" + end) == 0);   // 1 1 has two styles: none it is
+  CHECK(first_force(hybrid + "pair_coeff 1 2 granular hertz 0 0 tangential linear_nohistory 0 0\n" + end) == 0);
+  const std::string older = "pair_style hybrid/overlay granular gran/hertz/history 700 NULL 0 NULL 0 0\n"
+                            "pair_coeff * * granular hertz 1000 0 tangential linear_nohistory 0 0\n";
+  CHECK(holds(script_mistakes(two + older + "pair_coeff * * gran/hertz/history\n" + end), "LAMMPS adds the contacts"));
+}
+
 TEST_CASE("pairs that neigh_modify leaves out do not touch", "[script]") {
   const std::string groups = "group a id 1\ngroup b id 2\n";
   CHECK(near(first_force(two + stiff + end), touching));
@@ -139,6 +150,40 @@ TEST_CASE("atoms of a union are drawn within the box around its parts", "[script
         Vec3(0.52143243677980844, 0.42992991648145473, -0.16789369618887717)};
   REQUIRE(w.atoms.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) CHECK((w.atoms[k].x - expected[k]).norm() < 1e-15);
+}
+
+TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {
+  CHECK(holds(report_of(two + soft + "fix w all wall/gran granular hertz 1000 0 tangential linear_nohistory 0 0 zplane -0.45 0.4\n" + end),
+              "the nearer one alone"));
+  CHECK_FALSE(holds(report_of(two + soft + "fix w all wall/gran granular hertz 1000 0 tangential linear_nohistory 0 0 zplane -0.5 0.5\n" + end),
+                    "the nearer one alone"));
+  const std::string held = two + soft + "fix 1 all nve/sphere\ngroup a id 1\n";
+  CHECK(holds(script_mistakes(held + "fix s a setforce 0 0 0\nfix f a addforce 1 0 0\nrun 1\n"), "15:1: fix: f comes behind the fix s"));
+  CHECK(holds(script_mistakes(held + "fix s a freeze\nfix g all gravity 1 vector 0 0 -1\nrun 1\n"), "15:1: fix: g comes behind the fix s"));
+  CHECK(script_mistakes(held + "fix f a addforce 1 0 0\nfix s a setforce 0 0 0\nrun 1\n").empty());
+  CHECK(script_mistakes(held + "fix s a setforce NULL 0 0\nfix f a addforce 1 0 0\nrun 1\n").empty());
+  CHECK(holds(report_of(held + "fix g all gravity 1 vector 0 0 -1\nminimize 0 1e-8 9 9\n"), "LAMMPS's minimize leaves out fixes of style gravity"));
+  CHECK(holds(report_of(held + "reset_atom_ids\nrun 1\n"), "LAMMPS numbers the atoms anew"));
+  for (const std::string line : {"velocity all create 1 4711", "velocity all zero linear", "fix l all langevin 1 1 1 4711", "fix m all momentum 1 linear 1 1 1",
+                                 "fix n all nve/limit 0.1", "pair_coeff 1 1 hertz 9 1 tangential linear_nohistory 0 0 limit_damping"}) {
+    INFO(line);
+    CHECK(holds(refused_motion(held + line + "\nrun 1\n"), "in.lmp:14:1: " + line.substr(0, line.find(' ')) + ": "));
+    CHECK(script_mistakes(held + line + "\nrun 1\n").empty());
+  }
+  for (const auto& [line, what] : {std::pair("fix a-b all nve", "\"a-b\" is no name of a fix"), {"fix n all nve/sphere foo", "\"foo\" is no keyword"},
+                                   {"pair_style granular abc", "\"abc\" is not a number"}, {"bond_style zero zero", "\"zero\" is no word"},
+                                   {"include nope.in", "there is no such file"}})
+    CHECK(holds(script_mistakes(held + line + "\n"), what));
+}
+
+TEST_CASE("nve/noforce moves atoms at their velocities, whatever touches them", "[script]") {
+  const std::string text = two + stiff + "group a id 1\ngroup b id 2\nfix 1 a nve/sphere\nfix 2 b nve/noforce\ntimestep 0.5\n";
+  const ImportedProblem still = imported(text + "run 10\n"), drawn = imported(text + "velocity b set 0.1 0 0\nrun 10\n");
+  REQUIRE(still.model.supports.size() == 1);
+  CHECK(still.model.supports[0].particles == std::vector<int>{1});
+  CHECK(still.model.supports[0].displacement == Vec3::Zero());
+  CHECK(drawn.model.supports.at(0).displacement == Vec3(0.5, 0, 0));
+  CHECK(imported(text + "minimize 0 1e-8 9 9\n").model.supports.empty());
 }
 
 TEST_CASE("a wall has the surface that its region has when a run begins; velocities are added where that is said", "[script]") {

@@ -36,7 +36,7 @@ double last(const std::string& directory, const std::string& column) {
 
 TEST_CASE("what is in force at a run becomes tables", "[script]") {
   const ImportedProblem p = imported(three_in_a_row +
-      "group one id 1\ngroup three id 3\nfix 1 all nve\nfix m one move linear 0.01 NULL -0.02\nfix h three setforce NULL 0 0\n"
+      "group one id 1\ngroup three id 3\nfix 1 all nve\nfix m one move linear 0.01 NULL -0.02\n"
       "fix g all gravity 2 vector 0 0 -3\n"
       "fix f three addforce 1 2 3\nfix h three setforce NULL 0 0\nfix v all viscous 0.1\nregion tube cylinder x 0 0 1.5 INF 4 side in open 2\n"
       "fix w one wall/gran/region granular hertz/material 100 0 0.25 tangential linear_nohistory 0 0 region tube\nrun 20\n");
@@ -95,7 +95,7 @@ TEST_CASE("pair coefficients act in LAMMPS's order", "[script]") {
   const auto line = [&](const std::string& types, int modulus) { return "pair_coeff " + types + hertz + std::to_string(4 * modulus / 3) + ".0" + tail; };
   CHECK(moduli("pair_style granular\n" + line("* *", 30) + line("1 2", 60) + line("2* 1*2", 90)) == "30 60 30 90 30 30 ");
   CHECK(moduli("pair_style granular\n" + line("* *", 30) + line("2 2", 0) + line("1* 3", 60)) == "30 30 60 0 60 60 ");
-  CHECK(moduli("pair_style granular\n" + line("1 1", 30) + line("2 2", 120) + line("3 3", 0)) == "30 60 0 120 0 0 ");       // mixed
+  CHECK(moduli("pair_style none\npair_style granular\n" + line("1 1", 30) + line("2 2", 120) + line("3 3", 0)) == "30 60 0 120 0 0 ");       // mixed
   CHECK(moduli("pair_style granular\n" + line("* *", 30) + "pair_style granular\n" + line("1 1", 60) + line("1* 2*", 90)) == "60 90 90 90 90 90 ");
 }
 
@@ -230,10 +230,10 @@ TEST_CASE("`none` takes back what was said of a pair, and cohesion may be smooth
   CHECK(one > 0);
   CHECK(no_cohesion == 0);
   CHECK(touches("pair_coeff * * " + granular).first == 2 * one);
-  CHECK(touches("pair_coeff * * " + granular + "pair_coeff 2 3 none\n").first == one);
+  CHECK(touches("pair_coeff * * " + granular + "pair_coeff 2 2 lj/smooth 0 1\npair_coeff 2 3 none\n").first == one);
   CHECK(touches("pair_coeff * * " + granular + "pair_coeff 2* 2* none\n").first == one);
   CHECK(touches("pair_coeff * * " + granular + "pair_coeff * * none\n").first == 0);
-  const auto [contact, cohesion] = touches("pair_coeff * * " + granular + "pair_coeff 1 2 lj/smooth 1 0.25\npair_coeff 2 3 none\n");
+  const auto [contact, cohesion] = touches("pair_coeff * * " + granular + "pair_coeff 1 2 lj/smooth 1 0.25\npair_coeff 2* 2* none\n");
   CHECK(contact == one);
   CHECK(cohesion < 0);
   CHECK(holds(script_mistakes(three + "pair_style lj/smooth 0.5 0.3\npair_coeff * * 1 0.1\nfix 1 all nve\n"
@@ -487,7 +487,7 @@ TEST_CASE("a script in a problem file is read in memory, and what is to know of 
 
 TEST_CASE("a script of hundreds of runs is read in time", "[script]") {
   const std::clock_t begin = std::clock();
-  const ImportedProblem p = imported(three_in_a_row + "fix 1 all nve\ngroup one id 1\nvariable i loop 300\nlabel again\nfix h one setforce 0 0 0\n"
+  const ImportedProblem p = imported(three_in_a_row + "fix 1 all nve\ngroup one id 1\nvariable i loop 300\nlabel again\nfix h one move linear 0 0 0\n"
                                                       "fix f all addforce 0 0 $i\n"
                                      "run 10\nunfix f\nnext i\njump SELF again\n");
   CHECK(p.problem.stages.size() == 300);

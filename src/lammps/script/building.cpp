@@ -359,15 +359,18 @@ void velocity(Interpreter& in) {
   World& w = in.world;
   const int g = w.group(in.word(1), 1);
   if (in.word(2) == "create" || in.word(2) == "scale" || in.word(2) == "ramp" || in.word(2) == "zero")
-    return in.ignore("velocities at the start matter in motion only");
+    return in.not_in_motion(), in.ignore("velocities at the start matter in motion only");
   if (in.word(2) != "set") throw Wrong(2, in_quotes(in.word(2)) + " is no way of setting velocities; set is", true);
   in.wants(6, "velocity GROUP set VX VY VZ");
+  bool sum = false;
+  for (std::size_t i = 6; i + 1 < in.size(); i += 2)
+    if (in.word(i) == "sum") sum = in.yes(i + 1);
   for (int c = 0; c < 3; ++c) {
     const auto i = static_cast<std::size_t>(3 + c);
     if (in.word(i) == "NULL") continue;
     const Value v = each_value(in, i);
     for (std::size_t k = 0; k < w.atoms.size(); ++k)
-      if (World::there(w.atoms[k]) && w.in(w.atoms[k], g)) w.atoms[k].v[c] = v.at(k);
+      if (World::there(w.atoms[k]) && w.in(w.atoms[k], g)) w.atoms[k].v[c] = v.at(k) + (sum ? w.atoms[k].v[c] : 0);
   }
 }
 

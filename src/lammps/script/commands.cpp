@@ -42,6 +42,8 @@ constexpr Taken taken[]{{"angle_coeff", command::angle_coeff},
                         {"quit", command::quit},
                         {"read_data", command::read_data},
                         {"region", command::region},
+                        {"reset_atom_ids", command::reset_atom_ids},
+                        {"reset_ids", command::reset_atom_ids},
                         {"reset_timestep", command::reset_timestep},
                         {"run", command::run},
                         {"set", command::set},
@@ -92,9 +94,7 @@ constexpr Ignored ignored[]{{"dump", output},
                             {"min_style", stepping},
                             {"min_modify", stepping},
                             {"run_style", stepping},
-                            {"shell", "elamin runs no other programs"},
-                            {"reset_atom_ids", "atoms keep their ids"},
-                            {"reset_ids", "atoms keep their ids"}};
+                            {"shell", "elamin runs no other programs"}};
 
 struct Refused { const char* name; const char* why; };
 constexpr Refused refused[]{

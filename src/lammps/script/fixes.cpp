@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace elamin::script::command {
@@ -108,6 +109,7 @@ struct Making {
       modulus = law.material ? law.youngs_modulus / (2 * (1 - law.poissons_ratio)) : law.effective_modulus;
       fix.trap_modulus = law.material && law.youngs_modulus > 0 && law.poissons_ratio != 0;
       fix.damping = law.damping();
+      if (law.limited) in.not_in_motion();
       if (law.history || law.rolls)
         in.note(
             "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
@@ -211,10 +213,10 @@ constexpr Style styles[]{{"move", &Making::move},
 
 struct Integrator { const char* name; const char* note; };
 constexpr const char* cold = "there is no temperature here: what it integrates moves, and comes to rest";
-constexpr Integrator integrators[]{{"nve", ""}, {"nve/sphere", ""}, {"nve/body", ""}, {"nve/limit", ""}, {"nve/noforce", ""}, {"nvt", cold},
+constexpr Integrator integrators[]{{"nve", ""}, {"nve/sphere", ""}, {"nve/body", ""}, {"nve/limit", ""}, {"nvt", cold},
                                    {"nvt/sphere", cold}, {"nvt/body", cold}, {"nve/asphere", ""}};
 
-struct Other { const char* name; const char* why; };
+struct Other { const char* name; const char* why; bool moves = false; };   // moves: matters in motion
 constexpr Other others[]{{"print", "output: a run of elamin writes its own"},
                          {"ave/time", "output: a run of elamin writes its own"},
                          {"ave/atom", "output: a run of elamin writes its own"},
@@ -225,12 +227,12 @@ constexpr Other others[]{{"print", "output: a run of elamin writes its own"},
                          {"store/state", "output: a run of elamin writes its own"},
                          {"store/force", "output: a run of elamin writes its own"},
                          {"balance", "how LAMMPS uses the machine"},
-                         {"langevin", "there is no temperature here"},
-                         {"temp/rescale", "there is no temperature here"},
-                         {"temp/berendsen", "there is no temperature here"},
-                         {"dt/reset", "how LAMMPS minimises or steps: [solver] says how elamin does"},
-                         {"recenter", "rigid motions are held by supports"},
-                         {"momentum", "rigid motions are held by supports"},
+                         {"langevin", "there is no temperature here", true},
+                         {"temp/rescale", "there is no temperature here", true},
+                         {"temp/berendsen", "there is no temperature here", true},
+                         {"dt/reset", "how LAMMPS minimises or steps: [solver] says how elamin does", true},
+                         {"recenter", "rigid motions are held by supports", true},
+                         {"momentum", "rigid motions are held by supports", true},
                          {"halt", "how long LAMMPS runs"}};
 
 }  // namespace
@@ -241,6 +243,8 @@ void fix(Interpreter& in) {
   Making m{in, {}};
   Fix& f = m.fix;
   f.id = in.word(1), f.group = in.word(2), f.style = in.word(3), f.where = in.where;
+  if (!std::all_of(f.id.begin(), f.id.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; }))
+    throw Wrong(1, in_quotes(f.id) + " is no name of a fix; letters, digits and _ are");
   w.group(f.group, 2);
   f.text = in.text();
   std::vector<std::string> known;
@@ -256,19 +260,26 @@ void fix(Interpreter& in) {
     if (f.style != s.name) continue;
     found = true;
     f.kind = Fix::Kind::integrate;
+    for (std::size_t i = 4; i < in.size() && f.style == "nve/sphere"; ++i)
+      if (in.word(i) == "update" && i + 1 < in.size()) ++i;
+      else if (in.word(i) != "disc") throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of nve/sphere; update and disc are");
     if (*s.note) in.note(s.note);
+    if (*s.note || f.style == "nve/limit") in.not_in_motion();
   }
+  if (f.style == "nve/noforce") f.kind = Fix::Kind::hold, f.unforced = found = true;
   if (f.style == "freeze") f.kind = Fix::Kind::hold, found = true;
   if (f.style == "enforce2d") f.kind = Fix::Kind::plane, found = true;
   for (const Other& o : others)
     if (f.style == o.name) {
       found = true;
       in.ignore(o.why);
+      if (o.moves) in.not_in_motion();
     }
   if (!found)
     throw Wrong(
         3,
-        in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, " + listed(known) + did_you_mean(f.style, known),
+        in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, nve/noforce, " + listed(known) +
+            did_you_mean(f.style, known),
         true);
   if (f.kind == Fix::Kind::viscous) in.ignore("drag: matters in motion only (--dynamics)");
   f.serial = ++w.fix_serial;
@@ -467,9 +478,9 @@ void record(Interpreter& in, const Span& span) {
   for (const Run::Active& a : r.fixes)
     for (const int k : a.members) {
       const auto i = static_cast<std::size_t>(k);
-      if (a.fix.kind == Fix::Kind::integrate || a.fix.kind == Fix::Kind::move) moving[i] = 1;
+      if (a.fix.integrates()) moving[i] = 1;
       if (a.fix.kind == Fix::Kind::move && a.fix.directions == std::array{true, true, true}) driven[i] = 1, velocity[i] = a.fix.vector;
-      if (a.fix.kind == Fix::Kind::hold && a.fix.directions == std::array{true, true, true}) held[i] = 1;
+      if (a.fix.kind == Fix::Kind::hold && !a.fix.unforced && a.fix.directions == std::array{true, true, true}) held[i] = 1;
     }
   for (const int k : r.atoms) {
     const auto i = static_cast<std::size_t>(k);

@@ -7,7 +7,7 @@
 namespace elamin::script {
 
 struct GranularLaw {
-  bool material = false, history = false, rolls = false;
+  bool material = false, history = false, rolls = false, limited = false;
   double youngs_modulus = 0, poissons_ratio = 0;          // of hertz/material
   double effective_modulus = 0;                           // of hertz: 3/4 k_n
   double gamma = 0, tangential = 0, friction = 0;

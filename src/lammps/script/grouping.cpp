@@ -156,6 +156,11 @@ void delete_atoms(Interpreter& in) {
     in.note("LAMMPS numbers the atoms that are left anew (compress yes); here they keep their ids");
 }
 
+void reset_atom_ids(Interpreter& in) {
+  in.note("LAMMPS numbers the atoms anew from here on; here they keep their ids, by which they are chosen further on");
+  in.ignore("atoms keep their ids");
+}
+
 void delete_bonds(Interpreter& in) {
   in.wants(3, "delete_bonds GROUP multi, or GROUP bond TYPE, or GROUP angle TYPE");
   needs_box(in);

@@ -18,7 +18,7 @@ std::map<Held, std::vector<int>> held_in(const World& world, const Run& run) {
   const std::size_t n = world.atoms.size();
   std::vector<char> integrated(n, run.minimize);
   for (const Run::Active& a : run.fixes)
-    if (a.fix.kind == Fix::Kind::integrate || a.fix.kind == Fix::Kind::move)
+    if (a.fix.integrates())
       for (const int i : a.members) integrated[static_cast<std::size_t>(i)] = 1;
   std::vector<std::vector<Held>> held(n);
   const std::array<bool, 3> whole{true, true, true};
@@ -27,7 +27,7 @@ std::map<Held, std::vector<int>> held_in(const World& world, const Run& run) {
   for (std::size_t f = 0; f < run.fixes.size(); ++f) {
     const Run::Active& a = run.fixes[f];
     const bool moves = a.fix.kind == Fix::Kind::move;
-    if (a.fix.kind != Fix::Kind::hold && !(moves && !run.minimize)) continue;
+    if ((moves || a.fix.unforced) ? run.minimize : a.fix.kind != Fix::Kind::hold) continue;
     for (const int i : a.members) {
       auto& list = held[static_cast<std::size_t>(i)];
       if (!list.empty() && list[0].fix < 0 && !moves) continue;

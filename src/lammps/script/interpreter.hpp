@@ -83,6 +83,8 @@ struct Interpreter {
   std::array<int, 2> range(std::size_t i, int most) const;
   void note(const std::string& text);
   void ignore(const std::string& why) { why_ignored = why; }
+  /// The command matters in motion, which is refused with it.
+  void not_in_motion() { world.not_in_motion.push_back({where, word(0)}); }
 
   void execute(const std::string& line_text, const Where& at);
   void run_command();
@@ -115,8 +117,8 @@ void units(Interpreter&), dimension(Interpreter&), boundary(Interpreter&), atom_
     neigh_modify(Interpreter&);
 // building.cpp
 void create_atoms(Interpreter&), create_bonds(Interpreter&), set(Interpreter&), group(Interpreter&), delete_atoms(Interpreter&),
-    delete_bonds(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&), compute(Interpreter&),
-    uncompute(Interpreter&);
+    delete_bonds(Interpreter&), reset_atom_ids(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&),
+    compute(Interpreter&), uncompute(Interpreter&);
 // fixes.cpp
 void fix(Interpreter&), unfix(Interpreter&), run(Interpreter&), minimize(Interpreter&);
 }  // namespace command

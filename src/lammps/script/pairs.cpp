@@ -25,7 +25,10 @@ PairStyle style_from(const Interpreter& in, std::size_t from, std::size_t to) {
   const auto wants = [&](std::size_t least, std::size_t most, const char* form) {
     if (n < least || n > most) throw Wrong(from, fmt::format("{} is followed by: {}", s.name, form));
   };
-  if (s.name == "lj/cut") {
+  if (s.name == "granular") {
+    wants(0, 1, "a cutoff, if anything");
+    if (n == 1) in.number(from + 1);
+  } else if (s.name == "lj/cut") {
     wants(1, 1, "its cutoff");
     s.cutoff = in.number(from + 1);
   } else if (s.name == "lj/smooth") {
@@ -88,7 +91,7 @@ std::size_t GranularLaw::read(const Interpreter& in, std::size_t i, bool wall) {
       else throw Wrong(i + 1, in_quotes(t) + fmt::format(" is no {} model that is known here", k), true);
       rolls = rolls || t != "none";
     } else if (k == "cutoff" && !wall) in.number(i + 1), i += 2;
-    else if (k == "limit_damping") ++i;
+    else if (k == "limit_damping") limited = gamma > 0, ++i;
     else break;
   }
   return i;
@@ -196,7 +199,7 @@ void pair_coeff(Interpreter& in) {
     }
     ++i;
   }
-  const std::string name = style ? style->name : "none";
+  const std::string name = c.style = style ? style->name : "none";
   std::size_t end = in.size();
   if (name == "granular") {
     GranularLaw law;
@@ -205,6 +208,7 @@ void pair_coeff(Interpreter& in) {
     if (law.material) c.youngs_modulus = law.youngs_modulus, c.poissons_ratio = law.poissons_ratio;
     if (!law.material) c.effective_modulus = law.effective_modulus;
     c.damping = law.damping();
+    if (law.limited) in.not_in_motion();
     if (law.history || law.rolls)
       in.note(
           "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
@@ -247,14 +251,16 @@ void pair_coeff(Interpreter& in) {
       });
       if (std::none_of(all.begin(), all.end(), [&](const PairCoefficient& o) { return o.law == law && meets(o); })) continue;
       PairCoefficient nothing;                   // a law without force over them
-      nothing.law = law, nothing.first = c.first, nothing.second = c.second, nothing.where = c.where, nothing.text = c.text;
+      nothing.law = law, nothing.style = name, nothing.first = c.first, nothing.second = c.second;
+      nothing.where = c.where, nothing.text = c.text;
       if (law == Law::hertz) nothing.effective_modulus = 0;
       all.push_back(nothing);
     }
   }
   // A later line holds; what it covers altogether is forgotten.
-  std::erase_if(w.pairs.coefficients,
-                [&](const PairCoefficient& o) { return o.law == c.law && o.first == c.first && o.second == c.second; });
+  std::erase_if(w.pairs.coefficients, [&](const PairCoefficient& o) {
+    return o.law == c.law && o.style == c.style && o.first == c.first && o.second == c.second;
+  });
   w.pairs.coefficients.push_back(std::move(c));
 }
 

@@ -318,7 +318,8 @@ void glue_style(Interpreter& in, std::string& style, const std::vector<std::stri
   std::size_t i = 1;
   if (style == "hybrid") ++i;
   for (; i < in.size(); ++i)
-    if (std::find(known.begin(), known.end(), in.word(i)) == known.end() && in.word(i) != "nocoeff")
+    if (i > 1 && style != "hybrid" && in.word(i) != "nocoeff") throw Wrong(i, in_quotes(in.word(i)) + " is no word of this style");
+    else if (std::find(known.begin(), known.end(), in.word(i)) == known.end() && in.word(i) != "nocoeff")
       throw Wrong(i, in_quotes(in.word(i)) + " is no style that is known here; there are: " + listed(known), true);
 }
 

@@ -1,6 +1,7 @@
 #include "lammps/script/translation.hpp"
 
 #include "core/suggest.hpp"
+#include "lammps/script/differences.hpp"
 #include "lammps/script/flat.hpp"
 #include "lammps/script/group_names.hpp"
 #include "lammps/script/held.hpp"
@@ -73,6 +74,9 @@ class Translation {
   }
 
   void collect() {
+    if (options_.dynamics && !world_.not_in_motion.empty())
+      refuse(world_.not_in_motion[0].first, world_.not_in_motion[0].second,
+             "is not followed in motion (--dynamics); equilibria do not need it");
     for (int k = 0; k < world_.run_number(); ++k) {
       const Run& run = world_.runs[static_cast<std::size_t>(k)];
       supports(k, run);
@@ -135,7 +139,10 @@ class Translation {
         protocol_.observed.insert({group, "xyz"[c]});
       }
     }
-    clamps(run, by);
+    for (const Difference& d : differences(world_, run, by))
+      if (d.refused.empty()) note(d.where, d.what);
+      else refuse(d.where, d.refused, d.what);
+    if (const auto clamped = clamp_told_ ? std::nullopt : clamp(world_, run, by)) note(clamped->where, clamped->what), clamp_told_ = true;
   }
 
   /// What lies in a plane at first, with nothing that pushes it out, stays there until the run in which something does.
@@ -150,23 +157,6 @@ class Translation {
     if (free.empty()) return;
     put(k, {"support", "plane", fmt::format("group = \"{}\"\ndirections = \"{}\"\n", groups_.of(free, "in_plane", k), "xyz"[c]), run.where,
             "these lie in a plane, and nothing pushes them out", 0, {}});
-  }
-
-  /// A note on the length of what is clamped by two particles or more.
-  void clamps(const Run& run, const std::map<Held, Members>& by) {
-    if (clamp_told_) return;
-    for (const auto& [h, members] : by) {
-      if (h.directions != std::array{true, true, true} || members.size() == run.atoms.size()) continue;
-      for (const auto& b : world_.bonds) {
-        const auto holds = [&](int i) { return std::binary_search(members.begin(), members.end(), i); };
-        if (!holds(b.atoms[0]) || !holds(b.atoms[1])) continue;
-        clamp_told_ = true;
-        return note(h.fix < 0 ? run.where : run.fixes[static_cast<std::size_t>(h.fix)].fix.where,
-                    "bonded particles are held beside each other: a clamp. It sits in the middle of the innermost held bond, so that a "
-                    "beam of N free "
-                    "particles bends over N + 2 spacings (docs/column.md)");
-      }
-    }
   }
 
   /// Whether the run changes what the fix does.

@@ -68,6 +68,7 @@ struct PairCoefficient {
   double inner_cutoff = 0;                       // of lj/smooth
   double k_n = 0, k_na = 0;                      // rounded
   std::string damping;                           // keys of [[contact]] for dynamics, lines
+  std::string style;                             // "granular"; "none"
   Where where;
   std::string text;                              // the command
   bool covers(int i, int j) const {
@@ -128,6 +129,9 @@ struct Fix {
   std::string damping;                           // keys of [[wall]] for dynamics
   std::string body;                              // keys of [[wall]] of bodies
   bool trap_modulus = false;                     // E/(2(1 − ν)) of hertz/material
+  bool unforced = false;                         // integrates, and lets its atoms feel no force: nve/noforce, a hold
+  /// Whether it moves its atoms.
+  bool integrates() const { return kind == Kind::integrate || kind == Kind::move || unforced; }
 };
 
 /// A run or minimisation, and what was in force then.
@@ -197,6 +201,7 @@ struct World {
   std::vector<Run> runs;                         // that move something
   std::optional<Run> still;                      // the last `run 0` before them
   std::vector<Removal> removals;
+  std::vector<std::pair<Where, std::string>> not_in_motion;   // commands that matter in motion, and are not followed there
   Where last_run;                                // that has moved particles
   bool unspecial = false;                        // some bonds were made with `special no`
   std::map<std::string, std::vector<int>> sheets;   // by files of atoms that are called sheet_N: their indices
