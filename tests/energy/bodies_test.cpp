@@ -64,7 +64,7 @@ Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower)
 
 }  // namespace
 
-TEST_CASE("the shares of particles and bodies add up to the energy of all laws; a glued particle has its own", "[energy][bodies]") {
+TEST_CASE("the shares of particles and bodies add up to the energy of all laws, a glued particle has its own", "[energy][bodies]") {
   const Model model = crowd(RoundedFormulation::multi);
   Energy energy(model);
   const State state = bent(energy, 0.7, 0.03);

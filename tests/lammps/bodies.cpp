@@ -114,7 +114,7 @@ TEST_CASE("all reference cases are read as LAMMPS means them", "[lammps_data][bo
   }
 }
 
-TEST_CASE("equal bodies share a shape; image flags move them; hybrids have the columns of body last", "[lammps_data][bodies]") {
+TEST_CASE("equal bodies share a shape, image flags move them, hybrids have the columns of body last", "[lammps_data][bodies]") {
   std::string text = replaced(body_file, "9 3 10\n1 0 0\n1 1 1 0 0 0\n0 0 0\n2\n", "9" + rod_numbers.substr(1));
   CHECK(data_of(text).shapes.size() == 2);
   text = body_file;

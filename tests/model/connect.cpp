@@ -165,7 +165,7 @@ TEST_CASE("Two plates laid on each other are glued all over", "[model]") {
   CHECK(m.angles.size() - angles == 2 * bonds);   // at both ends of each bond of each plate
 }
 
-TEST_CASE("Nothing near, nothing made; too much is refused", "[model]") {
+TEST_CASE("Nothing near, nothing made, too much is refused", "[model]") {
   Model m = points(random_points(4500, 1));
   CHECK(connect(m, connection({}, {1}, 1)) == 0);
   CHECK(connect(m, connection({1}, {}, 1)) == 0);
@@ -190,7 +190,7 @@ TEST_CASE("The nearest ones are found however far they are", "[model]") {
   CHECK(bonds_of(far) == bonds_of(near));
 }
 
-TEST_CASE("New bonds have a type for each stiffness and length; EA makes K = EA/(2 r0)", "[model]") {
+TEST_CASE("New bonds have a type for each stiffness and length, EA makes K = EA/(2 r0)", "[model]") {
   Field x(3, 4);
   x << 0, 2, 4, 7, 0, 0, 0, 0, 0, 0, 0, 0;
   Model m = points(x);

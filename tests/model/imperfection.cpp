@@ -29,7 +29,7 @@ Field waves(int n) {
 
 }  // namespace
 
-TEST_CASE("A stress-free imperfection has no forces; without it the perfect lengths and angles pull", "[model]") {
+TEST_CASE("A stress-free imperfection has no forces, without it the perfect lengths and angles pull", "[model]") {
   Model made = straight_beam(9), forced = made;
   displace(made, waves(9), true), displace(forced, waves(9), false);
   CHECK(made.imperfection == Approx(waves(9).colwise().norm().maxCoeff()));
@@ -55,7 +55,7 @@ TEST_CASE("What a structure was strained by before it is strained by after an im
   }
 }
 
-TEST_CASE("Moved along itself a row is not bent; across, it is", "[model]") {
+TEST_CASE("Moved along itself a row is not bent, across, it is", "[model]") {
   const Model m = straight_beam(5);
   Field along = Field::Zero(3, 5);
   along.row(0).setLinSpaced(5, 0, 1e-3);

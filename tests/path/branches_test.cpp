@@ -70,7 +70,7 @@ TEST_CASE("both halves of a pitchfork are found for any length of step, no event
   CHECK(product < 0);                                          // to either side
 }
 
-TEST_CASE("a column in space buckles at a double branch point; of the circle of branches one is traced", "[path][reference]") {
+TEST_CASE("a column in space buckles at a double branch point, of the circle of branches one is traced", "[path][reference]") {
   const nlohmann::json c = reference("exact/post_buckling_clamped.json")["cases"][0];
   const nlohmann::json& s = c["states"][0];
   const double end = s["end_shortening"];

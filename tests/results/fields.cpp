@@ -117,7 +117,7 @@ TEST_CASE("elastica: at every hinge of a buckled chain M = -P x, the turns add u
   CHECK(f.energy.sum() == Approx(energy.terms(state).bond + energy.terms(state).angle).epsilon(1e-13));
 }
 
-TEST_CASE("grains on a floor: each is borne by its neighbours, the floor by all; Hertz's energy is 2/5 F times the overlap", "[fields]") {
+TEST_CASE("grains on a floor: each is borne by its neighbours, the floor by all, Hertz's energy is 2/5 F times the overlap", "[fields]") {
   Model m = chain(3, 0, 0, 1);
   m.bonds.clear(), m.angles.clear();
   PairContact c;

@@ -56,7 +56,7 @@ TEST_CASE("a row that encloses nothing, or is too short, has no area", "[observa
   CHECK(said("0").find("too few particles for a row; it must have 3") != std::string::npos);
 }
 
-TEST_CASE("distance and end_to_end keep the digits that the tails have; a group is where its mean is", "[observables]") {
+TEST_CASE("distance and end_to_end keep the digits that the tails have, a group is where its mean is", "[observables]") {
   Model m = points({{100, 0, 0}, {100, 0, 0}, {102, 0, 4}});
   m.start.low(0, 1) = 3e-20, m.start.low(1, 1) = 4e-20;
   CHECK(value(m, m.start, shape(Quantity::distance, "1", "0")) == Approx(5e-20).epsilon(1e-14));
@@ -108,7 +108,7 @@ TEST_CASE("extents are of the places", "[observables]") {
   }
 }
 
-TEST_CASE("a ring's area, wherever it lies and points; of an ellipse; turned over it is negative", "[observables]") {
+TEST_CASE("a ring's area, wherever it lies and points, of an ellipse, turned over it is negative", "[observables]") {
   const double scale = GENERATE(1e-3, 1.0, 1e3);
   const int n = 17;
   const Mat3 R = Eigen::AngleAxisd(2, Vec3(1, 1, -1).normalized()).toRotationMatrix();

@@ -137,7 +137,7 @@ when_unstable = "jump"
     }
 }
 
-TEST_CASE("eigenvalues may be expected, and stand in the table of a sweep; stages have them too", "[eigenvalues]") {
+TEST_CASE("eigenvalues may be expected, and stand in the table of a sweep, stages have them too", "[eigenvalues]") {
   const ScratchDirectory scratch;
   const std::string supports = "[[support]]\ngroup = \"bottom\"\n[[support]]\nname = \"head\"\ngroup = \"top\"\ndisplacement = [0, 0, -0.4e-3]\n";
   const std::string asked = "[path]\nsteps = 4\neigenvalues = 2\nwhen_unstable = \"follow\"\n";

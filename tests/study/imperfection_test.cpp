@@ -71,7 +71,7 @@ TEST_CASE("Random imperfections are the same for a seed, within their bounds, in
   CHECK(ends.middleCols(1, 19).isZero(0));
 }
 
-TEST_CASE("An imperfection from a stored run: its modes, null vectors of an event, a state; and it is recorded", "[study]") {
+TEST_CASE("An imperfection from a stored run: its modes, null vectors of an event, a state, and it is recorded", "[study]") {
   const ScratchDirectory scratch;
   scratch.file("modes.toml", hinged + "[study]\ntype = \"modes\"\n");
   REQUIRE(elamin_says((scratch / "modes.toml") + " -o " + (scratch / "modes") + " --quiet").status == 0);

@@ -118,7 +118,7 @@ TEST_CASE("a sweep and a bisection run to their end where standard output is ful
   CHECK(status_of("no_such_file.toml", "2> /dev/full") == 1);
 }
 
-TEST_CASE("a file that meets its limit at any byte ends a run in a sentence; what was written is whole, and the run goes on to the same bits", "[study][streams]") {
+TEST_CASE("a file that meets its limit at any byte ends a run in a sentence, what was written is whole, and the run goes on to the same bits", "[study][streams]") {
   const ScratchDirectory scratch;
   const std::string file = scratch.file("column.toml", printing_column + "frames = 3\n"), said = scratch / "said";
   REQUIRE(status_of(file + " --quiet -o " + (scratch / "whole"), "") == 0);

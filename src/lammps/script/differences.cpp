@@ -71,14 +71,9 @@ void pushed(const Run& run, const std::map<Held, Members>& held, std::vector<Dif
       const bool wall = a.fix.kind == Fix::Kind::wall, load = a.fix.kind == Fix::Kind::force || a.fix.kind == Fix::Kind::gravity;
       if (run.minimize && a.fix.kind != Fix::Kind::force) continue;
       if (!(wall || (load && pushes(a, h.directions))) || !meet(members, a.members)) continue;
-      if (wall)
-        all.push_back({a.fix.where, "",
-                       fmt::format("LAMMPS lets this wall, which comes behind the fix {}, push away what that holds; here it stays held",
-                                   hold.id)});
-      else
-        all.push_back({a.fix.where, "fix",
-                       fmt::format("{} comes behind the fix {}, so that LAMMPS lets it move what that holds; write it before that",
-                                   a.fix.id, hold.id)});
+      all.push_back({a.fix.where, "",
+                     fmt::format("LAMMPS lets {}, which comes behind the fix {}, move what that holds; here it stays held", wall ? "this wall" : "the fix " + a.fix.id,
+                                 hold.id)});
     }
   }
 }

@@ -173,7 +173,7 @@ TEST_CASE("mass of spheres, rods, boxes and tetrahedra", "[laws][rounded]") {
   CHECK((tetrahedron.inertia - tetrahedron.inertia(0, 0) * Mat3::Identity()).norm() <= 1e-14);
 }
 
-TEST_CASE("mass of a body without symmetry, against a grid; its center", "[laws][rounded]") {
+TEST_CASE("mass of a body without symmetry, against a grid, its center", "[laws][rounded]") {
   CoreMesh core = pyramid_core();
   for (Vec3& x : core.vertices) x = quaternion({0.3, -0.9, 0.5}) * x;        // no face along the grid
   const RoundedShape shape = rounded_shape(core, 0.25);
