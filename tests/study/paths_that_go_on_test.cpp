@@ -545,7 +545,7 @@ TEST_CASE("limit points that lie close together are met by load steps, whatever 
 }
 
 TEST_CASE("load steps stay on the branch of an unfolded pitchfork beside contacts, whatever the steps", "[paths][pitchfork_beside_contacts]") {
-  for (const char* name : {"column_into_corner", "columns_side_by_side"}) {
+  for (const char* name : {"column_into_corner", "columns_pushed_aside"}) {
     const Run first(name, {in_steps(100)});
     CHECK_ENDS_AT(first, 1);
     for (const int n : {4, 5, 13, 28, 29, 60}) {
