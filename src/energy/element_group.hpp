@@ -17,7 +17,7 @@ struct Tangent {
   double convex = 0;
 };
 
-/// The numbers of rows of n in a row.
+/// All numbers of rows of n, row after row.
 template <std::size_t n>
 std::span<const int> in_a_row(const std::vector<std::array<int, n>>& rows) {
   return {rows.empty() ? nullptr : rows.front().data(), n * rows.size()};

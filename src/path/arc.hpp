@@ -27,7 +27,7 @@ double span(const Model& model);
 Direction direction_of(const Equilibrium& e, const Metric& metric, const Direction& along);
 double cosine(const Direction& a, const Direction& b, const Metric& metric);
 
-/// A chord (x, λ) of a branch beside the sum of the directions at its ends: what is along that sum is `part` of it, the rest is `off`, in parts of the chord `defect`.
+/// A chord (x, λ) of a branch, split along the sum d of the directions at its ends:  (x, λ) = part d + off,  defect = |off| / |(x, λ)|  in the metric.
 struct Chord {
   double part = 0;
   Direction off;

@@ -65,7 +65,7 @@ class Branch {
   static const Event* deciding(const Candidate& c);
   static bool is_critical(const Event* event) { return event && !event->beyond && (event->kind == EventKind::limit || event->kind == EventKind::branch); }
 
-  /// The equilibrium at a load factor, if it is on the same branch; and what happens before. Both.
+  /// The equilibrium at a load factor, if it is on the same branch; the same with what happens before it; both in one call.
   [[nodiscard]] std::optional<Candidate> corrected(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});
   [[nodiscard]] std::optional<Candidate> with_events(Candidate c, std::string& why);
   [[nodiscard]] std::optional<Candidate> reach_load(const Equilibrium& from, double target, std::string& why, const Corrector& correct = {});

@@ -100,10 +100,10 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !pushed &&
       bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
     return why = "the branch bends too much to be told from another one", std::nullopt;
-  const bool proven = !c || !searches() || grid_.halvings() >= load_steps::fine || pushed || current_.family > 0;
-  if (!proven && may_hide_limits(*c)) return why = "the structure softens so much that limit points may lie within the step", std::nullopt;
+  const bool doubted = c && searches() && grid_.halvings() < load_steps::fine && !pushed && current_.family == 0;
+  if (doubted && may_hide_limits(*c)) return why = "the structure softens so much that limit points may lie within the step", std::nullopt;
   if (c) c = with_events(std::move(*c), why);
-  if (c && !proven && c->events.empty() && c->e.point.report.iterations > load_steps::most_iterations)
+  if (c && doubted && c->events.empty() && c->e.point.report.iterations > load_steps::most_iterations)
     return why = "the corrector went so far that it may have gone to another branch", std::nullopt;
   if (c || !singular_ || critical_.cols() == 0) return c;
   Equilibrium held = current_;
@@ -111,8 +111,8 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   return reach_load(held, target, why);
 }
 
-// A stable branch that goes back over two limit points, and on to the end of the step, looks like a step without event. Before a limit point the softest eigenvalue
-// falls with the root of the distance,  μ² ∝ λ_c − λ,  so that this is μ / 2|dμ/dλ|.
+// Whether two limit points may lie within a step from a stable equilibrium to another one, between which the load factor goes back. Before a limit point at λ_c the
+// softest eigenvalue falls as  μ² ∝ λ_c − λ,  so that  λ_c − λ = μ / (2 |dμ/dλ|):  this distance is compared with the step.
 bool LoadSteps::may_hide_limits(const Candidate& c) {
   if (singular_ || current_.slack || negative_ != 0 || c.e.point.stability.negative != 0) return false;
   const double way = c.parameter - current_.point.state.load_factor;
