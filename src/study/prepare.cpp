@@ -161,13 +161,13 @@ class SweepReader {
   /// Keys that are there, that nothing else sets, and whose first value fits; false after a mistake.
   bool take_keys(const Sweep& s) {
     const std::size_t before = mistakes_.list().size();
-    const Place key_place = s.place.keys.at("key");
     if (s.keys.empty()) mistakes_.add(s.place, "key", "is an empty list; it must name a key or several");
     for (const std::string& given : s.keys) {
       Document changed = document_;
-      const std::size_t so_far = mistakes_.list().size();
-      apply({given, s.values[0], key_place}, changed, mistakes_);
-      if (mistakes_.list().size() > so_far) continue;
+      Mistakes wrong(document_.file);
+      apply({given, s.values[0], s.place.keys.at("key")}, changed, wrong);
+      for (const Mistake& m : wrong.list()) mistakes_.add(s.place, "key", m.key + ": " + m.what);
+      if (wrong.any()) continue;
       const std::string key = canonical_key(given, document_);
       if (const auto [first, is_new] = keys_.emplace(key, &s); !is_new)
         mistakes_.add(s.place, "key",
