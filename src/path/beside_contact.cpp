@@ -76,7 +76,7 @@ std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std
   const Metric metric{rates->x.norm() * std::abs(load_change), std::abs(load_change)};
   const double size = std::sqrt(metric.dot(rates->x, rates->load, rates->x, rates->load));
   const Arc arc(newton, at, {rates->x / size, rates->load / size}, metric);
-  for (double part = contact_event::onward; part >= contact_event::least_beside; part /= 100) {
+  for (double part = contact_event::onward.front(); part >= contact_event::least_beside; part /= 100) {
     const Equilibrium e = arc.at(part, at);
     // An overlap by rounding is none: of stiff contacts the index may change before it is more.
     const auto closed = [&](const ContactKey& key) { return gap(energy, key, e.point.state) < -contact_event::rounding * size_of(energy.model(), key.particle); };
@@ -123,7 +123,8 @@ std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, co
   const Kinematics& kinematics = energy.kinematics();
   const std::optional<Rates> rates = along_contacts(newton, at, here, ahead);
   const Vector tangent = rates ? Vector(rates->x / rates->load) : at.tangent;
-  for (const double part : {contact_event::onward, contact_event::onward / 100}) {
+  std::optional<Equilibrium> beyond;
+  for (const double part : contact_event::onward) {
     const double change = part * ahead;
     State state = moved_by(kinematics, at.point.state, change * tangent, change, 1);
     const Report report = newton.correct(state, at.zero_modes);
@@ -133,9 +134,10 @@ std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, co
     if (e.point.stability.negative != negative || kinematics.difference(at.point.state, state).norm() > 2 * reach) continue;
     const auto closed = [&](const ContactKey& key) { return gap(energy, key, state) < 0; };
     const auto changed = [&](const ContactKey& key) { return closed(key) != (before.count(key) > 0); };
-    if (std::any_of(here.begin(), here.end(), closed) && std::any_of(here.begin(), here.end(), changed)) return e;
+    if (std::any_of(here.begin(), here.end(), closed) && std::any_of(here.begin(), here.end(), changed)) beyond = std::move(e);
+    if (std::all_of(here.begin(), here.end(), closed)) break;   // else some may have opened again
   }
-  return {};
+  return beyond;
 }
 
 std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load) {

@@ -31,8 +31,8 @@ std::string told(const Model& model, const ContactKey& key, bool made) {
   return one + verb + (key.wall >= 0 ? "wall " + model.walls[key.wall].name : called(model, key.other));
 }
 
-// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins; unloaded: what is
-// closed before and bears nothing there.
+// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins; unloaded: what
+// touches and bears nothing there, besides.
 void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::vector<ContactKey> changed, const Vector& way, double load_change,
           double from, int negative, const std::vector<ContactKey>& unloaded = {}) {
   const auto apply = [&] {
@@ -154,12 +154,12 @@ std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey
   return at(part);
 }
 
-// Whether a contact that is made at one equilibrium overlaps on the way towards another one, as its tangent tells: where it is open it has
-// been lost between.
-bool closes_further(const Energy& energy, const ContactKey& key, const Equilibrium& from, const Equilibrium& towards) {
-  const double load_change = towards.point.state.load_factor - from.point.state.load_factor;
-  const State ahead = moved_by(energy.kinematics(), from.point.state, load_change * from.tangent, load_change, contact_event::little);
-  return gap(energy, key, ahead) < -contact_event::rounding * size_of(energy.model(), key.particle);
+// Whether a contact that is made where a segment begins overlaps a little farther on: where it is open at the end it has been lost between.
+bool closed_onward(Energy& energy, const Segment& segment, const ContactKey& key, const Equilibrium& a) {
+  return std::any_of(contact_event::onward.begin(), contact_event::onward.end(), [&](double part) {
+    const Equilibrium e = segment.at(segment.a + part * (segment.b - segment.a), a);
+    return e.point.report.converged() && gap(energy, key, e.point.state) < -contact_event::rounding * size_of(energy.model(), key.particle);
+  });
 }
 
 // Where what floats is pushed until a gap is next to nothing, by the secant from the side where it is open: beyond, the gap stays none, and no Newton's
@@ -202,8 +202,8 @@ ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet no
   }
   ContactChange change{true, segment.parameter(at[first].point.state), at[first], {}, {}};
   std::vector<ContactKey> together;
-  for (const ContactKey& key : made)
-    if (!now.count(key) && gap(newton.energy(), key, change.at.point.state) <= contact_event::together * size_of(newton.energy().model(), key.particle)) together.push_back(key);
+  for (const ContactKey& key : closed_contacts(newton.energy(), change.at))
+    if (!now.count(key)) together.push_back(key);
   tell(newton, change, now, together, Vector::Zero(a.tangent.size()), 0, from, a.point.stability.negative);
   return change;
 }
@@ -246,7 +246,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   for (const ContactKey& key : difference(ContactSet(now), closed_contacts(energy, b))) {
     if (a.slack && b.slack && now.count(key)) continue;
     const double ga = gap(key, a.point.state), gb = gap(key, b.point.state);
-    const bool made_and_lost = !a.slack && key.feature < 0 && now.count(key) && ga >= 0 && gb > 0 && closes_further(energy, key, a, b);
+    const bool made_and_lost = key.feature < 0 && now.count(key) && ga >= 0 && gb > (a.slack ? touching : 0) && closed_onward(energy, segment, key, a);
     if (made_and_lost) return ContactChange{};                   // a shorter step
     if (other_side(ga, gb) && std::isfinite(ga) && std::isfinite(gb)) changed.push_back(key);
     else toggle(now, key);                    // it changes at `a`, which is an event already, or fades out at the end of an edge
@@ -257,6 +257,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   std::optional<Equilibrium> at = b;          // what is known of it
   State found = b.point.state;
   Report report;
+  std::optional<ContactKey> met;              // the one whose gap vanishes at `found`
   const auto near = [&](const ContactKey& key, const State& state) {
     const double ga = gap(key, a.point.state);                  // an overlap may be next to nothing beside what opens behind it
     const double moves = ga < 0 && key.feature < 0 ? 0.0 : std::abs(gap(key, b.point.state) - ga);
@@ -312,13 +313,16 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
       at = zero->e, change.at_parameter = zero->t, found = zero->e.point.state;
       if (closed_from(found)) change.at_parameter = t, at.reset();                  // to the last digit
     }
+    met = *first;
   }
   change.at = at ? std::move(*at) : assess(newton, found, report);
   const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
   const double load_change = b.point.state.load_factor - a.point.state.load_factor;
-  std::erase_if(changed, [&](const ContactKey& key) { return !near(key, found); });
+  std::erase_if(changed, [&](const ContactKey& key) { return key != met && !near(key, found); });
   std::vector<ContactKey> unloaded;
-  for (const ContactKey& key : just_touching(energy, found, now))
+  ContactSet there = closed_contacts(energy, found, touching);
+  there.insert(now.begin(), now.end());
+  for (const ContactKey& key : just_touching(energy, found, there))
     if (key.feature < 0 && std::find(changed.begin(), changed.end(), key) == changed.end() && near(key, found)) unloaded.push_back(key);
   tell(newton, change, now, changed, chord, load_change, a.point.state.load_factor, a.point.stability.negative, unloaded);
   return change;

@@ -4,6 +4,7 @@
 // what is found.
 #include "core/types.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -159,7 +160,7 @@ constexpr double together_in_step = 1e-9;  // … or of its change over the step
 constexpr double beside = 1e-9;  // of the size: where one side of a kink is looked at, …
 constexpr double most_beside = 0.05;  // … but no farther than this part of the step …
 constexpr double least_beside = 1e-12;  // … where that is more than rounding, of the size
-constexpr double onward = 0.1;  // of the way to contacts that are made and lost together: where all of them may be closed
+inline constexpr std::array onward{0.1, 1e-3};  // of the way to contacts that are made and lost together, or of the step behind one: where it may be closed
 constexpr double along_chord = 0.1;  // of the step: beyond its end, where a branch that turns at a kink may reach to
 constexpr std::size_t most_told = 4;  // names in one event
 constexpr int most_closing = 12;  // iterations that close a gap

@@ -1167,3 +1167,19 @@ TEST_CASE("a snap that is not located begins within a quarter of a step before i
       CHECK(none.path.back()["energy"] == Approx(all.path.back()["energy"]).epsilon(to_events));
     }
 }
+
+TEST_CASE("contacts made at once of which one opens soon are told, on the way back too, whatever the steps", "[paths][ball_touches_two]") {
+  // The beam is straight where the ball comes to it: √(1/4 + (1.9 − 2λ)²) = 3/2.
+  const double both = (1.9 - std::sqrt(2.0)) / 2;
+  for (const int n : {3, 5, 11, 29, 50, 200}) {
+    const Run run("ball_touches_two", {in_steps(n)});
+    CHECK_ENDS_AT(run, 0);
+    INFO(run.told());
+    REQUIRE(run.events.size() == 4);
+    CHECK(run.located_rows.at("contact:1").text("what") == "a 6 touches ball 1, a 7 touches ball 1");
+    CHECK(run.located_rows.at("contact:2").text("what") == "a 7 leaves ball 1");
+    CHECK(run.located_rows.at("contact:3").text("what") == "a 7 touches ball 1");
+    for (const std::size_t k : {0, 3}) CHECK(run.events[k]["lambda"] == Approx(both).epsilon(1e-12));
+    CHECK(run.events[1]["lambda"] == Approx(run.events[2]["lambda"]).epsilon(to_events));
+  }
+}

@@ -37,9 +37,12 @@ inline std::vector<std::vector<std::string>> csv_rows(const std::string& file) {
   std::ifstream in(file);
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(in, line);) {
-    std::istringstream cells(line + ",");
-    rows.emplace_back();
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    rows.emplace_back(1);
+    bool quoted = false;
+    for (const char c : line)
+      if (c == '"') quoted = !quoted;
+      else if (c == ',' && !quoted) rows.back().emplace_back();
+      else rows.back().back() += c;
   }
   return rows;
 }
