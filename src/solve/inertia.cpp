@@ -139,7 +139,9 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     const EigenPairs small = symmetric_eigen(s - second);
     const Eigen::MatrixXd& v = small.vectors;
     const Eigen::MatrixXd weight = v.cwiseAbs2().transpose();
-    const Vector of_forms = limits::form_rounding * epsilon * (weight * size), rounding = of_forms + 2 * out_of_balance * (weight * bend);
+    // A translation stretches nothing, but for what rounds the modes themselves: the ε in x of ‖Hx‖.
+    const Vector of_forms = (limits::form_rounding * epsilon * (weight * size)).array() + epsilon * zero_level();
+    const Vector rounding = of_forms + 2 * out_of_balance * (weight * bend);
     const Vector unknown = (v.transpose() * second * v).diagonal().cwiseAbs();
     const Vector error = rounding + unknown;
     const Vector& t = small.values;

@@ -273,11 +273,14 @@ diameter = 2
     CHECK(e.answer.status == 0);
     CHECK(e.says("free at the end: translation of"));
   }
-  // A force that nothing bears.
+  // A force that nothing bears, and one that another cancels.
   const std::string asks = "[study]\ntype = \"equilibrium\"\n", up = "[[load]]\ngroup = \"grain\"\nforce = [0, 0, 0.01]\n";
   const Ended pulled = run(sheet + glue + up + asks);
   CHECK(pulled.answer.status == 1);
   CHECK(pulled.says("none of its particles is held by a support; an equilibrium needs a [[support]]"));
+  const Ended balanced = run(sheet + glue + up + "[[load]]\ngroup = \"sheet\"\ntotal_force = [0, 0, -0.01]\n" + asks);
+  INFO(balanced.answer.text);
+  CHECK(balanced.answer.status == 0);
 }
 
 TEST_CASE("a radial load on a body is a mistake of the file", "[study][ends]") {
