@@ -123,7 +123,6 @@ std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, co
   const Kinematics& kinematics = energy.kinematics();
   const std::optional<Rates> rates = along_contacts(newton, at, here, ahead);
   const Vector tangent = rates ? Vector(rates->x / rates->load) : at.tangent;
-  std::optional<Equilibrium> beyond;
   for (const double part : contact_event::onward) {
     const double change = part * ahead;
     State state = moved_by(kinematics, at.point.state, change * tangent, change, 1);
@@ -134,10 +133,9 @@ std::optional<Equilibrium> onward_from(Newton& newton, const Equilibrium& at, co
     if (e.point.stability.negative != negative || kinematics.difference(at.point.state, state).norm() > 2 * reach) continue;
     const auto closed = [&](const ContactKey& key) { return gap(energy, key, state) < 0; };
     const auto changed = [&](const ContactKey& key) { return closed(key) != (before.count(key) > 0); };
-    if (std::any_of(here.begin(), here.end(), closed) && std::any_of(here.begin(), here.end(), changed)) beyond = std::move(e);
-    if (std::all_of(here.begin(), here.end(), closed)) break;   // else some may have opened again
+    if (std::any_of(here.begin(), here.end(), closed) && std::any_of(here.begin(), here.end(), changed)) return e;
   }
-  return beyond;
+  return {};
 }
 
 std::optional<Rates> along_contacts(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& made, double load) {

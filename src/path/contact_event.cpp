@@ -31,8 +31,8 @@ std::string told(const Model& model, const ContactKey& key, bool made) {
   return one + verb + (key.wall >= 0 ? "wall " + model.walls[key.wall].name : called(model, key.other));
 }
 
-// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins; unloaded: what
-// touches and bears nothing there, besides.
+// Completes the equilibrium at which these contacts change; from, negative: the load factor and the Morse index where the way begins; unloaded: what is
+// closed before and bears nothing there.
 void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::vector<ContactKey> changed, const Vector& way, double load_change,
           double from, int negative, const std::vector<ContactKey>& unloaded = {}) {
   const auto apply = [&] {
@@ -320,9 +320,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   const double load_change = b.point.state.load_factor - a.point.state.load_factor;
   std::erase_if(changed, [&](const ContactKey& key) { return key != met && !near(key, found); });
   std::vector<ContactKey> unloaded;
-  ContactSet there = closed_contacts(energy, found, touching);
-  there.insert(now.begin(), now.end());
-  for (const ContactKey& key : just_touching(energy, found, there))
+  for (const ContactKey& key : just_touching(energy, found, now))
     if (key.feature < 0 && std::find(changed.begin(), changed.end(), key) == changed.end() && near(key, found)) unloaded.push_back(key);
   tell(newton, change, now, changed, chord, load_change, a.point.state.load_factor, a.point.stability.negative, unloaded);
   return change;
