@@ -83,17 +83,18 @@ class Stop {
 /// Checkpoints at every row; none but where a run is stopped.
 constexpr double always = 0, at_stops = 1e9;
 
+/// Runs to the end, and returns how often it looks whether it is to stop.
+long run_whole(const RunOptions& options) {
+  const Stop counting(0);
+  REQUIRE(elamin::run(options).exit_status == exit_done);
+  return counting.looks();
+}
+
 /// Runs a file, then again with so many stops, in order over its course, and compares what both leave.
 void compare_stopped(const std::string& text, int stops, double checkpoint = at_stops) {
-  constexpr int status = exit_done;
   const ScratchDirectory scratch;
   RunOptions options{.file = scratch.file("p.toml", text), .settings = {}, .directory = scratch / "whole", .threads = 1, .quiet = true, .checkpoint = checkpoint};
-  long looks = 0;
-  {
-    const Stop counting(0);
-    REQUIRE(elamin::run(options).exit_status == status);
-    looks = counting.looks();
-  }
+  const long looks = run_whole(options);
   REQUIRE(!fs::exists(scratch / "whole/.elamin.checkpoint"));
   options.directory = scratch / "parts";
   std::mt19937 random(7);
@@ -103,7 +104,7 @@ void compare_stopped(const std::string& text, int stops, double checkpoint = at_
     const int now = k == 0 ? elamin::run(options).exit_status
                            : elamin::resume({.directory = options.directory, .threads = 1, .checkpoint = checkpoint, .quiet = true}).exit_status;
     INFO("session " << k);
-    if (now != exit_interrupted) REQUIRE((ended = now) == status);
+    if (now != exit_interrupted) REQUIRE((ended = now) == exit_done);
     else REQUIRE(k < stops);
   }
   same_files(options.directory, scratch / "whole");
@@ -116,12 +117,7 @@ void compare_stopped(const std::string& text, int stops, double checkpoint = at_
 void stop_everywhere(const std::string& text, int stops) {
   const ScratchDirectory scratch;
   RunOptions options{.file = scratch.file("p.toml", text), .settings = {}, .directory = scratch / "whole", .threads = 1, .quiet = true, .checkpoint = at_stops};
-  long looks = 0;
-  {
-    const Stop counting(0);
-    REQUIRE(elamin::run(options).exit_status == exit_done);
-    looks = counting.looks();
-  }
+  const long looks = run_whole(options);
   for (int k = 0; k < stops; ++k) {
     const long at = 1 + looks * (2 * k + 1) / (2 * stops);
     INFO("stopped at look " << at << " of " << looks);
