@@ -63,7 +63,7 @@ Equilibrium Branch::past_contact(double way) {
     if (!e.point.report.converged() || e.point.stability.negative != negative_ || e.point.stability.critical > 0) continue;
     if (closed_contacts(newton_.energy(), e) != closed_) continue;
     Equilibrium past = current_;
-    past.tangent = e.tangent;
+    past.tangent = e.tangent, past.pushed |= e.pushed;
     return past;
   }
   return current_;

@@ -56,6 +56,7 @@ void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::
       change.beyond = std::move(onward), change.onward = ahead < 0 ? -1 : 1;
     }
   }
+  std::sort(changed.begin(), changed.end());
   std::vector<std::string> sentences;
   for (const ContactKey& key : changed) {
     const std::string sentence = told(newton.energy().model(), key, change.after.count(key) > 0);
@@ -154,11 +155,11 @@ std::optional<State> where_tangent_closes(const Energy& energy, const ContactKey
   return at(part);
 }
 
-// Whether a contact that is made where a segment begins overlaps a little farther on: where it is open at the end it has been lost between.
-bool closed_onward(Energy& energy, const Segment& segment, const ContactKey& key, const Equilibrium& a) {
+// Whether a contact that changes where a segment begins is closed, or open, a little farther on: where it is as it was at the end it has changed back between.
+bool is_onward(Energy& energy, const Segment& segment, const ContactKey& key, const Equilibrium& a, bool closed) {
   return std::any_of(contact_event::onward.begin(), contact_event::onward.end(), [&](double part) {
     const Equilibrium e = segment.at(segment.a + part * (segment.b - segment.a), a);
-    return e.point.report.converged() && gap(energy, key, e.point.state) < -contact_event::rounding * size_of(energy.model(), key.particle);
+    return e.point.report.converged() && (closed ? -1 : 1) * gap(energy, key, e.point.state) > contact_event::rounding * size_of(energy.model(), key.particle);
   });
 }
 
@@ -246,8 +247,9 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   for (const ContactKey& key : difference(ContactSet(now), closed_contacts(energy, b))) {
     if (a.slack && b.slack && now.count(key)) continue;
     const double ga = gap(key, a.point.state), gb = gap(key, b.point.state);
-    const bool made_and_lost = key.feature < 0 && now.count(key) && ga >= 0 && gb > (a.slack ? touching : 0) && closed_onward(energy, segment, key, a);
-    if (made_and_lost) return ContactChange{};                   // a shorter step
+    const bool made = now.count(key) > 0;
+    const bool back = made ? ga >= 0 && gb > (a.slack ? touching : 0) : ga <= 0 && gb < 0 && !a.slack;
+    if (key.feature < 0 && back && is_onward(energy, segment, key, a, made)) return ContactChange{};         // a shorter step
     if (other_side(ga, gb) && std::isfinite(ga) && std::isfinite(gb)) changed.push_back(key);
     else toggle(now, key);                    // it changes at `a`, which is an event already, or fades out at the end of an edge
   }

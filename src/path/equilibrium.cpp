@@ -311,7 +311,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   const bool meets = may_touch(energy.model());
   State aside;
   const auto push = [&]() -> std::optional<Equilibrium> {
-    aside = predicted;
+    aside = from.pushed ? driven : predicted;                   // as predicted it may be pushed too far, and touch nothing
     energy.evaluate(start, false);
     Report pushed = push_aside(newton, driven, driven_way(energy, load_factor - start.load_factor), from.slack ? 0.0 : energy.force_scale(), aside);
     if (!pushed.converged() || energy.collision_free_step(start, aside) < 1) return {};
@@ -332,6 +332,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   if (energy.collision_free_step(start, state) < 1)
     return fail(state, report, "the step would carry something through something else");
   Equilibrium e = assess(newton, state, report);
+  if (!std::isfinite(e.point.energy.total())) return fail(state, report, "the energy is not finite where the step ends");
   if (from.family > 0) hold_family(newton, e, from.family, from.zero_modes);
   // What is beyond a contact that is made need not lie on the tangent of what is before: then the contact comes first.
   if (!(meets && only_touches_more(energy, start, state)) && !same_branch(energy, from, e)) return fail(state, report, "the corrector went to another branch");

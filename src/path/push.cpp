@@ -63,8 +63,9 @@ Report push_aside(Newton& newton, const State& from, double way, double others, 
       report.status = Status::converged, report.why = "what floats is pushed";
       break;
     }
-    // A whole step from where nothing overlaps: it leads into an overlap, which shrinks to a third a step. Else one that lowers the energy.
-    const double here = energy.slack() ? std::numeric_limits<double>::infinity() : energy.last_terms().total();
+    // A whole step from where nothing overlaps: it leads into an overlap, which shrinks to a third a step. Else one that does not raise the energy: the overlap's
+    // share of it may be less than its rounding.
+    const double here = energy.slack() ? std::numeric_limits<double>::infinity() : energy.last_terms().total() + 16 * epsilon * energy.last_terms().size();
     double part = 1;
     State next;
     do {
@@ -75,7 +76,7 @@ Report push_aside(Newton& newton, const State& from, double way, double others, 
         kinematics.retract(next, step, part *= push::freely * free);
       }
       part /= 2;
-    } while (!(energy.value(next) < here) && part > push::shortest);
+    } while (!(energy.value(next) <= here) && part > push::shortest);
     state = std::move(next);
   }
   report.energy = energy.last_terms().total(), report.residual = energy.relative(energy.gradient());

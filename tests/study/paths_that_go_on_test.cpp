@@ -1183,3 +1183,28 @@ TEST_CASE("contacts made at once of which one opens soon are told, on the way ba
     CHECK(run.events[1]["lambda"] == Approx(run.events[2]["lambda"]).epsilon(to_events));
   }
 }
+
+TEST_CASE("a contact that is lost where a step begins and made again within it is told, whatever the steps", "[paths][arches_nested]") {
+  const Run one("arches_nested", {by_arcs, in_steps(11)});
+  CHECK_ENDS_AT(one, 1);
+  for (const int n : {3, 5, 29, 50}) {
+    const Run run("arches_nested", {in_steps(n)});
+    CHECK_ENDS_AT(run, 1);
+    same_events(run, one);
+    contacts_are_told(run, 1);
+  }
+}
+
+TEST_CASE("a ring that bears forces of its own is pushed as it floats, whatever the steps", "[paths][ring_floats_bent]") {
+  for (const std::string& method : {by_load_steps, by_arcs})
+    for (const int n : {3, 7, 20, 50}) {
+      const Run run("ring_floats_bent", {method, in_steps(n)});
+      CHECK_ENDS_AT(run, 1);
+      INFO(run.what << run.told());
+      REQUIRE(run.events.size() == 2);                          // the lid comes to it, and then it to the floor: 0.2 and 0.4 of 2
+      CHECK(run.events[0]["lambda"] == Approx(0.1).epsilon(to_events));
+      CHECK(run.events[1]["lambda"] == Approx(0.2).epsilon(to_events));
+      CHECK(run.located_rows.at("contact:1").text("what") == "ring 7 touches wall lid");
+      CHECK(run.located_rows.at("contact:2").text("what") == "ring 19 touches wall floor");
+    }
+}
