@@ -90,7 +90,8 @@ std::optional<Waypoint> ArcSteps::next() {
   std::string why = "the corrector does not converge";
   const bool meets = may_touch(newton_.energy().model());
   int refused = 0, shifts = 0;
-  double natural = current_.slack ? 1 : arc_steps::first_natural;       // where nothing bears a force there is no arc to measure
+  const bool loose = current_.slack || current_.pushed;         // where no contact bears a force there is no arc to measure
+  double natural = loose ? 1 : arc_steps::first_natural;
   std::optional<Direction> along;
   bool looked = false;
   if (neutral_.cols() == 1 && rest_in_family(newton_, current_)) {
@@ -102,13 +103,13 @@ std::optional<Waypoint> ArcSteps::next() {
   for (double s = step_; s >= shortest_ && patient() && !interrupted();) {
     double better = 0;
     std::optional<Candidate> c;
-    if (!current_.slack) c = attempt(s, direction_, false, shifts, better, why);
-    if (!c && better == 0 && at_contact_ && !current_.slack) {
+    if (!loose) c = attempt(s, direction_, false, shifts, better, why);
+    if (!c && better == 0 && at_contact_ && !loose) {
       if (!looked) along = along_contact();
       looked = true;
       if (along && (c = attempt(s, *along, true, shifts, better, why))) direction_ = *along;
     }
-    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (current_.slack || at_contact_ || refused >= arc_steps::refused_first)) {
+    if (!c && better == 0 && meets && negative_ >= 0 && !singular_ && natural >= arc_steps::least_natural && (loose || at_contact_ || refused >= arc_steps::refused_first)) {
       const double target = next_load(natural);
       c = reach_load(current_, target, why);
       if (c && natural >= arc_steps::least_bent && over_bend(*c)) c.reset(), why = "the branch bends too much to be told from another one";
@@ -138,7 +139,7 @@ bool ArcSteps::still_closed(const Equilibrium& e) {
 
 // Whether a step of the load factor goes over a bend; behind a contact that has just changed the tangent is another one.
 bool ArcSteps::over_bend(const Candidate& c) {
-  if (current_.slack || !at_contact_) return false;
+  if (current_.slack || current_.pushed || !at_contact_) return false;
   const Kinematics& kinematics = newton_.energy().kinematics();
   const double way = std::abs(c.e.point.state.load_factor - current_.point.state.load_factor);
   const auto over = [&](const Equilibrium& from) { return bends(kinematics, from, c.e, load_steps::most_bend); };

@@ -310,18 +310,21 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
   State state = predicted;
   const bool meets = may_touch(energy.model());
   State aside;
-  const auto push = [&]() -> std::optional<Equilibrium> {
-    aside = from.pushed ? driven : predicted;                   // as predicted it may be pushed too far, and touch nothing
+  const auto push = [&](const State& begin) -> std::optional<Equilibrium> {
+    aside = begin;
     energy.evaluate(start, false);
     Report pushed = push_aside(newton, driven, driven_way(energy, load_factor - start.load_factor), from.slack ? 0.0 : energy.force_scale(), aside);
     if (!pushed.converged() || energy.collision_free_step(start, aside) < 1) return {};
     return assess(newton, aside, pushed);
   };
+  // What is predicted of what has been pushed may be beyond, where nothing touches it.
+  if (from.slack && !correct)
+    if (std::optional<Equilibrium> e = push(predicted)) return std::move(*e);
   if ((from.slack || from.pushed) && !correct)
-    if (std::optional<Equilibrium> e = push()) return std::move(*e);
+    if (std::optional<Equilibrium> e = push(driven)) return std::move(*e);
   Report report = correct ? correct(state) : newton.correct(state, from.zero_modes, &start, equilibrium::most_iterations);
   if (!correct && !report.converged() && from.floats && !from.pushed && from.point.stability.negative == 0)
-    if (std::optional<Equilibrium> e = push()) return std::move(*e);
+    if (std::optional<Equilibrium> e = push(predicted)) return std::move(*e);
   if (!correct && report.status == Status::not_converged && meets && from.point.stability.negative == 0) {
     // Contacts that open, close or slide bend a stable path more than Newton's method without safeguards can follow.
     state = aside.particles() > 0 ? aside : predicted;          // what is pushed has been caught there

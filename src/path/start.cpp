@@ -20,6 +20,9 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
   Report report = newton.correct(state);
   if (report.converged()) {
     Equilibrium e = assess(newton, state, report);
+    // Along a motion that costs nothing a correction is the quotient of two roundings.
+    if (State still = given; e.zero_modes.cols() > 0 && e.point.stability.negative == 0)
+      if (const Report again = newton.correct(still, e.zero_modes); again.converged()) e = assess(newton, still, again);
     if (e.point.stability.negative == 0 || when_unstable != WhenUnstable::jump) return e;
     note = fmt::format("the starting state is unstable ({} negative eigenvalues); it goes down to a minimum", e.point.stability.negative);
   } else {
