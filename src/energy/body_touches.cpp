@@ -67,10 +67,10 @@ bool attracts(const RoundedKernel& kernel, double gap) { return kernel.attractio
 }  // namespace
 
 void add_body_touches(const Model& model, const BodyRules& rules, const State& state, double within, std::vector<Touch>& touches) {
-  const auto take = [&](Touch t, const RoundedKernel& kernel, double weight) {
+  const auto take = [&](Touch t, const RoundedKernel& kernel, double weight = 1, const Vec3& gate = Vec3::Zero()) {
     t.attracts = attracts(kernel, t.gap);
     if (!(t.gap < 0 || t.attracts || (within > 0 && t.gap <= within))) return;
-    t.force = along(-weight * kernel.slope(t.gap), t.normal);
+    t.force = along(-weight * kernel.slope(t.gap), t.normal) + kernel.value(t.gap) * gate;
     touches.push_back(t);
   };
   std::vector<RoundedContact> contacts;
@@ -79,7 +79,7 @@ void add_body_touches(const Model& model, const BodyRules& rules, const State& s
     const RoundedBody a = rules.body(i, state), b = rules.body(j, state);
     contacts.clear();
     rounded_contacts(seen_from(table, within), a, b, contacts);
-    for (const RoundedContact& c : contacts) take(touch_of(i, j, feature_of(table, c, b), c), table.kernel, c.weight);
+    for (const RoundedContact& c : contacts) take(touch_of(i, j, feature_of(table, c, b), c), table.kernel, c.weight, c.gate);
   }
   std::vector<RoundedWallTouch> at_wall;
   for (std::size_t w = 0; w < model.walls.size(); ++w) {
@@ -90,7 +90,7 @@ void add_body_touches(const Model& model, const BodyRules& rules, const State& s
     for (const int b : wall.bodies) {
       at_wall.clear();
       law.touches(model.body(b, state), at_wall);
-      for (const RoundedWallTouch& t : at_wall) take(touch_of(model.particles() + b, static_cast<int>(w), t), wall.kernel, 1);
+      for (const RoundedWallTouch& t : at_wall) take(touch_of(model.particles() + b, static_cast<int>(w), t), wall.kernel);
     }
   }
 }

@@ -67,6 +67,7 @@ struct VertexTerm {
   void push(std::array<Wrench, 2>& on, const PairView& view) const {
     view.push_vertex(on, first, vertex, share.value * energy.slope * distance.normal + energy.value * (distance.tangent() * share.gradient));
   }
+  void push_gate(std::array<Wrench, 2>& on, const PairView& view) const { view.push_vertex(on, first, vertex, distance.tangent() * share.gradient); }
 
   /// φ = κ(b) U(s):  ∇φ = κ U′ n + U T ∇κ,  ∇²φ = κ (U″ n nᵀ + U′ ∇²s) + U′ (n (T∇κ)ᵀ + (T∇κ) nᵀ) + U T ∇²κ T;
   /// T = ∂b/∂y.
@@ -94,8 +95,15 @@ struct EdgeTerm {
 
   void push(std::array<Wrench, 2>& on, const PairView& view) const {
     const LineGradients d(lines, view.edge_a(ea), view.edge_b(eb));
-    view.push_lines(on, ea, lines, factor[0].slope * others(0, 0) * d.distance + factor[1].slope * others(1, 1) * d.ta +
-                                       factor[2].slope * others(2, 2) * d.tb + factor[3].slope * others(3, 3) * d.sine2);
+    view.push_lines(on, ea, lines, factor[0].slope * weight() * d.distance + factor[0].value * by_place(d));
+  }
+  void push_gate(std::array<Wrench, 2>& on, const PairView& view) const {
+    view.push_lines(on, ea, lines, by_place(LineGradients(lines, view.edge_a(ea), view.edge_b(eb))));
+  }
+
+  /// ∇w.
+  Vec6 by_place(const LineGradients& d) const {
+    return factor[1].slope * others(0, 1) * d.ta + factor[2].slope * others(0, 2) * d.tb + factor[3].slope * others(0, 3) * d.sine2;
   }
 
   /// The product of the values of all factors but i and j.
@@ -122,6 +130,14 @@ struct EdgeTerm {
     view.add_lines(u, ea, lines, g, H);
   }
 };
+
+template <class Term>
+void append(std::vector<RoundedContact>& out, const Term& term, const PairView& view) {
+  if (!(term.weight() > 0)) return;
+  std::array<Wrench, 2> gate;
+  term.push_gate(gate, view);
+  out.push_back(term.contact(view)), out.back().gate = gate[0].force;
+}
 
 /// Calls `vertex` and `edge` with every term in range.
 template <class OnVertex, class OnEdge>
@@ -182,7 +198,7 @@ std::array<Wrench, 2> RoundedMulti::forces(const RoundedBody& a, const RoundedBo
   if (!view.set(a, b, kernel.cutoff)) return on;
   const auto add = [&](const auto& term) {
     term.push(on, view);
-    if (contacts && term.weight() > 0) contacts->push_back(term.contact(view));
+    if (contacts) append(*contacts, term, view);
   };
   visit(*this, view, add, add);
   return on;
@@ -191,9 +207,7 @@ std::array<Wrench, 2> RoundedMulti::forces(const RoundedBody& a, const RoundedBo
 void RoundedMulti::contacts(const RoundedBody& a, const RoundedBody& b, std::vector<RoundedContact>& out) const {
   PairView& view = PairView::scratch();
   if (!view.set(a, b, kernel.cutoff)) return;
-  const auto add = [&](const auto& term) {
-    if (term.weight() > 0) out.push_back(term.contact(view));
-  };
+  const auto add = [&](const auto& term) { append(out, term, view); };
   visit(*this, view, add, add);
 }
 

@@ -14,6 +14,7 @@ struct RoundedContact {
   double weight = 1;                           // with which its energy counts
   Vec3 point = Vec3::Zero();                   // half way between the surfaces
   Vec3 normal = Vec3::Zero();                  // unit, from B to A: the direction of a repulsive force on A
+  Vec3 gate = Vec3::Zero();                    // −∂w/∂x of A: the force on A is −w U′ n + U gate [1/length]
 };
 
 /// The vertices of one core in the frame of another. `bound` and `edge_bound` are never larger than the distance of a

@@ -57,12 +57,16 @@ TEST_CASE("forces of bodies are minus the gradient, their contacts those of cont
     CHECK((f + u.gradient).norm() <= 1e-12 * std::max(1.0, u.gradient.norm()));
     CHECK(law.forces(a, b)[0].force == on[0].force);
     REQUIRE(with.size() == listed.size());
+    Vec3 force = Vec3::Zero();                                        // of all contacts on A
     for (std::size_t k = 0; k < with.size(); ++k) {
       CHECK(with[k].gap == listed[k].gap);
       CHECK(with[k].weight == listed[k].weight);
       CHECK(with[k].point == listed[k].point);
+      CHECK(with[k].gate == listed[k].gate);
+      force += -with[k].weight * kernel.slope(with[k].gap) * with[k].normal + kernel.value(with[k].gap) * with[k].gate;
       edges += with[k].first.kind == FeatureKind::edge && with[k].second.kind == FeatureKind::edge && with[k].weight < 1;
     }
+    CHECK((force - on[0].force).norm() <= 1e-12 * std::max(1.0, on[0].force.norm()));
     met += !with.empty();
   };
   for (const NamedShape& a : test_shapes())
