@@ -90,6 +90,11 @@ void newborn(const World& w, const Atom& a) {
   if (a.born < w.run_number()) throw Wrong(0, "displaces atoms that were there in an earlier run; they go on from where they are", true);
 }
 
+/// Velocities that are given behind a run: a motion goes on with those that it has.
+void moving(Interpreter& in) {
+  if (in.world.run_number() > 0) in.not_in_motion();
+}
+
 /// The number of one atom: a number, or v_name of style equal or atom.
 Value each_value(const Interpreter& in, std::size_t i) {
   if (i < in.size() && in.word(i).starts_with("v_")) {
@@ -304,6 +309,7 @@ void set(Interpreter& in) {
     const auto negative = [&] { throw Wrong(i + 1, "is negative; 0 or more is taken"); };
     if (k == "type") each([&](Atom& a, double v) {
       if (v != std::floor(v) || v < 1 || v > w.atom_types) throw Wrong(i + 1, fmt::format("is no type; 1 to {} is allowed", w.atom_types));
+      w.change(a, a.type != static_cast<int>(v));
       a.type = static_cast<int>(v);
     });
     else if (k == "mol") each([&](Atom& a, double v) {
@@ -314,12 +320,20 @@ void set(Interpreter& in) {
       newborn(w, a);
       a.x[k[0] - 'x'] = v;
     });
-    else if (k == "vx" || k == "vy" || k == "vz") each([&](Atom& a, double v) { a.v[k[1] - 'x'] = v; });
+    else if (k == "vx" || k == "vy" || k == "vz") {
+      moving(in);
+      each([&](Atom& a, double v) { a.v[k[1] - 'x'] = v; });
+    }
     else if (k == "diameter" || k == "density") {
       if (!w.sphere) throw Wrong(i, fmt::format("atom style {} has no {}", w.atom_style, k));
-      if (k == "density") each([&](Atom& a, double v) { v < 0 ? negative() : void(a.density = v); });
+      if (k == "density") each([&](Atom& a, double v) {
+        if (v < 0) negative();
+        w.change(a, a.density != v);
+        a.density = v;
+      });
       else each([&](Atom& a, double v) {         // LAMMPS keeps the mass
         if (v < 0) negative();
+        w.change(a, a.diameter != v);
         if (v > 0 && a.diameter > 0) a.density *= std::pow(a.diameter / v, 3);
         a.diameter = v;
       });
@@ -327,7 +341,9 @@ void set(Interpreter& in) {
       if (!w.sphere) throw Wrong(i, "the mass of such atoms is of their type; `mass` sets it");
       each([&](Atom& a, double v) {
         if (v < 0) negative();
-        a.density = a.diameter > 0 ? v / (3.14159265358979323846 / 6 * a.diameter * a.diameter * a.diameter) : v;
+        const double density = a.diameter > 0 ? v / (3.14159265358979323846 / 6 * a.diameter * a.diameter * a.diameter) : v;
+        w.change(a, a.density != density);
+        a.density = density;
       });
     } else if (k == "bond" || k == "angle") {
       const int t = static_cast<int>(in.integer(i + 1, 1, k == "bond" ? w.bond_types : w.angle_types));
@@ -346,7 +362,15 @@ void set(Interpreter& in) {
       i += 2;
     } else if (k == "charge") i += 2;
     else if (k == "image") i += 4;
-    else if (k == "omega" || k == "angmom") i += 4;
+    else if (k == "angmom") i += 4;
+    else if (k == "omega") {
+      moving(in);
+      for (int c = 0; c < 3; ++c, ++i) {
+        const Value v = each_value(in, i + 1);
+        for (const int a : list) w.atoms[static_cast<std::size_t>(a)].omega[c] = v.at(static_cast<std::size_t>(a));
+      }
+      ++i;
+    }
     else
       throw Wrong(
           i, in_quotes(k) + " is nothing that is set here; type, mol, x, y, z, diameter, density, mass, vx, vy, vz, bond and angle are",
@@ -362,6 +386,7 @@ void velocity(Interpreter& in) {
     return in.not_in_motion(), in.ignore("velocities at the start matter in motion only");
   if (in.word(2) != "set") throw Wrong(2, in_quotes(in.word(2)) + " is no way of setting velocities; set is", true);
   in.wants(6, "velocity GROUP set VX VY VZ");
+  moving(in);
   bool sum = false;
   for (std::size_t i = 6; i + 1 < in.size(); i += 2)
     if (in.word(i) == "sum") sum = in.yes(i + 1);

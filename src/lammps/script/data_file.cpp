@@ -146,6 +146,7 @@ void read_data(Interpreter& in) {
     Atom& a = put(data.id[k], data.type[k], data.position.col(static_cast<Eigen::Index>(k)));
     a.molecule = data.molecule[k] + molecule_offset, a.diameter = data.diameter[k], a.density = data.density[k];
     if (data.velocity.cols() > 0) a.v = data.velocity.col(static_cast<Eigen::Index>(k));
+    if (data.angular_velocity.cols() > 0) a.omega = data.angular_velocity.col(static_cast<Eigen::Index>(k));
     if (!w.sphere && data.mass.size() > k) w.mass[static_cast<std::size_t>(a.type - 1)] = data.mass[k];
   }
   for (const Bond& b : data.bonds)
@@ -175,6 +176,8 @@ void take_positions(Interpreter& in, const std::string& file) {
   for (std::size_t i = 0; i < w.atoms.size(); ++i)
     if (World::there(w.atoms[i]) && !found[i] && !w.atoms[i].is_body)
       throw Wrong(0, fmt::format("{} does not hold the atom {}, which is there behind this run", in_quotes(file), w.atoms[i].id));
+  if (data.velocity.cols() > 0 && !data.velocity.isZero(0))
+    in.note(fmt::format("the velocities of {} are left out: what goes on from there begins at rest", in_quotes(file)));
   if (!later.empty())
     in.note(fmt::format("{} holds {} atoms, from {} on, that are not there behind this run: they are left out", in_quotes(file), later.size(), later.front()));
 }

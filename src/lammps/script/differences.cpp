@@ -61,8 +61,8 @@ bool pushes(const Run::Active& a, const std::array<bool, 3>& directions) {
 }
 
 /// LAMMPS lets fixes act one after the other: what comes behind the fix that sets a force to zero moves what that holds.
-void pushed(const Run& run, const std::map<Held, Members>& held, std::vector<Difference>& all) {
-  for (const auto& [h, members] : held) {
+void pushed(const Run& run, std::vector<Difference>& all) {
+  for (const auto& [h, members] : run.held) {
     if (h.fix < 0 || run.still()) continue;
     const Fix& hold = run.fixes[static_cast<std::size_t>(h.fix)].fix;
     if (hold.kind != Fix::Kind::hold || hold.unforced) continue;
@@ -80,13 +80,13 @@ void pushed(const Run& run, const std::map<Held, Members>& held, std::vector<Dif
 
 }  // namespace
 
-std::vector<Difference> differences(const World& world, const Run& run, const std::map<Held, Members>& held) {
+std::vector<Difference> differences(const World& world, const Run& run) {
   std::vector<Difference> all;
   std::set<int> types;
   for (const int i : run.atoms) types.insert(world.atoms[static_cast<std::size_t>(i)].type);
   if (const std::string what = misread(run.pairs, {types.begin(), types.end()}); !what.empty())
     all.push_back({run.where, "pair_coeff", what});
-  pushed(run, held, all);
+  pushed(run, all);
   for (const Run::Active& a : run.fixes) {
     const auto& walls = a.fix.walls;
     if (run.minimize && (a.fix.kind == Fix::Kind::gravity || a.fix.kind == Fix::Kind::wall || a.fix.style == "freeze"))
@@ -103,8 +103,8 @@ std::vector<Difference> differences(const World& world, const Run& run, const st
   return all;
 }
 
-std::optional<Difference> clamp(const World& world, const Run& run, const std::map<Held, Members>& held) {
-  for (const auto& [h, members] : held) {
+std::optional<Difference> clamp(const World& world, const Run& run) {
+  for (const auto& [h, members] : run.held) {
     if (h.directions != std::array{true, true, true} || members.size() == run.atoms.size()) continue;
     for (const auto& b : world.bonds) {
       const auto holds = [&, &of = members](int i) { return std::binary_search(of.begin(), of.end(), i); };

@@ -63,10 +63,12 @@ Flat flat(const World& world, const Particles& particles) {
     Plane plane{c, atom_of(particles.atoms().front()).start[c], 0, {}, {}};
     const auto holds = [&](const std::vector<int>& atoms) {
       for (const int i : atoms) plane.most = std::max(plane.most, atom_of(i).diameter / 2);
-      return std::all_of(atoms.begin(), atoms.end(), [&](int i) { return atom_of(i).start[c] == plane.at && atom_of(i).v[c] == 0; });
+      return std::all_of(atoms.begin(), atoms.end(), [&](int i) { return atom_of(i).start[c] == plane.at && atom_of(i).start_v[c] == 0; });
     };
     const auto first =
-        std::find_if(world.runs.begin(), world.runs.end(), [&](const Run& run) { return !holds(run.atoms) || !plane.keeps(run); });
+        std::find_if(world.runs.begin(), world.runs.end(), [&](const Run& run) {
+          return run.thrown[static_cast<std::size_t>(c)] || !holds(run.atoms) || !plane.keeps(run);
+        });
     const Flat found{c, static_cast<int>(first - world.runs.begin()), first == world.runs.end() && holds(particles.atoms())};
     if (found.always && !best.always) best = found;
     if (found.runs > best.runs && !best.always) best = found;

@@ -250,7 +250,10 @@ class Formula {
     else if (w == "type") out = a.type;
     else if (w == "mol") out = a.molecule;
     else if (w == "x" || w == "y" || w == "z") out = world_.at(a)[w[0] - 'x'], placed();
-    else if (w == "vx" || w == "vy" || w == "vz") out = a.v[w[1] - 'x'], placed();
+    else if (w == "vx" || w == "vy" || w == "vz") {
+      if (a.drifts) throw NeedsPositions{world_.last_run};
+      out = a.v[w[1] - 'x'], placed();
+    }
     else return false;
     return true;
   }

@@ -28,6 +28,11 @@ struct Compute {
 struct Names {
   std::map<std::string, Variable> variables;
   std::map<std::string, Compute> computes;
+  /// Whether v_NAME is of style atom or atomfile.
+  bool of_atoms(const std::string& formula) const {
+    const auto found = variables.find(formula.substr(2));
+    return found != variables.end() && found->second.of_atoms();
+  }
 };
 
 /// A number, or one for every particle of World::atoms.

@@ -31,7 +31,7 @@ std::map<Held, std::vector<int>> held_in(const World& world, const Run& run) {
     for (const int i : a.members) {
       auto& list = held[static_cast<std::size_t>(i)];
       if (!list.empty() && list[0].fix < 0 && !moves) continue;
-      const bool stands = run.still() || run.minimize || (!moves && a.fix.style == "freeze");
+      const bool stands = run.still() || run.minimize;
       const Vec3 v = stands ? Vec3(Vec3::Zero()) : moves ? a.fix.vector : world.atoms[static_cast<std::size_t>(i)].v;
       for (Held& h : list)                    // the later fix has the last word
         for (std::size_t c = 0; c < 3; ++c)

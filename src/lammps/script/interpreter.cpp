@@ -163,9 +163,9 @@ class Reader {
     const std::string command = in_.words.empty() ? "a formula" : in_.words[0].text;
     if (in_.world.runs.empty()) return tell({file.path, in_.where.line, 1, command, "needs positions behind a run that is not there"});
     in_.note(fmt::format(
-        "{} needs to know where particles are behind the run of {}; the import ends here. Run the problem, then give its last state: "
+        "{} {} the run of {}; the import ends here. Run the problem, then give its last state: "
         "--after DIR/states/final.data, or of several runs each one's: --after DIR/states/run1.data --after DIR/states/final.data",
-        command, in_.reading.place(needs.run)));
+        command, needs.why, in_.reading.place(needs.run)));
     in_.world.last_run = needs.run;
     in_.reading.passes.push_back({in_.world, {}, in_.where});
     in_.world = World();
@@ -378,7 +378,7 @@ void Interpreter::end_pass() {
   World& made = reading.passes.back().world;
   if (still) made.runs.push_back(*made.still);
   if (ran) return;
-  for (Atom& a : made.atoms) a.start = a.x;
+  for (Atom& a : made.atoms) a.start = a.x, a.start_v = a.v;
 }
 
 }  // namespace elamin::script

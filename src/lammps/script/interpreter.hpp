@@ -120,7 +120,9 @@ void create_atoms(Interpreter&), create_bonds(Interpreter&), set(Interpreter&), 
     delete_bonds(Interpreter&), reset_atom_ids(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&),
     compute(Interpreter&), uncompute(Interpreter&);
 // fixes.cpp
-void fix(Interpreter&), unfix(Interpreter&), run(Interpreter&), minimize(Interpreter&);
+void fix(Interpreter&), unfix(Interpreter&);
+// runs.cpp
+void run(Interpreter&), minimize(Interpreter&);
 }  // namespace command
 
 /// A file of positions, as options.after has them, put in place behind a run.

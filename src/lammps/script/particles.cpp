@@ -114,13 +114,16 @@ std::string Particles::data(const std::string& title, const std::map<int, double
     else if (world_.molecular) put("{} {} {} {:.17g} {:.17g} {:.17g}\n", id(i), a.molecule, a.type, p[0], p[1], p[2]);
     else put("{} {} {:.17g} {:.17g} {:.17g}\n", id(i), a.type, p[0], p[1], p[2]);
   }
+  const auto moves = [](const Atom& a) { return !a.start_v.isZero(0) || !a.omega.isZero(0); };
   const bool move =
-      velocities && std::any_of(order.begin(), order.end(), [&](int i) { return !world_.atoms[static_cast<std::size_t>(i)].v.isZero(0); });
+      velocities && std::any_of(order.begin(), order.end(), [&](int i) { return moves(world_.atoms[static_cast<std::size_t>(i)]); });
   if (move) {
     put("\nVelocities # {}\n\n", style);
     for (const int i : order) {
-      const Vec3& v = world_.atoms[static_cast<std::size_t>(i)].v;
-      put("{} {:.17g} {:.17g} {:.17g}{}\n", id(i), v[0], v[1], v[2], world_.sphere ? " 0 0 0" : "");
+      const Vec3 &v = world_.atoms[static_cast<std::size_t>(i)].start_v, &w = world_.atoms[static_cast<std::size_t>(i)].omega;
+      put("{} {:.17g} {:.17g} {:.17g}", id(i), v[0], v[1], v[2]);
+      if (world_.sphere) put(" {:.17g} {:.17g} {:.17g}", w[0], w[1], w[2]);
+      put("\n");
     }
   }
   if (bonds > 0) put("\nBonds\n\n");

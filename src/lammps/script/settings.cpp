@@ -368,6 +368,8 @@ void mass(Interpreter& in) {
   in.wants(3, "mass TYPE MASS", 3);
   const auto types = in.range(1, in.world.atom_types);
   const double m = in.positive(2);
+  for (const Atom& a : in.world.atoms)
+    in.world.change(a, !in.world.sphere && types[0] <= a.type && a.type <= types[1] && in.world.mass[static_cast<std::size_t>(a.type - 1)] != m);
   for (int t = types[0]; t <= types[1]; ++t) in.world.mass[static_cast<std::size_t>(t - 1)] = m;
   if (in.world.sphere) in.ignore("a sphere's mass follows from its diameter and density");
 }

@@ -4,7 +4,6 @@
 #include "lammps/script/differences.hpp"
 #include "lammps/script/flat.hpp"
 #include "lammps/script/group_names.hpp"
-#include "lammps/script/held.hpp"
 #include "lammps/script/mixing.hpp"
 #include "lammps/script/particles.hpp"
 #include "lammps/script/protocol.hpp"
@@ -112,16 +111,15 @@ class Translation {
             note(a.fix.where,
                  fmt::format("the free coordinates of these atoms are integrated twice by LAMMPS, by this fix and by {}; here once",
                              other.fix.id));
-    const std::map<Held, Members> by = held_in(world_, run);
     bool drives = false;
-    for (const auto& [h, members] : by) drives = drives || !h.velocity.isZero(0);
+    for (const auto& [h, members] : run.held) drives = drives || !h.velocity.isZero(0);
     for (const Run::Active& a : run.fixes) drives = drives || varies(a);
     protocol_.driven.push_back(drives);
     if (drives && protocol_.unit_time == 0) protocol_.unit_time = run.time();
     const double begin = at_, end = drives ? begin + run.time() / protocol_.unit_time : begin;
     protocol_.along.push_back(drives ? std::array{begin, end} : std::array{0.0, 1.0});
     at_ = end;
-    for (const auto& [h, members] : by) {
+    for (const auto& [h, members] : run.held) {
       const Fix* fix = h.fix < 0 ? nullptr : &run.fixes[static_cast<std::size_t>(h.fix)].fix;
       const std::string group = groups_.of(members, fix ? fix->group : "still", k);
       std::string body = fmt::format("group = \"{}\"\n", group), letters;
@@ -139,17 +137,17 @@ class Translation {
         protocol_.observed.insert({group, "xyz"[c]});
       }
     }
-    for (const Difference& d : differences(world_, run, by))
+    for (const Difference& d : differences(world_, run))
       if (d.refused.empty()) note(d.where, d.what);
       else refuse(d.where, d.refused, d.what);
-    if (const auto clamped = clamp_told_ ? std::nullopt : clamp(world_, run, by)) note(clamped->where, clamped->what), clamp_told_ = true;
+    if (const auto clamped = clamp_told_ ? std::nullopt : clamp(world_, run)) note(clamped->where, clamped->what), clamp_told_ = true;
   }
 
   /// What lies in a plane at first, with nothing that pushes it out, stays there until the run in which something does.
   void in_plane(int k, const Run& run) {
     const auto c = static_cast<std::size_t>(flat_.direction);
     std::vector<bool> held(world_.atoms.size());
-    for (const auto& [h, members] : held_in(world_, run))
+    for (const auto& [h, members] : run.held)
       for (const int i : members) held[static_cast<std::size_t>(i)] = held[static_cast<std::size_t>(i)] || h.directions[c];
     Members free;
     for (const int i : run.atoms)

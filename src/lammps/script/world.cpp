@@ -31,6 +31,10 @@ const Vec3& World::at(const Atom& a) const {
   return a.x;
 }
 
+void World::change(const Atom& a, bool changes) const {
+  if (changes && a.born < run_number()) throw NeedsPositions{last_run, "changes what was there in"};
+}
+
 bool World::matches(const std::string& name, const Vec3& x, std::size_t word, int depth) const {
   const auto found = regions.find(name);
   if (found == regions.end()) {

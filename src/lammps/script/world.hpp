@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace elamin::script {
@@ -27,10 +28,12 @@ struct Atom {
   int id = 0, type = 1, molecule = 0;
   Vec3 x = Vec3::Zero(), start = Vec3::Zero();   // now; where the first run that it is in begins
   double diameter = 0, density = 0;              // of atom style sphere
-  Vec3 v = Vec3::Zero();
+  Vec3 v = Vec3::Zero(), start_v = Vec3::Zero(); // likewise
+  Vec3 omega = Vec3::Zero();
   std::uint32_t groups = 1;                      // a bit each; the first is all
   int born = 0, gone = always;
-  bool moved = false;                            // by a run: x is not known
+  bool moved = false;                            // by a run: x is not known …
+  bool drifts = false;                           // … nor in motion v; at rest it is 0
   bool is_body = false;
 };
 
@@ -134,6 +137,15 @@ struct Fix {
   bool integrates() const { return kind == Kind::integrate || kind == Kind::move || unforced; }
 };
 
+/// What holds a particle along its coordinates, and how fast.
+struct Held {
+  std::array<bool, 3> directions{};
+  Vec3 velocity = Vec3::Zero();
+  int fix = -1;                                  // of Run::fixes; −1: nothing integrates it
+  auto key() const { return std::tuple(fix, directions, velocity[0], velocity[1], velocity[2]); }
+  bool operator<(const Held& o) const { return key() < o.key(); }
+};
+
 /// A run or minimisation, and what was in force then.
 struct Run {
   Where where;
@@ -148,6 +160,8 @@ struct Run {
   };
   std::vector<Active> fixes;
   std::vector<int> atoms;                        // that are there
+  std::map<Held, std::vector<int>> held;         // of them
+  std::array<bool, 3> thrown{};                  // whether some of them have a velocity along x, y, z
   Pairs pairs;
   struct Excluded { std::array<std::vector<int>, 2> members; Where where; std::string text; };
   std::vector<Excluded> excluded;                // pairs of one of the first and one of the second that do not touch
@@ -216,6 +230,8 @@ struct World {
   double mass_of(const Atom& a) const;
   /// Where it is. Throws NeedsPositions if a run has moved it.
   const Vec3& at(const Atom& a) const;
+  /// Whether something of it changes. Throws NeedsPositions if it was in a run already: a problem has particles of one kind in all of its stages.
+  void change(const Atom& a, bool changes) const;
   /// Whether x is in a region; throws Wrong if there is none of that name.
   bool matches(const std::string& region, const Vec3& x, std::size_t word, int depth = 0) const;
   /// Whether what there is has not changed since the run was recorded.
@@ -230,9 +246,10 @@ struct World {
   void remove(Atom& a);
 };
 
-/// A command needs to know where particles are that a run has moved.
+/// A command needs to know where particles are that a run has moved, or changes what they were in it.
 struct NeedsPositions {
   Where run;                                     // which has moved them
+  const char* why = "needs to know where particles are behind";
 };
 
 }  // namespace elamin::script
