@@ -74,7 +74,7 @@ TEST_CASE("atoms are set, deleted and numbered as LAMMPS does", "[script]") {
       "create_atoms 3 single 0.6 0 0\n"
       "set type 1 density 2\nset type 1 diameter 2\nset type 2 diameter 2\nset type 2 density 2\nset group all vx 0.5\n"
       "create_bonds single/bond 1 1 2\ncreate_bonds single/bond 2 2 3\ncreate_bonds single/angle 1 1 2 3\n"
-      "group last id 3\ndelete_atoms group last\ncreate_atoms 2 single 0.7 0 0\n").passes.at(0).world;
+      "group last id 3\ndelete_atoms group last bond yes\ncreate_atoms 2 single 0.7 0 0\n").passes.at(0).world;
   REQUIRE(w.atoms.size() == 4);                                 // two lay outside of the box, at its upper end among them
   CHECK(w.atoms[0].density == 0.25);                            // LAMMPS keeps the mass where the diameter is set
   CHECK(w.atoms[1].density == 2);
@@ -128,6 +128,28 @@ TEST_CASE("a data file has the columns of the atom style that the script names",
     INFO(style);
     const script::Atom atom = read(style, row);
     CHECK((atom.id == 7 && atom.x == Vec3(0.1, 0.2, 0.3) && atom.diameter == 0.5 && atom.density == 2));
+  }
+  // Rows of coefficients are the script's styles'.
+  const auto coefficients = [&](const std::string& styles, const std::string& rows, const std::string& how = "") {
+    scratch.file("two.data", "two\n\n2 atoms\n1 bonds\n0 angles\n2 atom types\n2 bond types\n1 angle types\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\n" + rows +
+                             "\nAtoms\n\n1 0 1 0 0 0\n2 0 2 0.8 0 0\n\nBonds\n\n1 2 1 2\n");
+    return script::read_script(scratch.file("in.lmp", "boundary f f f\natom_style angle\n" + styles + "read_data two.data " + how + "\nmass * 1\nfix 1 all nve\nrun 0\n"), {});
+  };
+  const std::string styles = "pair_style lj/cut 1.5\nspecial_bonds lj 1 1 1\nbond_style hybrid harmonic zero\nangle_style cosine/shift\n",
+                    rows = "Bond Coeffs # hybrid\n\n1 harmonic 5 0.1\n2 zero\n\nAngle Coeffs\n\n1 2 150\n";
+  const ImportedProblem p = imported(coefficients(styles, rows + "\nPairIJ Coeffs # lj/cut\n\n1 1 3 0.1\n1 2 1 0.7\n2 2 3 0.1\n"));
+  CHECK(std::abs(Energy(p.model).forces(p.model.start)(0, 0) / 1.3788252780796117 - 1) < 1e-14);      // of LAMMPS (29 Sep 2021)
+  const script::World w = coefficients(styles, rows + "\nPair Coeffs\n\n1 3 0.1\n2 2 0.7 0.9\n").passes.at(0).world;
+  CHECK(w.bond_coefficients.at(0).stiffness == 5);
+  CHECK((w.bond_coefficients.at(1).set && w.bond_coefficients.at(1).stiffness == 0));
+  CHECK((w.angle_coefficients.at(0).stiffness == 1 && w.angle_coefficients.at(0).rest == 150 * (pi / 180)));
+  CHECK((w.pairs.coefficients.at(1).epsilon == 2 && w.pairs.coefficients.at(1).first[0] == 2 && w.pairs.coefficients.at(1).cutoff == 0.9));
+  CHECK_THROWS_AS(coefficients("pair_style zero 1\nbond_style zero\n", rows, "nocoeff"), InputError);
+  try {
+    coefficients(styles, rows + "\nPair Coeffs\n\n1 foo 0.1\n");
+    FAIL("is no number");
+  } catch (const InputError& e) {
+    CHECK(std::string(e.what()).find("two.data:24:1: Pair Coeffs: \"foo\" is not a number") != std::string::npos);
   }
 }
 

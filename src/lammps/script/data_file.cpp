@@ -47,14 +47,63 @@ Header header_of(const std::string& file) {
 
 bool six_digits(double v) { return std::strtod(fmt::format("{:.6g}", v).c_str(), nullptr) == v; }
 
+/// The rows of coefficients in a data file, as the commands that say the same of the script's styles: a row `1 …` of Pair Coeffs is
+/// `pair_coeff 1 1 …`. Returns whether bonds or angles have some, of six digits all of them.
+bool take_coefficients(Interpreter& in, const std::string& file, const std::array<int, 3>& offset) {
+  struct Section { const char* name; const char* command; Handler handler; int types; std::size_t offset; };
+  static constexpr Section sections[]{{"Pair Coeffs", "pair_coeff", pair_coeff, 1, 0},
+                                      {"PairIJ Coeffs", "pair_coeff", pair_coeff, 2, 0},
+                                      {"Bond Coeffs", "bond_coeff", bond_coeff, 1, 1},
+                                      {"Angle Coeffs", "angle_coeff", angle_coeff, 1, 2}};
+  struct Back {
+    Interpreter& in;
+    std::vector<Word> outer;
+    ~Back() { in.words = std::move(outer); }
+  } back{in, in.words};
+  const std::string text = elamin::read_data(file, "LAMMPS data file");
+  const Section* section = nullptr;
+  std::vector<Mistake> mistakes;
+  bool any = false, six = true;
+  int line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string row(std::string_view(text).substr(begin, end - begin));
+    begin = end + 1, ++line;
+    const std::size_t first = row.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line == 1) continue;
+    const bool names = std::isalpha(static_cast<unsigned char>(row[first])) != 0;
+    if (!names && !section) continue;
+    try {
+      in.words = split(without_comment(row));
+      if (names) {
+        const auto found = std::find_if(std::begin(sections), std::end(sections), [&](const Section& s) { return in.text() == s.name; });
+        section = found == std::end(sections) ? nullptr : found;
+      }
+      if (names || in.words.empty()) continue;
+      for (int t = 0; t < section->types; ++t)
+        in.words[static_cast<std::size_t>(t)].text = std::to_string(in.integer(static_cast<std::size_t>(t), 1, most_atoms) + offset[section->offset]);
+      if (section->command == sections[0].command && section->types == 1) in.words.insert(in.words.begin(), in.words[0]);
+      in.words.insert(in.words.begin(), Word{section->command, first});
+      if (section->offset > 0)
+        for (std::size_t i = 2; i < in.size(); ++i) any = true, six = six && six_digits(std::strtod(in.word(i).c_str(), nullptr));
+      section->handler(in);
+    } catch (const Wrong& wrong) {
+      if (mistakes.size() < 20) mistakes.push_back({file, line, 1, section ? section->name : "", wrong.what()});
+    }
+  }
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  return any && six;
+}
+
 }  // namespace
 
 void read_data(Interpreter& in) {
   in.wants(2, "read_data FILE …");
   World& w = in.world;
   const std::string file = in.path_of(in.word(1), 1);
-  LammpsReading how{w.atom_style, {}, {}, {}};
-  how.angle_style = w.angle_style, how.coefficients_may_lack = true;
+  LammpsReading how{w.atom_style, {"Bond Coeffs", "Angle Coeffs"}, {}, {}};
+  how.coefficients_may_lack = true;
+  bool coefficients = true;
   bool add = false;
   std::optional<int> id_offset;                  // else behind those that are there
   int molecule_offset = 0;
@@ -79,7 +128,7 @@ void read_data(Interpreter& in) {
       i += 6;
     } else if (k == "shift" && i + 3 < in.size()) shift = Vec3(in.number(i + 1), in.number(i + 2), in.number(i + 3)), i += 4;
     else if (k == "group") group_name = in.word(i + 1), i += 2;
-    else if (k == "nocoeff") how.ignore = {"Bond Coeffs", "Angle Coeffs"}, ++i;
+    else if (k == "nocoeff") coefficients = false, ++i;
     else if (k.starts_with("extra/")) {
       const int n = static_cast<int>(in.integer(i + 1, 0, 1000000));
       if (k == "extra/atom/types") extra[0] = n;
@@ -102,20 +151,11 @@ void read_data(Interpreter& in) {
   for (const Body& b : data.bodies) largest = std::max(largest, b.type);
   const auto grow = [](int& now, int by, int extra_types) { now = std::max(now, by) + extra_types; };
   grow(w.atom_types, std::max(largest, header.atom_types) + offset[0], extra[0]);
-  grow(w.bond_types, std::max(static_cast<int>(data.bond_types.size()), header.bond_types) + offset[1], extra[1]);
-  grow(w.angle_types, std::max(static_cast<int>(data.angle_types.size()), header.angle_types) + offset[2], extra[2]);
+  grow(w.bond_types, header.bond_types + offset[1], extra[1]);
+  grow(w.angle_types, header.angle_types + offset[2], extra[2]);
   w.mass.resize(static_cast<std::size_t>(w.atom_types));
   w.bond_coefficients.resize(static_cast<std::size_t>(w.bond_types)), w.angle_coefficients.resize(static_cast<std::size_t>(w.angle_types));
-  bool short_numbers = !data.bond_types.empty() || !data.angle_types.empty();
-  for (std::size_t t = 0; t < data.bond_types.size(); ++t) {
-    w.bond_coefficients[t + static_cast<std::size_t>(offset[1])] = {data.bond_types[t].stiffness, data.bond_types[t].rest_length, true};
-    short_numbers = short_numbers && six_digits(data.bond_types[t].stiffness) && six_digits(data.bond_types[t].rest_length);
-  }
-  for (std::size_t t = 0; t < data.angle_types.size(); ++t) {
-    w.angle_coefficients[t + static_cast<std::size_t>(offset[2])] = {data.angle_types[t].stiffness, data.angle_types[t].rest, true};
-    short_numbers = short_numbers && six_digits(data.angle_types[t].stiffness);
-  }
-  if (short_numbers)
+  if (coefficients && take_coefficients(in, file, offset))
     in.note(
         "the coefficients in this data file have six digits, as write_data writes them: loads at which things buckle may be off by 0.3 %; "
         "bond_coeff and angle_coeff behind read_data give all digits");

@@ -26,9 +26,9 @@ std::string GroupNames::unique(std::string name) {
 }
 
 std::string GroupNames::of(const std::vector<int>& members, const std::string& wanted, int run) {
-  if (wanted == "all") return "all";
+  if (wanted == "all" && members == alive(run)) return "all";
   if (const auto found = known_.find(members); found != known_.end()) return found->second;
-  const std::string name = unique(wanted);
+  const std::string name = unique(wanted == "all" ? "some" : wanted);
   text_ += fmt::format("\n[[group]]\nname = \"{}\"\n{}", name, selection(members, run));
   return known_[members] = name;
 }

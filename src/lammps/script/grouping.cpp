@@ -137,13 +137,26 @@ void delete_atoms(Interpreter& in) {
   if (in.word(1) != "group" && in.word(1) != "region")
     throw Wrong(1, in_quotes(in.word(1)) + " is no way of choosing atoms that is taken; group and region are", true);
   std::vector<bool> gone(w.atoms.size());
-  std::size_t count = 0;
-  for (const int a : chosen(in, in.word(1), 2)) gone[static_cast<std::size_t>(a)] = true, ++count;
-  bool compress = true;
+  for (const int a : chosen(in, in.word(1), 2)) gone[static_cast<std::size_t>(a)] = true;
+  bool compress = true, bonds = false, molecules = false;
   for (std::size_t i = 3; i < in.size(); i += 2)
     if (in.word(i) == "compress") compress = in.yes(i + 1);
-    else if (in.word(i) == "bond" || in.word(i) == "mol") in.yes(i + 1);
+    else if (in.word(i) == "bond") bonds = in.yes(i + 1);
+    else if (in.word(i) == "mol") molecules = in.yes(i + 1);
     else throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of delete_atoms");
+  std::set<int> whole;                           // molecules that go
+  for (std::size_t k = 0; k < w.atoms.size() && molecules; ++k)
+    if (gone[k] && w.atoms[k].molecule > 0) whole.insert(w.atoms[k].molecule);
+  for (std::size_t k = 0; k < w.atoms.size(); ++k) gone[k] = World::there(w.atoms[k]) && (gone[k] || whole.count(w.atoms[k].molecule) > 0);
+  const auto cut = [&](const auto& glue) {
+    const auto goes = [&](int i) { return gone[static_cast<std::size_t>(i)]; };
+    return std::any_of(glue.begin(), glue.end(), [&](const auto& g) {
+      return g.gone == always && std::any_of(g.atoms.begin(), g.atoms.end(), goes) && !std::all_of(g.atoms.begin(), g.atoms.end(), goes);
+    });
+  };
+  if (!bonds && (cut(w.bonds) || cut(w.angles)))
+    throw Wrong(0, "leaves bonds or angles of atoms that are gone, at which LAMMPS stops or takes what lies in its memory; `bond yes` deletes them, too");
+  const auto count = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), true));
   const auto there = static_cast<std::size_t>(std::count_if(w.atoms.begin(), w.atoms.end(), World::there));
   if (count == there && count > 0) {             // nothing is left: what comes is another problem
     in.end_pass();
@@ -190,7 +203,7 @@ void delete_bonds(Interpreter& in) {
       return (inside(a.atoms[0]) && inside(a.atoms[1])) || (inside(a.atoms[1]) && inside(a.atoms[2]));
     };
     for (const auto& b : w.bonds)
-      if (b.gone == always && meant(b) != (style != "angle" && inside(b.atoms[0]) && inside(b.atoms[1]))) throw NeedsPositions{w.last_run};
+      if (style != "angle" && b.gone == always && meant(b) != (inside(b.atoms[0]) && inside(b.atoms[1]))) throw NeedsPositions{w.last_run};
     for (const auto& a : w.angles)
       if (a.gone == always &&
           (style != "bond" && meant(a)) != (r.angles ? inside(a.atoms[0]) && inside(a.atoms[1]) && inside(a.atoms[2]) : over_bond(a)))

@@ -69,16 +69,14 @@ std::string Particles::data(const std::string& title, const std::map<int, double
     int n = 0;
     for (auto& [type, number] : *types) number = ++n;
   }
-  const auto coefficient = [&](const auto& of_run, const std::vector<Coefficient>& all, int type, const char* what) {
+  const auto coefficient = [&](const auto& of_run, int type, const auto& now) {
     for (const Run& run : world_.runs)
       if (const auto found = (run.*of_run).find(type); found != (run.*of_run).end()) return found->second;
-    const Coefficient& c = all[static_cast<std::size_t>(type - 1)];
-    if (!c.set) throw Wrong(0, fmt::format("{}s of type {} have no coefficients; {}_coeff gives them", what, type, what));
-    return c;
+    return (world_.*now)(type);
   };
   bool straight = true;
   for (const auto& [type, number] : angle_types)
-    straight = straight && coefficient(&Run::angles, world_.angle_coefficients, type, "angle").rest == pi;
+    straight = straight && coefficient(&Run::angles, type, &World::of_angles).rest == pi;
 
   put("{}\n\n{} atoms\n{} bonds\n{} angles\n{} atom types\n{} bond types\n{} angle types\n\n", title, order.size(), bonds, angles,
       types_.back(), bond_types.size(), angle_types.size());
@@ -93,12 +91,12 @@ std::string Particles::data(const std::string& title, const std::map<int, double
   }
   if (!bond_types.empty()) put("\nBond Coeffs # harmonic\n\n");
   for (const auto& [type, number] : bond_types) {
-    const Coefficient c = coefficient(&Run::bonds, world_.bond_coefficients, type, "bond");
+    const Coefficient c = coefficient(&Run::bonds, type, &World::of_bonds);
     put("{} {:.17g} {:.17g}\n", number, c.stiffness, c.rest);
   }
   if (!angle_types.empty()) put("\nAngle Coeffs # {}\n\n", straight ? "cosine" : "cosine/shift");
   for (const auto& [type, number] : angle_types) {
-    const Coefficient c = coefficient(&Run::angles, world_.angle_coefficients, type, "angle");
+    const Coefficient c = coefficient(&Run::angles, type, &World::of_angles);
     const auto factor = stiffer.find(type);
     const double B = c.stiffness * (factor == stiffer.end() ? 1 : factor->second);
     if (straight) put("{} {:.17g}\n", number, B);

@@ -133,13 +133,19 @@ Run in_force(Interpreter& in, const Span& span) {
     if (World::there(w.atoms[k])) r.atoms.push_back(static_cast<int>(k));
   if (r.atoms.empty() && !r.still()) throw Wrong(0, "there is no atom");
   if (w.runs.size() >= most_runs) throw Wrong(0, fmt::format("is one more than {} runs", most_runs));
-  for (const Fix& f : w.fixes) {
+  for (Fix& f : w.fixes) {
     if (f.kind == Fix::Kind::ignored) continue;
     Run::Active a{f, {}, {}};
     const int g = w.group(f.group, 0);
     for (const int k : r.atoms)
       if (w.in(w.atoms[static_cast<std::size_t>(k)], g)) a.members.push_back(k);
     if (a.members.empty()) continue;
+    if (f.kind == Fix::Kind::move && span.steps > 0) {
+      if (f.timestep > 0 && f.timestep != w.timestep)
+        throw Wrong(0, fmt::format("the timestep has changed since fix {} began to move its atoms: LAMMPS puts them where they "
+                                   "would be if it had been the new one from then on; the fix said anew behind `timestep` moves them on from where they are", f.id));
+      f.timestep = w.timestep;
+    }
     if (!f.region.empty()) {                      // it may have been made anew
       const auto region = w.regions.find(f.region);
       if (region == w.regions.end() || region->second.kind != ScriptRegion::Kind::shape)
@@ -165,16 +171,10 @@ Run in_force(Interpreter& in, const Span& span) {
   }
   r.excluded = excluded(w, r.atoms);
   r.pairs = w.pairs, r.special_lj = w.special_lj, r.special_coul = w.special_coul;
-  const auto coefficients = [&](const auto& list, const std::vector<Coefficient>& all, std::map<int, Coefficient>& to, const char* what) {
-    for (const auto& glue : list)
-      if (glue.gone == always && !to.count(glue.type)) {
-        const Coefficient& c = all[static_cast<std::size_t>(glue.type - 1)];
-        if (!c.set) throw Wrong(0, fmt::format("{}s of type {} have no coefficients; {}_coeff gives them", what, glue.type, what));
-        to[glue.type] = c;
-      }
-  };
-  coefficients(w.bonds, w.bond_coefficients, r.bonds, "bond");
-  coefficients(w.angles, w.angle_coefficients, r.angles, "angle");
+  for (const auto& b : w.bonds)
+    if (b.gone == always && !r.bonds.count(b.type)) r.bonds[b.type] = w.of_bonds(b.type);
+  for (const auto& a : w.angles)
+    if (a.gone == always && !r.angles.count(a.type)) r.angles[a.type] = w.of_angles(a.type);
   if (!w.runs.empty())                            // glue that was there keeps its stiffness within a problem
     for (const auto& [now, before] : {std::pair(&r.bonds, &w.runs.back().bonds), {&r.angles, &w.runs.back().angles}})
       for (const auto& [type, c] : *now)

@@ -312,8 +312,9 @@ std::string style_of(const Interpreter& in, const std::string& style, std::size_
   return in.word(first++);
 }
 
-void glue_style(Interpreter& in, std::string& style, const std::vector<std::string>& known) {
+void glue_style(Interpreter& in, std::string& style, std::vector<Coefficient>& coefficients, const std::vector<std::string>& known) {
   in.wants(2, in.word(0) + " STYLE");
+  for (Coefficient& c : coefficients) c.set = false;             // as LAMMPS does, of the same style, too
   style = in.word(1);
   std::size_t i = 1;
   if (style == "hybrid") ++i;
@@ -325,8 +326,8 @@ void glue_style(Interpreter& in, std::string& style, const std::vector<std::stri
 
 }  // namespace
 
-void bond_style(Interpreter& in) { glue_style(in, in.world.bond_style, {"harmonic", "zero", "none"}); }
-void angle_style(Interpreter& in) { glue_style(in, in.world.angle_style, {"cosine", "cosine/shift", "zero", "none"}); }
+void bond_style(Interpreter& in) { glue_style(in, in.world.bond_style, in.world.bond_coefficients, {"harmonic", "zero", "none"}); }
+void angle_style(Interpreter& in) { glue_style(in, in.world.angle_style, in.world.angle_coefficients, {"cosine", "cosine/shift", "zero", "none"}); }
 
 void bond_coeff(Interpreter& in) {
   in.wants(2, "bond_coeff TYPE K R0");

@@ -26,6 +26,20 @@ double World::mass_of(const Atom& a) const {
   return a.type <= static_cast<int>(mass.size()) ? mass[a.type - 1] : 0;
 }
 
+namespace {
+
+Coefficient coefficient(const std::vector<Coefficient>& all, int type, const std::string& style, const std::string& what) {
+  const Coefficient& c = all[static_cast<std::size_t>(type - 1)];
+  if (style == "none") return {0, what == "angle" ? pi : 0, true};
+  if (!c.set) throw Wrong(0, fmt::format("{}s of type {} have no coefficients; {}_coeff gives them", what, type, what));
+  return c;
+}
+
+}  // namespace
+
+Coefficient World::of_bonds(int type) const { return coefficient(bond_coefficients, type, bond_style, "bond"); }
+Coefficient World::of_angles(int type) const { return coefficient(angle_coefficients, type, angle_style, "angle"); }
+
 const Vec3& World::at(const Atom& a) const {
   if (a.moved) throw NeedsPositions{last_run};
   return a.x;

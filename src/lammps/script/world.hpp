@@ -117,6 +117,7 @@ struct Fix {
   Vec3 end = Vec3::Zero();                       // acceleration, force as it ends
   std::array<std::string, 3> formulas;           // v_NAME of the force's components, of gravity of its size in [0]; "": numbers
   Vec3 direction = Vec3::Zero();                 // of gravity
+  double timestep = 0;                           // of move, since it moves
   double coefficient = 0;                        // viscous
   struct Wall {
     Region region;                               // as it is defined
@@ -228,6 +229,8 @@ struct World {
   bool in(const Atom& a, int group_bit) const { return (a.groups >> group_bit & 1u) != 0; }
   /// Mass of a particle; 0: not known.
   double mass_of(const Atom& a) const;
+  /// Of a bond type, of an angle type: without force where there is no style. Throws Wrong if it has none.
+  Coefficient of_bonds(int type) const, of_angles(int type) const;
   /// Where it is. Throws NeedsPositions if a run has moved it.
   const Vec3& at(const Atom& a) const;
   /// Whether something of it changes. Throws NeedsPositions if it was in a run already: a problem has particles of one kind in all of its stages.
