@@ -10,7 +10,6 @@ struct LammpsReading {
   std::vector<std::string> ignore;         // sections that are passed over, such as "Dihedrals", and with them their coefficients
   /// Of every type, instead of those in the file, unless empty: K and r₀; B, and where it is not straight θ₀ in degrees.
   std::vector<std::vector<double>> bond_coefficients, angle_coefficients;
-  std::string angle_style = {};            // of Angle Coeffs where no comment behind it says so; "": cosine
   bool coefficients_may_lack = false;      // of types that have bonds or angles: they are given elsewhere
   const std::string* text = nullptr;       // what the file holds, where there is none on the disk
 

@@ -244,7 +244,7 @@ class RowReader {
   }
 
   void begin_coefficients(const DataLine& line, const std::string& kind) {
-    coefficient_style_ = line.comment.empty() && kind == "angle" ? how_.angle_style : std::string(line.comment);
+    coefficient_style_ = std::string(line.comment);
     if (const std::string why = refused_style(kind, coefficient_style_); !why.empty())
       refuse_section(line, fmt::format("{}, or {}_coefficients in [lammps]", why, kind));
   }

@@ -164,6 +164,31 @@ TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {
   CHECK_FALSE(holds(report_of(held + "fix s a setforce NULL 0 0\nfix f a addforce 1 0 0\nrun 1\n"), "which comes behind"));
   CHECK(holds(report_of(held + "fix g all gravity 1 vector 0 0 -1\nminimize 0 1e-8 9 9\n"), "LAMMPS's minimize leaves out fixes of style gravity"));
   CHECK(holds(report_of(held + "reset_atom_ids\nrun 1\n"), "LAMMPS numbers the atoms anew"));
+  const std::string cone = "region c cone y 0 0 1 2 -2 2", wall = "\nfix w all wall/gran/region granular hertz 9 0 tangential linear_nohistory 0 0 region c\nrun 1\n";
+  CHECK(holds(report_of(held + cone + wall), "at the ends of a cone along y LAMMPS (29 Sep 2021) pushes along z"));
+  CHECK_FALSE(holds(report_of(held + cone + " open 1 open 2" + wall), "pushes along z"));
+  const std::string tube = "region c cylinder z 0 0 0.5 -1 1";
+  CHECK(holds(report_of(held + tube + " open 3" + wall), "1 of 2 particles are outside of this wall's region, which has open faces"));
+  CHECK_FALSE(holds(report_of(held + "region c cylinder z 0 0 1 -1 1 open 1" + wall), "which has open faces"));
+  const std::string own = "pair_coeff 1 1 hertz 9 1 tangential linear_nohistory 0.5 0.1\npair_coeff 2 2 hertz 9 ";
+  const std::string like = own + "1 tangential linear_nohistory 0.5 0.1\nrun 1\n", unlike = own + "2 tangential linear_nohistory 0.5 0.1\nrun 1\n";
+  const std::string mixing = box + atoms + spheres + "fix 1 all nve/sphere\npair_style granular\n";
+  CHECK(holds(report_of(mixing + like), "Hooke's force k delta with Hertz's k"));
+  CHECK_FALSE(holds(report_of(held + "run 1\n"), "Hooke"));
+  CHECK(holds(refused_motion(mixing + unlike), "damping and friction of types 1 and 2 differ"));
+  CHECK(refused_motion(mixing + like).empty());
+  CHECK(script_mistakes(mixing + unlike).empty());
+  for (const auto& [fix, refused] : {std::pair("nve", true), {"nve/sphere", false}})    // that friction turns
+    CHECK(holds(refused_motion(two + "fix 1 all " + fix + "\npair_style granular\npair_coeff * * hertz 9 1 tangential linear_nohistory 0.5 0.1\nrun 1\n"),
+                "nve turns no particle") == refused);
+  const auto older = [&](const std::string& numbers) {
+    return imported(two + "fix 1 all nve/sphere\npair_style gran/hertz/history " + numbers + "\npair_coeff * *\nrun 1\n", {true, false, false}).files.toml;
+  };
+  CHECK(holds(older("9 0 4 NULL 0.3 1"), "damping_coefficient = 4\nfriction = 0.3\nfriction_damping = 0.5\n"));
+  CHECK(holds(older("9 0 4 1 0.3 1"), "friction_damping = 0.25\n"));
+  CHECK(holds(older("9 0 4 1 0.3 0"), "friction_damping = 0\n"));
+  CHECK_FALSE(holds(older("9 0 0 0 0.3 1"), "friction"));       // without damping along the normal there is none
+  CHECK(holds(report_of(two + "fix 1 all nve/sphere\npair_style gran/hertz/history 9 NULL 4 1 0.3 0\npair_coeff * *\nrun 1\n"), "friction that remembers"));
   for (const std::string line : {"velocity all create 1 4711", "velocity all zero linear", "fix l all langevin 1 1 1 4711", "fix m all momentum 1 linear 1 1 1",
                                  "fix n all nve/limit 0.1", "pair_coeff 1 1 hertz 9 1 tangential linear_nohistory 0 0 limit_damping"}) {
     INFO(line);
@@ -174,6 +199,77 @@ TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {
                                    {"pair_style granular abc", "\"abc\" is not a number"}, {"bond_style zero zero", "\"zero\" is no word"},
                                    {"include nope.in", "there is no such file"}})
     CHECK(holds(script_mistakes(held + line + "\n"), what));
+}
+
+TEST_CASE("what particles are and how fast they are is that of the run", "[script]") {
+  const std::string free = two + soft + "group a id 1\nfix 1 all nve/sphere\ntimestep 0.5\n", run = "run 10\n";
+  for (const std::string what : {"density 4", "diameter 2", "mass 7", "type 2"}) {
+    INFO(what);
+    const std::string text = free + run + "set group a " + what + "\n" + run;
+    CHECK(holds(report_of(text), "in.lmp:16: set changes what was there in the run of"));
+    const ImportedProblem p = imported(text);
+    CHECK(p.problem.stages.empty());
+    CHECK((p.model.density[0] == 2 && p.model.diameter[0] == 1 && p.model.type[0] == 1));
+  }
+  CHECK(imported(free + run + "set group all density 2\n" + run).problem.stages.size() == 2);
+  CHECK(near(first_force(two + stiff + end + "set group all diameter 3\n"), touching));
+  CHECK(holds(report_of("units lj\nboundary f f f\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\ncreate_atoms 1 single 0 0 0\nmass 1 2\npair_style zero 1\n"
+                        "fix 1 all nve\nrun 1\nmass 1 3\nrun 1\n"), "in.lmp:10: mass changes what was there"));
+  const auto moved = [&](const std::string& lines) {           // displacements at load factor 1, support by support
+    std::vector<double> all;
+    for (const Support& s : imported(free + lines).model.supports) all.push_back(s.displacement[0]);
+    return all;
+  };
+  CHECK(moved("velocity a set 0.1 0 0\nfix s a setforce 0 0 0\nrun 10\nvelocity a set 0 0 0\nrun 10\n") == std::vector{0.5, 0.0});
+  CHECK(moved("velocity a set 0.1 0 0\nfix s a freeze\nrun 10\n") == std::vector{0.5});      // LAMMPS lets them go on
+  const std::string stop = "fix m a move linear 0.1 0 0\nrun 10\nunfix m\nfix s a setforce 0 0 0\nrun 10\n";
+  CHECK(moved(stop) == std::vector{0.5, 0.5});                 // here, too
+  CHECK(holds(report_of(free + stop), "fix s lets what it holds go on at the velocity that it had, as LAMMPS does; `velocity a set 0 0 0`"));
+  CHECK(moved("velocity a set 0.1 0 0\nrun 10\nfix s a setforce 0 0 0\nrun 10\n") == std::vector{0.0});   // at rest behind an equilibrium
+  CHECK(holds(refused_motion(free + run + "velocity a set 0.1 0 0\n" + run), "in.lmp:16:1: velocity: "));
+  CHECK(holds(refused_motion(free + run + "fix s a setforce 0 0 0\n" + run), "in.lmp:16:1: fix: "));
+  CHECK(holds(imported(free + "set group a omega 0 0 3 vx 1\n" + run, {true, false, false}).files.data, "Velocities # hybrid sphere angle\n\n1 1 0 0 0 0 3\n"));
+  // What fix move has moved is where the whole time at the new timestep would have brought it.
+  const std::string move = "fix m a move linear 1 0 0\n", step = free + move + run + "timestep 0.1\n";
+  CHECK(holds(script_mistakes(step + run), "18:1: run: the timestep has changed since fix m began"));
+  CHECK(script_mistakes(step + move + run).empty());
+}
+
+TEST_CASE("bonds and angles without a style, and of atoms that are deleted", "[script]") {
+  const std::string glued = small_script_head + "create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.11 0 0\ncreate_atoms 1 single 0.2 0.05 0\ncreate_atoms 1 single 0.9 0 0\n"
+                            "set group all diameter 0.05\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\ncreate_bonds single/angle 1 1 2 3\ngroup g id 3\n";
+  const auto energies = [&](const std::string& lines) {
+    ImportedProblem p = imported(glued + lines + end);
+    return Energy(p.model).terms(p.model.start);
+  };
+  const EnergyTerms all = energies(""), no_angles = energies("angle_style none\n"), no_bonds = energies("bond_style none\n");
+  CHECK((all.bond > 0 && all.angle > 0));
+  CHECK((no_angles.bond == all.bond && no_angles.angle == 0));
+  CHECK((no_bonds.bond == 0 && no_bonds.angle == all.angle));
+  CHECK(holds(script_mistakes(glued + "bond_style harmonic\n" + end), "bonds of type 1 have no coefficients"));
+  CHECK(holds(script_mistakes(glued + "delete_atoms group g\n" + end), "22:1: delete_atoms: leaves bonds or angles of atoms that are gone"));
+  CHECK(script_mistakes(glued + "delete_atoms group g bond yes\n" + end).empty());
+  CHECK(imported(glued + "set atom 1*3 mol 2\ndelete_atoms group g mol yes\n" + end).model.particles() == 1);
+  CHECK(imported(glued + "fix 1 all nve\nrun 10\ndelete_bonds all angle 1\nrun 10\n").problem.stages.size() == 2);
+}
+
+TEST_CASE("fixes of all atoms hold those alone that no later fix holds", "[script]") {
+  const ImportedProblem p = imported(two + stiff + "fix 1 all nve/sphere\ngroup a id 1\nfix h all setforce 0 0 0\nfix m a move linear 0.1 0 0\nrun 10\n");
+  REQUIRE(p.model.supports.size() == 2);
+  CHECK(p.model.supports[0].particles == std::vector<int>{1});
+  CHECK(p.model.supports[1].particles == std::vector<int>{0});
+}
+
+TEST_CASE("a style that is not known within a hybrid one is told, or left out", "[script]") {
+  const std::string text = two + "pair_style hybrid/overlay lj/cut 2.5 soft 2.5\npair_coeff * * lj/cut 1 0.7\npair_coeff * * soft 0\n" + end;
+  const std::string told = script_mistakes(text);
+  CHECK(holds(told, "10:38: pair_style: \"soft\" is no pair style that is known here"));
+  CHECK_FALSE(holds(told, "\n"));
+  script::ReadingOptions skip;
+  skip.skip = true;
+  const Reading r = reading_of(text, skip);
+  CHECK(near(first_force(imported(r)), 1.3788252780796117));
+  CHECK(holds(script::report(r, {}), "in.lmp:10: pair_style: \"soft\""));
 }
 
 TEST_CASE("nve/noforce moves atoms at their velocities, whatever touches them", "[script]") {

@@ -71,15 +71,16 @@ bool take_coefficients(Interpreter& in, const std::string& file, const std::arra
     begin = end + 1, ++line;
     const std::size_t first = row.find_first_not_of(" \t\r");
     if (first == std::string::npos || line == 1) continue;
-    const bool names = std::isalpha(static_cast<unsigned char>(row[first])) != 0;
-    if (!names && !section) continue;
+    const auto is_name = [](const Word& w) { return std::isalpha(static_cast<unsigned char>(w.text[0])) != 0; };
+    if (!section && std::isalpha(static_cast<unsigned char>(row[first])) == 0) continue;
     try {
       in.words = split(without_comment(row));
+      const bool names = !in.words.empty() && std::all_of(in.words.begin(), in.words.end(), is_name);
       if (names) {
         const auto found = std::find_if(std::begin(sections), std::end(sections), [&](const Section& s) { return in.text() == s.name; });
         section = found == std::end(sections) ? nullptr : found;
       }
-      if (names || in.words.empty()) continue;
+      if (names || in.words.empty() || !section) continue;
       for (int t = 0; t < section->types; ++t)
         in.words[static_cast<std::size_t>(t)].text = std::to_string(in.integer(static_cast<std::size_t>(t), 1, most_atoms) + offset[section->offset]);
       if (section->command == sections[0].command && section->types == 1) in.words.insert(in.words.begin(), in.words[0]);

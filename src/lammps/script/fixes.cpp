@@ -101,19 +101,15 @@ struct Making {
       modulus = law.material ? law.youngs_modulus / (2 * (1 - law.poissons_ratio)) : law.effective_modulus;
       fix.trap_modulus = law.material && law.youngs_modulus > 0 && law.poissons_ratio != 0;
       fix.damping = law.damping();
-      if (law.limited) in.not_in_motion();
-      if (law.history || law.rolls)
-        in.note(
-            "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
-            "history)");
+      law.tell(in);
       return i;
     }
     if (in.word(i) == "hertz/history") {
-      modulus = 0.75 * in.number(i + 1);
-      fix.damping =
-          fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(i + 3), in.number(i + 5));
-      if (modulus < 0) throw Wrong(i + 1, "is negative; 0 or more is taken");
-      return i + 7;
+      GranularLaw law;
+      i = law.read_older(in, i + 1);
+      law.tell(in);
+      modulus = law.effective_modulus, fix.damping = law.damping();
+      return i;
     }
     throw Wrong(
         i, in_quotes(in.word(i)) + " is no law of a wall that is known here; granular hertz, granular hertz/material and hertz/history are",

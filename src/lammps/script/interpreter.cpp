@@ -29,6 +29,7 @@ struct File {
 /// How the mistake begins that follows where this command has made nothing of that name; "": it makes no names.
 std::string missing(const std::string& command, const std::string& name) {
   if (command == "variable") return "there is no variable " + in_quotes(name);
+  if (command == "pair_style") return "stands before pair_style";
   const bool makes = command == "region" || command == "group" || command == "compute" || command == "fix";
   return makes && !name.empty() ? in_quotes(name) + " is no " + command : "";
 }
@@ -376,7 +377,7 @@ void Interpreter::end_pass() {
   if (ran && !reading.passes.empty() && reading.passes.back().world.runs.empty()) reading.passes.pop_back();   // which ran nothing
   reading.passes.push_back({world, loops, std::nullopt});
   World& made = reading.passes.back().world;
-  if (still) made.runs.push_back(*made.still);
+  if (still) made.runs.push_back(*made.still), made.atoms = std::move(made.atoms_of_still);
   if (ran) return;
   for (Atom& a : made.atoms) a.start = a.x, a.start_v = a.v;
 }

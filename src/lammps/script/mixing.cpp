@@ -34,7 +34,7 @@ std::vector<PairCoefficient> mixed(const Run& run, const std::vector<int>& types
         if (!p || !q) continue;
         PairCoefficient m = *q;
         m.first = {types[a], types[a]}, m.second = {types[b], types[b]};
-        m.text = "mixed of types " + std::to_string(types[a]) + " and " + std::to_string(types[b]);
+        m.mixed = true, m.text = "mixed of types " + std::to_string(types[a]) + " and " + std::to_string(types[b]);
         const auto mean = [&](double x, double y) { return style.mix == PairStyle::Mix::geometric ? std::sqrt(x * y) : (x + y) / 2; };
         if (law == Law::hertz) {
           if (p->effective_modulus && q->effective_modulus)
@@ -45,7 +45,7 @@ std::vector<PairCoefficient> mixed(const Run& run, const std::vector<int>& types
             const auto soft = [](const PairCoefficient& c) { return (1 - c.poissons_ratio * c.poissons_ratio) / c.youngs_modulus; };
             m.effective_modulus = 1 / (soft(*p) + soft(*q));
           } else continue;
-          m.damping.clear();
+          m.unlike = p->damping != q->damping;
         } else if (law == Law::lj) {
           if (style.mix == PairStyle::Mix::sixthpower) {
             const double s = std::pow(p->sigma, 6) + std::pow(q->sigma, 6);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace elamin::script {
@@ -18,7 +19,7 @@ bool known_style(const std::string& s) {
   return std::any_of(std::begin(all), std::end(all), [&](const char* a) { return s == a; });
 }
 
-PairStyle style_from(const Interpreter& in, std::size_t from, std::size_t to) {
+PairStyle style_from(Interpreter& in, std::size_t from, std::size_t to) {
   PairStyle s;
   s.name = in.word(from);
   const std::size_t n = to - from - 1;
@@ -36,10 +37,10 @@ PairStyle style_from(const Interpreter& in, std::size_t from, std::size_t to) {
     s.inner_cutoff = in.number(from + 1), s.cutoff = in.number(from + 2);
   } else if (s.name == "gran/hertz/history") {
     wants(6, 7, "Kn Kt gamma_n gamma_t xmu dampflag");
-    s.gran_modulus = 0.75 * in.number(from + 1);
-    if (s.gran_modulus < 0) throw Wrong(from + 1, "is negative; 0 or more is taken");
-    s.damping =
-        fmt::format("damping = \"viscoelastic\"\ndamping_coefficient = {}\nfriction = {}\n", in.number(from + 3), in.number(from + 5));
+    GranularLaw law;
+    law.read_older(in, from + 1);
+    law.tell(in);
+    s.gran_modulus = law.effective_modulus, s.damping = law.damping();
   } else if (s.name == "body/rounded/polyhedron") {
     wants(5, 5, "c_n c_t mu delta_ua cut_inner");
     s.c_n = in.number(from + 1), s.c_t = in.number(from + 2), s.mu = in.number(from + 3), s.delta_ua = in.number(from + 4),
@@ -97,6 +98,29 @@ std::size_t GranularLaw::read(const Interpreter& in, std::size_t i, bool wall) {
   return i;
 }
 
+std::size_t GranularLaw::read_older(Interpreter& in, std::size_t i) {
+  const double kn = in.number(i), kt = i + 1 < in.size() && in.word(i + 1) == "NULL" ? kn * 2 / 7 : in.number(i + 1);
+  if (kn < 0) throw Wrong(i, "is negative; 0 or more is taken");
+  gamma = in.number(i + 2);
+  double along = i + 3 < in.size() && in.word(i + 3) == "NULL" ? gamma / 2 : in.number(i + 3);
+  friction = in.number(i + 4);
+  if (in.integer(i + 5, 0, 1) == 0) along = 0;
+  effective_modulus = 0.75 * kn, tangential = gamma > 0 ? along / gamma : 0;
+  history = kt > 0 && friction > 0;
+  if (gamma == 0 && along > 0 && friction > 0) in.not_in_motion();
+  if (i + 6 >= in.size() || in.word(i + 6) != "limit_damping") return i + 6;
+  limited = gamma > 0;
+  return i + 7;
+}
+
+void GranularLaw::tell(Interpreter& in) const {
+  if (limited) in.not_in_motion();
+  if (history || rolls)
+    in.note(
+        "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
+        "history)");
+}
+
 double GranularLaw::modulus() const {
   return material ? youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio)) : effective_modulus;
 }
@@ -105,9 +129,9 @@ std::string GranularLaw::damping() const {
   std::string keys = model == "tsuji" ? fmt::format("damping = \"tsuji\"\nrestitution = {}\n", gamma)
                      : gamma > 0      ? fmt::format("damping = \"{}\"\ndamping_coefficient = {}\n", model, gamma)
                                       : "";
+  if (keys.empty()) return keys;                 // without damping along the normal LAMMPS has none across it, and friction is at most that
   if (friction > 0) keys += fmt::format("friction = {}\n", friction);
-  if (friction > 0 || !keys.empty()) keys += fmt::format("friction_damping = {}\n", tangential);
-  return keys;
+  return keys + fmt::format("friction_damping = {}\n", tangential);
 }
 
 namespace command {
@@ -118,16 +142,17 @@ void pair_style(Interpreter& in) {
   const bool mixed = in.word(1) == "hybrid" || in.word(1) == "hybrid/overlay";
   p.hybrid = in.word(1) == "hybrid", p.overlay = in.word(1) == "hybrid/overlay";
   std::size_t i = mixed ? 2 : 1;
+  const auto names = [&](const std::string& w) { return std::isalpha(static_cast<unsigned char>(w[0])) && w != "NULL" && w != "limit_damping"; };
   while (i < in.size()) {
-    if (!known_style(in.word(i)))
-      throw Wrong(i,
-                  in_quotes(in.word(i)) +
-                      " is no pair style that is known here; granular, gran/hertz/history, lj/cut, lj/smooth, body/rounded/polyhedron, "
-                      "hybrid and hybrid/overlay of them are",
-                  true);
+    const std::string what = in_quotes(in.word(i)) +
+                             " is no pair style that is known here; granular, gran/hertz/history, lj/cut, lj/smooth, body/rounded/polyhedron, "
+                             "hybrid and hybrid/overlay of them are";
+    const bool known = known_style(in.word(i));
+    if (!known && !(mixed && in.options.skip)) throw Wrong(i, what, true);
     std::size_t end = i + 1;
-    while (end < in.size() && !(mixed && known_style(in.word(end)))) ++end;
-    p.styles.push_back(style_from(in, i, end));
+    while (end < in.size() && !(mixed && names(in.word(end)))) ++end;
+    if (known) p.styles.push_back(style_from(in, i, end));
+    else in.reading.told.push_back({Told::Fate::not_understood, in.word(0), what, 1, in.where});
     i = end;
   }
   if (mixed && p.styles.empty()) throw Wrong(1, "is followed by no style");
@@ -194,7 +219,7 @@ void pair_coeff(Interpreter& in) {
     else {
       const auto found =
           std::find_if(w.pairs.styles.begin(), w.pairs.styles.end(), [&](const PairStyle& s) { return s.name == in.word(3); });
-      if (found == w.pairs.styles.end()) throw Wrong(3, in_quotes(in.word(3)) + " is none of the styles of pair_style");
+      if (found == w.pairs.styles.end()) throw Wrong(3, in_quotes(in.word(3)) + " is none of the styles of pair_style", !known_style(in.word(3)));
       style = &*found;
     }
     ++i;
@@ -208,11 +233,7 @@ void pair_coeff(Interpreter& in) {
     if (law.material) c.youngs_modulus = law.youngs_modulus, c.poissons_ratio = law.poissons_ratio;
     if (!law.material) c.effective_modulus = law.effective_modulus;
     c.damping = law.damping();
-    if (law.limited) in.not_in_motion();
-    if (law.history || law.rolls)
-      in.note(
-          "friction that remembers, rolls and twists has no energy: it is left out (with --dynamics its sliding friction stays, without "
-          "history)");
+    law.tell(in);
   } else if (name == "gran/hertz/history") {
     c.law = PairCoefficient::Law::hertz, c.effective_modulus = style->gran_modulus, c.damping = style->damping;
     end = i;

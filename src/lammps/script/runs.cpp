@@ -193,7 +193,7 @@ void record(Interpreter& in, const Span& span) {
   for (const int k : r.atoms)
     if (Atom& a = w.atoms[static_cast<std::size_t>(k)]; a.born == w.run_number()) a.start = a.x, a.start_v = a.v;
   if (r.still()) {                                 // a study only if nothing else is run
-    w.still = std::move(r);
+    w.still = std::move(r), w.atoms_of_still = w.atoms;
     return;
   }
   struct Motion { int held = 0; Vec3 held_at = Vec3::Zero(), after = Vec3::Zero(); };   // coordinates that are held, velocities

@@ -92,12 +92,25 @@ class Translation {
                   {},
                   false});
       }
+      if (options_.dynamics) turning(run);
       contacts(k, run);
       if (k < flat_.runs && !flat_.always && !options_.dynamics) in_plane(k, run);
     }
     for (Table& t : tables_) t.name = t.kind == "contact" || t.kind == "viscosity" ? "" : groups_.unique(t.name);
     presence();
     sheets();
+  }
+
+  /// Friction turns what it rubs, in LAMMPS what is integrated as a sphere alone.
+  void turning(const Run& run) const {
+    const auto rubs = [](const auto& what) { return what.damping.find("friction = ") != std::string::npos; };
+    const auto& said = run.pairs.coefficients;
+    if (std::none_of(said.begin(), said.end(), rubs) &&
+        std::none_of(run.fixes.begin(), run.fixes.end(), [&](const Run::Active& a) { return rubs(a.fix); }))
+      return;
+    for (const Run::Active& a : run.fixes)
+      if (a.fix.style == "nve")
+        refuse(a.fix.where, "fix", "nve turns no particle, and friction does so here; nve/sphere is followed in motion (--dynamics)");
   }
 
   void supports(int k, const Run& run) {
@@ -233,6 +246,13 @@ class Translation {
         const bool known = k == 0 || atom(i).born == k;
         (!known || w.region.any_open() || atom(i).is_body || w.region.contains(atom(i).start) == w.inside ? members : beyond).push_back(i);
       }
+      Region closed = w.region;
+      closed.open = {};
+      const auto outside = [&](int i) { return !atom(i).is_body && closed.contains(atom(i).start) != w.inside; };
+      if (const auto n = std::count_if(members.begin(), members.end(), outside); w.region.any_open() && k == 0 && n > 0)
+        note(a.fix.where, fmt::format("{} of {} particles are outside of this wall's region, which has open faces: LAMMPS lets them feel nothing there, here "
+                                      "they feel the faces that are closed",
+                                      n, a.members.size()));
       const bool either = a.fix.style == "wall/gran";
       if (!beyond.empty() && !either)
         note(a.fix.where, fmt::format("{} of {} particles are on the other side of this wall, where LAMMPS lets them feel nothing: they "
@@ -246,6 +266,9 @@ class Translation {
       if (w.region.shape == Shape::cone && w.region.radius_lo != w.region.radius_hi)
         note(a.fix.where,
              "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
+      const std::size_t ends = w.region.shape == Shape::cone && w.region.axis == 1 ? 2 : 0;      // that LAMMPS pushes along z at
+      if (ends > 0 && !(w.region.open[0] && w.region.open[1]) && (w.region.axial_lo > -1e20 || w.region.axial_hi < 1e20))
+        note(a.fix.where, "at the ends of a cone along y LAMMPS (29 Sep 2021) pushes along z; here it is along y");
       if (a.fix.trap_modulus)
         note(
             a.fix.where,
@@ -365,6 +388,12 @@ class Translation {
         shown.epsilon = 0, shown.sigma = c.sigma > 0 ? c.sigma : 1, shown.cutoff = c.cutoff > 0 ? c.cutoff : 1;
       const PairStyle* style = style_of(run, c.law);
       const std::string keys = contact_keys(shown, *style, run);
+      if (options_.dynamics && c.unlike && !nothing(c))
+        refuse(c.where, "pair_coeff", fmt::format("damping and friction of types {} and {} differ and are not mixed here; give a pair_coeff {} {}", c.first[0],
+                                                  c.second[0], c.first[0], c.second[0]));
+      if (c.mixed && !nothing(c) && style->name == "granular")
+        note(c.where, "LAMMPS (29 Sep 2021) gives types that have no pair_coeff together Hooke's force k delta with Hertz's k, not Hertz's force of the mixed "
+                      "coefficients that its documentation promises; here it is that");
       if (c.law == Law::lj && !nothing(c) && !style->shift)
         note(c.where, c.inner_cutoff > 0
                           ? "the energy of this cohesion is 0 at the cutoff; LAMMPS's is that with `pair_modify shift yes`, else it differs by a "

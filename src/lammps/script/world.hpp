@@ -72,6 +72,7 @@ struct PairCoefficient {
   double k_n = 0, k_na = 0;                      // rounded
   std::string damping;                           // keys of [[contact]] for dynamics, lines
   std::string style;                             // "granular"; "none"
+  bool mixed = false, unlike = false;            // of types that have no line together; and whose dampings differ
   Where where;
   std::string text;                              // the command
   bool covers(int i, int j) const {
@@ -214,7 +215,8 @@ struct World {
   int fix_serial = 0;
   std::string body_file;                         // the data file that bodies are from
   std::vector<Run> runs;                         // that move something
-  std::optional<Run> still;                      // the last `run 0` before them
+  std::optional<Run> still;                      // the last `run 0` before them …
+  std::vector<Atom> atoms_of_still;              // … and what was there
   std::vector<Removal> removals;
   std::vector<std::pair<Where, std::string>> not_in_motion;   // commands that matter in motion, and are not followed there
   Where last_run;                                // that has moved particles
