@@ -233,6 +233,7 @@ int answer(int argc, char** argv) {
   export_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   export_app->add_option("-o,--output", exported.script, "the script, with its data file beside it (default: the file's name with .lmp)")->type_name("FILE");
   export_app->add_flag("--skip", exported.skip, "leave out what LAMMPS cannot have, instead of refusing");
+  export_app->add_flag("--force", exported.force, "write over files that elamin export has not written, too");
   export_app->add_option("--steps", exported.steps, "steps of each stage's run towards equilibrium (default: about 20 periods of the slowest bending)")->check(positive("integer"));
   common(export_app);
   ReportOptions report;

@@ -53,7 +53,7 @@ class ScriptMaker {
     const std::string top = std::move(text_);
     text_.clear();
     for (std::size_t s = 0; s < study_.stages.size(); ++s) stage(s);
-    std::string about = fmt::format("# {}\n# Written by `elamin export` of {}; run it in its folder, beside {}: lmp -in FILE\n"
+    std::string about = fmt::format("# {}\n# Written by elamin export of {}; run it in its folder, beside {}: lmp -in FILE\n"
                                     "# Numbers are in the units of the problem, whatever these are; \"si\" changes none of them.\n",
                                     in_one_line(study_.title.empty() ? "(no title)" : study_.title), in_one_line(study_.source), data_file_);
     for (const std::string& note : study_.notes) about += "# " + note + "\n";

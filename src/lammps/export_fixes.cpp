@@ -100,7 +100,7 @@ class FixMaker {
       }
       if (!any) { fix.text += " 0"; continue; }
       const std::string variable = fmt::format("{}_{}", name, "xyz"[c]), file = stem_ + "." + variable;
-      fix.files.emplace_back(file, fmt::format("# force {} of each particle\n{}\n{}", "xyz"[c], l.particles.size(), rows));
+      fix.files.emplace_back(file, fmt::format("# force {} of each particle, by elamin export\n{}\n{}", "xyz"[c], l.particles.size(), rows));
       fix.variables.push_back(fmt::format("variable {}_each atomfile {}", variable, file));
       fix.variables.push_back(fmt::format("variable {} atom v_{}_each*{}", variable, variable, factor));
       fix.text += " v_" + variable;

@@ -51,7 +51,7 @@ struct ExportOptions {
   std::string file;
   std::vector<Setting> settings;
   std::string script;                      // "": the problem file's name with .lmp
-  bool skip = false;
+  bool skip = false, force = false;        // force: write over files that it has not written, too
   int steps = 0;                           // of each stage's run, of a study of equilibria; 0: as many as seem enough
 };
 void export_command(const ExportOptions& options);

@@ -5,6 +5,7 @@
 #include "core/text_file.hpp"
 #include "dynamics/timestep.hpp"
 #include "study/imperfection.hpp"
+#include "study/own_file.hpp"
 #include "input/read.hpp"
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
@@ -113,9 +114,13 @@ void export_command(const ExportOptions& options) {
     if (!options.skip) all_of_them.push_back({problem.file, 0, 0, {}, "--skip leaves this out"});
     throw InputError(all_of_them);
   }
+  struct File { std::string name, text; };
+  std::vector<File> files{{script.string(), out.script}};
+  for (const auto& [name, text] : out.files) files.push_back({(script.parent_path() / name).string(), text});
+  must_be_own(data.string(), "export", options.force);
+  for (const File& f : files) must_be_own(f.name, "export", options.force);
   write_state(data.string(), out.written, study.start, (problem.title.empty() ? study.source : problem.title) + ", by elamin export");
-  for (const auto& [name, text] : out.files) write_text((std::filesystem::path(script).parent_path() / name).string(), text);
-  write_text(script.string(), out.script);
+  for (const File& f : files) write_text(f.name, f.text);
   say("written: {} and {}: {} particles, {} bonds, {} angles, {} {}\n", script.string(), data.string(), model.particles(),
              model.bonds.size(),
              model.angles.size(), study.stages.size(), study.stages.size() == 1 ? "run" : "runs");

@@ -7,19 +7,17 @@
 #include "core/text_file.hpp"
 #include "lammps/script/report.hpp"
 #include "lammps/script/translation.hpp"
+#include "study/own_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace elamin {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* mark = "# Written by elamin import";
 
 std::string output_of(const ImportOptions& o) {
   if (!o.output.empty()) return o.output;
@@ -29,17 +27,7 @@ std::string output_of(const ImportOptions& o) {
   return (replaced ? name.stem().string() : name.string()) + ".toml";
 }
 
-/// A file of somebody's own is not written over.
-void may_write(const std::string& file, bool force) {
-  if (force || !fs::exists(file)) return;
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  if (!line.starts_with(mark) && line.find("by elamin import") == std::string::npos)
-    throw InputError(file + ": is there already and was not written by elamin import; choose another name with -o, or --force");
-}
-
-/// Nor, whatever was asked, what the script is made of.
+/// What the script is made of is not written over, whatever was asked.
 void must_not_be_read(const std::string& file, const std::vector<std::string>& read) {
   const bool there = fs::exists(file) && std::any_of(read.begin(), read.end(), [&](const std::string& r) { return fs::exists(r) && fs::equivalent(file, r); });
   if (there) throw InputError(file + ": is read by the script, and would be written over; choose another name with -o");
@@ -82,7 +70,7 @@ void import_command(const ImportOptions& o) {
   }
   for (const auto* read : {&reading.files, &reading.data_files, &o.after})
     for (const File& f : files) must_not_be_read(f.name, *read);
-  for (const File& f : files) may_write(f.name, o.force);
+  for (const File& f : files) must_be_own(f.name, "import", o.force);
   for (const File& f : files) write_text(f.name, f.text);
   if (o.quiet) return;
   say("{}", script::report(reading, notes));

@@ -242,6 +242,13 @@ steps = 2
                                                    "[study]\ntype = \"energy\"\n");
   REQUIRE(elamin_says("export " + title + " -o " + script).status == 0);
   CHECK(text_of(script).starts_with("# two quit\n"));
+  for (const std::string end : {".lmp", ".data"}) {             // somebody's own
+    const std::string mine = scratch.file("mine" + end, "mine\n"), how = "export " + title + " -o " + (scratch / "mine.lmp");
+    CHECK(elamin_says(how).text.find("mine" + end + ": is there already and was not written by elamin export") != std::string::npos);
+    CHECK(text_of(mine) == "mine\n");
+    CHECK(elamin_says(how + " --force").status == 0);
+    std::filesystem::remove(scratch / "mine.lmp");
+  }
   CHECK(elamin_says("export " + root + "problems/cubes_jammed.toml -o " + script).text.find("LAMMPS cannot have rigid bodies "
                                                                                             "(5)") != std::string::npos);
 }
