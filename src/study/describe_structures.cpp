@@ -65,7 +65,36 @@ std::string rest_of(const Model& model, const Structure& s) {
   return "at rest " + rest.text() + " degrees";
 }
 
-std::string stiffnesses(const Model& model, const Structure& s) {
+// What the file of a structure's own values makes of its particles, bonds and angles.
+std::string own_values(const Model& model, const Structure& s, const std::string& file) {
+  Range diameter, density, K, q0, B;
+  const auto own = [&](const auto& particles) {
+    return std::all_of(particles.begin(), particles.end(), [&](int p) { return p >= s.first && p < s.first + s.count; });
+  };
+  for (int p = s.first; p < s.first + s.count; ++p) diameter.add(model.diameter[p]), density.add(model.density[p]);
+  for (const Bond& b : model.bonds)
+    if (own(b.particles)) K.add(model.bond_types[b.type].stiffness), q0.add(model.bond_types[b.type].rest_length);
+  for (const Angle& a : model.angles)
+    if (own(a.particles)) B.add(model.angle_types[a.type].stiffness);
+  std::string text = fmt::format("  values of {}: diameter {}, density {}", file, diameter.text(), density.text());
+  if (!K.empty()) text += fmt::format(", K = {}, q0 = {}", K.text(), q0.text());
+  if (!B.empty()) text += fmt::format(", B = {}", B.text());
+  return text + "\n";
+}
+
+// That file, "" if there is none.
+std::string values_of(const Problem& problem, const Structure& s) {
+  const auto in = [&](const auto& tables) {
+    for (const auto& t : tables)
+      if (t.name == s.name) return t.values;
+    return std::string();
+  };
+  return s.kind == "beam" ? in(problem.beams) : s.kind == "loop" ? in(problem.loops) : s.kind == "sheet" ? in(problem.sheets)
+                          : s.kind == "grains" ? in(problem.grains) : "";
+}
+
+std::string stiffnesses(const Problem& problem, const Model& model, const Structure& s) {
+  if (!values_of(problem, s).empty()) return "";
   const BondType& bond = model.bond_types[s.bond_type];
   const double K = bond.stiffness, q0 = bond.rest_length, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
   const std::string bonds = fmt::format("  bond stiffness K = {:.10g}, rest length q0 = {:.10g}, EA = 2 K q0 = {:.10g}\n", K, q0, 2 * K * q0);
@@ -97,12 +126,14 @@ std::string describe_beam(const Problem& problem, const Model& model, const Stru
       at_from = t.clamped == ClampedEnds::from || t.clamped == ClampedEnds::both;
       at_to = t.clamped == ClampedEnds::to || t.clamped == ClampedEnds::both;
     }
-  std::string text = line + stiffnesses(model, s);
+  std::string text = line + stiffnesses(problem, model, s);
   const End a = end_of(s, kinematics, false), b = end_of(s, kinematics, true);
   const int bonds = s.count - 1 - std::max(0, a.held - 1) - std::max(0, b.held - 1);
   // A clamp sits at the middle of its inner bond, unless the joint on its end is twice as stiff.
   const double length = (bonds + (a.held > 1 && !at_from ? 0.5 : 0.0) + (b.held > 1 && !at_to ? 0.5 : 0.0)) * q0;
-  text += fmt::format("  ends: {}, {}; {} bonds can stretch; effective length {:.10g}\n", a.name(), b.name(), std::max(bonds, 0), length);
+  text += fmt::format("  ends: {}, {}; {} bonds can stretch", a.name(), b.name(), std::max(bonds, 0));
+  if (!values_of(problem, s).empty()) return text + "\n";
+  text += fmt::format("; effective length {:.10g}\n", length);
   if (const double factor = line.empty() ? euler_factor(a, b) : 0; factor > 0 && bonds > 0 && B > 0)
     text += fmt::format("  Euler load {:.6g} pi^2 EI/L^2 = {:.10g}, strain {:.6g}\n", factor, factor * pi * pi * B * q0 / (length * length),
                         factor * pi * pi * B / (2 * K * length * length));
@@ -113,7 +144,7 @@ std::string describe_loop(const Problem& problem, const Model& model, const Stru
   std::string text;
   for (const LoopTable& t : problem.loops)
     if (t.name == s.name) text = fmt::format("  radius {:.10g}, chord {:.10g}\n", t.radius, 2 * t.radius * std::sin(pi / s.count));
-  return text + stiffnesses(model, s);
+  return text + stiffnesses(problem, model, s);
 }
 
 std::string describe_sheet(const Problem& problem, const Model& model, const Structure& s) {
@@ -204,6 +235,7 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
     if (s.kind == "body") text += fmt::format("body '{}': id {}\n", s.name, model.bodies[s.first_body].id);
     else text += fmt::format("{} '{}': {} particles{}\n", s.kind, s.name, s.count, s.bodies > 0 ? fmt::format(", {} bodies", s.bodies) : "");
     if (s.bodies > 0) text += describe_bodies(model, s);
+    if (const std::string file = values_of(problem, s); !file.empty()) text += own_values(model, s, file);
     if (s.kind == "grains") text += describe_grains(model, s);
     else if (s.bond_type < 0) continue;
     else if (s.kind == "loop") text += describe_loop(problem, model, s);

@@ -127,6 +127,12 @@ TEST_CASE("check says what was understood", "[study]") {
   for (const char* words : {"14 particles, 13 bonds, 12 angles, 20 free dofs", "ends: clamped, clamped; 11 bonds can stretch; effective length 0.012", "no rigid motion is free"})
     CHECK(answer.text.find(words) != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(scratch / "column"));
+  scratch.file("v.csv", "diameter,density,bond_stiffness,angle_stiffness\n0.1,2,3,\n0.1,2,5,4\n0.2,2,,\n");
+  const std::string own = elamin_says("check '" + scratch.file("own.toml", "[[beam]]\nname = \"b\"\nparticles = 3\nfrom = [0, 0, 0]\nto = [2, 0, 0]\ndiameter = 0.1\n"
+                                      "youngs_modulus = 1\nvalues = \"v.csv\"\n[study]\ntype = \"energy\"\n") + "'").text;
+  INFO(own);
+  CHECK(own.find("v.csv: diameter 0.1 to 0.2, density 2, K = 3 to 5, q0 = 1, B = 4\n  ends: free, free; 2 bonds can stretch\n") != std::string::npos);
+  CHECK(own.find("EI") == std::string::npos);
 }
 
 TEST_CASE("what does not converge keeps what it has and exits with 2", "[study]") {
