@@ -35,10 +35,11 @@ def test_the_package_is_typed(tmp_path):
                      "p.beam(section='round')\n"
                      "p.beam(particels=3)\n"
                      "e: str = p.energy()\n"
-                     "p.nonsense()\n")
+                     "p.nonsense()\n"
+                     "next(p.path()).events[0].lable\n")
     done = mypy(PACKAGE, right, wrong, cwd=PACKAGE.parent)
     found = [line for line in done.stdout.splitlines() if ": error: " in line]
-    assert {int(line.split("wrong.py:")[1].split(":")[0]) for line in found if "wrong.py" in line} == {3, 4, 5, 6, 7}, done.stdout
+    assert {int(line.split("wrong.py:")[1].split(":")[0]) for line in found if "wrong.py" in line} == {3, 4, 5, 6, 7, 8}, done.stdout
     assert all("wrong.py" in line for line in found), done.stdout
 
 

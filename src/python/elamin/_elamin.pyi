@@ -3,6 +3,8 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._problem import Event
+
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int32]
 
@@ -157,7 +159,7 @@ class Step:
     def label(self) -> str:
         """"initial", "final", that of an event, or "". """
     @property
-    def events(self) -> Tuple[Any, ...]: ...
+    def events(self) -> Tuple[Event, ...]: ...
     @property
     def branch(self) -> int: ...
     @property
