@@ -1,6 +1,7 @@
 #include "energy/step_limits.hpp"
 
 #include "core/near_pairs.hpp"
+#include "energy/body_touches.hpp"
 #include "energy/wall_group.hpp"
 #include "laws/frustum.hpp"
 #include "model/entities.hpp"
@@ -105,6 +106,13 @@ std::string obstacle(const Energy& energy, const State& state) {
       if (model.walls[w].effective_modulus > 0 && is_free(kinematics, p) && energy.gap(p, -1, w, state) + r <= pressed * r)
         return pressed_at_wall(model, p, "onto", model.walls[w]);
     }
+  std::vector<Touch> touches;
+  add_body_touches(model, energy.body_rules(), state, 0, touches);
+  for (const Touch& t : touches)
+    if (t.other >= 0 && t.gap < 0 &&
+        model.rounded[energy.body_rules().table(t.particle, t.other)].formulation == RoundedFormulation::closest)
+      return both(t.particle, t.other) + " touch by formulation \"closest\", whose force leaps where edges or faces lie along each other: a minimum there is a kink, "
+                                         "where forces do not vanish; formulation = \"multi\" has none";
   const ContactRules& rules = energy.contact_rules();
   if (!rules.any()) return "";
   std::vector<double> radii(model.particles());

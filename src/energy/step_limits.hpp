@@ -25,7 +25,8 @@ std::string falling(const Energy& energy);
 std::string gone_through(const Energy& energy, const State& state);
 
 /// What no solver gets over at this state, one phrase with what to try: a centre that is pressed onto a wall or onto another one, two
-/// particles at the cutoff of a cohesion whose energy jumps there, glued ones in one place; "" if nothing of that is there.
+/// particles at the cutoff of a cohesion whose energy jumps there, glued ones in one place, bodies that touch by a force that leaps; "" if
+/// nothing of that is there.
 std::string obstacle(const Energy& energy, const State& state);
 
 }  // namespace elamin

@@ -86,6 +86,8 @@ constexpr int most_saddles = 20, most_sharpening = 20;
 /// Packings. Loose grains that are so many are one; beside fewer Newton's method is given so many iterations first: where nothing is as rough as a
 /// packing it takes ten to thirty.
 constexpr int packing = 20, newton_alone = 50;
+/// Loose bodies fall and roll on as long as Newton's iterations take off such a part of the energy that they have taken off by then.
+constexpr double still_falls = 1e-6;
 /// Grains of softened contacts overlap by such a part of their size; then contacts get stiffer by this factor: overlaps shrink to a fifth.
 constexpr double wanted_overlap = 0.01, stiffer = 10;
 /// The residual that is enough of softened contacts: where their overlaps are off by a thousandth, stiffer ones are found as well.

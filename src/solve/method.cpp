@@ -42,11 +42,24 @@ int finish(Newton& newton, State& state, Report& report, bool zero_modes) {
   return limits::most_polishing;
 }
 
+// Newton's method, on and on as long as loose bodies fall and roll farther.
+Report until_bodies_rest(Newton& newton, State& state) {
+  const double begin = newton.energy().value(state);
+  Report total = newton.minimise(state);
+  for (double before = begin; total.status == Status::not_converged && total.iterations < limits::most_settling;) {
+    if (!(before - total.energy > limits::still_falls * (begin - total.energy))) break;
+    before = total.energy;
+    add(total, newton.minimise(state));
+  }
+  return total;
+}
+
 // Newton's method and, where there are loose grains that press on something, settle(): for a packing at once, for fewer where Newton's method stalls.
 Report by_what_works(Newton& newton, State& state) {
   const Model& model = newton.energy().model();
   const bool presses = std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.effective_modulus > 0; }) ||
                        std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& w) { return w.effective_modulus > 0; });
+  if (!model.bodies.empty() && !newton.energy().unbonded_dofs().empty()) return until_bodies_rest(newton, state);
   const int loose = presses && model.bodies.empty() ? unbonded_grains(newton.energy()) : 0;
   if (loose >= limits::packing) return settle(newton, state, limits::most_settling);
   State settled = state;

@@ -504,3 +504,30 @@ TEST_CASE("a second signal ends the program at once, whatever it is at", "[study
     CHECK(duration<double>(steady_clock::now() - begin).count() < 5);
   }
 }
+
+TEST_CASE("bodies that are dropped come to rest, or at a kink that is named", "[study][ends][bodies]") {
+  const auto body = [](const std::string& name, const std::string& shape, const std::string& place) {
+    return "[[body]]\nname = \"" + name + "\"\nshape = " + shape + "\nposition = " + place + "\n";
+  };
+  const auto plane = [](const std::string& name, const std::string& point, const std::string& normal) {
+    return "[[wall]]\nname = \"" + name + "\"\nshape = \"plane\"\npoint = [" + point + "]\nnormal = [" + normal + "]\nk_n = 7800\n";
+  };
+  const std::string fall = "[[gravity]]\nacceleration = [0, 0, -1]\n[study]\ntype = \"equilibrium\"\n", low = "0, 0, -1";
+  const std::string one = body("a", "\"tetrahedron\"\nedge = 0.98\nrounding_diameter = 0.49\nmass = 1.365",
+                               "[-0.145, 0.0114, 1]\nrotation = {axis = [-0.088, 0.497, -0.227], angle = 81.55}") +
+                          plane("u", low, "0.7, 0, 1") + plane("v", low, "-0.353, 0.604, 1") + plane("w", low, "-0.343, -0.61, 1") + fall;
+  const std::string few = " --set solver.max_iterations=20";
+  const Ended there = run(one, few);
+  INFO(there.answer.text);
+  CHECK(there.answer.status == 0);
+  CHECK(run(one, with("newton") + few).says("20 iterations were not enough"));
+  const Ended kink = run(body("a", "\"tetrahedron\"\nedge = 0.83\nrounding_diameter = 0.438\nmass = 1.71",
+                              "[-0.147, 0.0846, 1]\nrotation = {axis = [0.0106, 0.4277, -0.1283], angle = 55.67}") +
+                         body("b", "\"box\"\nsize = [0.803, 0.97, 0.434]\nrounding_diameter = 0.367\nmass = 0.7",
+                              "[-0.00277, -0.112, 3.2]\nrotation = {axis = [0.0172, -0.0564, -0.944], angle = 152.56}") +
+                         "[[contact]]\nbetween = [\"all\", \"all\"]\nlaw = \"rounded\"\nk_n = 7800\nformulation = \"closest\"\n" + plane("u", low, "0.8185, 0, 0.5745") +
+                         plane("v", low, "-0.8185, 0, 0.5745") + plane("w", "0, -1.5, 0", "0, 1, 0") + plane("x", "0, 1.5, 0", "0, -1, 0") + fall);
+  INFO(kink.answer.text);
+  CHECK(kink.answer.status == 2);
+  CHECK(kink.says("touch by formulation \"closest\""));
+}
