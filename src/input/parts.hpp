@@ -74,7 +74,7 @@ std::vector<NewBond> listed_bonds(const BondsTable& t, const std::array<std::vec
 /// The angles of a table; `over`: the particles of its group. Mistakes as of bonds.
 std::vector<NewAngle> listed_angles(const AnglesTable& t, const std::vector<int>& over, const Model& model, Mistakes& mistakes);
 
-/// Adds the supports. A mistake: two that prescribe one coordinate differently; one that leaves the plane; one turn held alone.
+/// Adds the supports. A mistake: two that prescribe one coordinate differently; one that leaves the plane; one rotation held alone.
 bool add_supports(const Problem& problem, Groups& groups, Model& model, Mistakes& mistakes);
 
 /// Adds loads, gravity, pressures and changes. A mistake: a force out of the plane; a radial one on the axis; gravity on particles without

@@ -17,7 +17,7 @@ void describe(Keys& keys, SupportTable& t) {
   keys.must("group", t.group, "what it holds");
   keys.may("directions", t.directions, "the letters of the coordinates that are held; by default all, where rotations does not say otherwise");
   keys.may("rotations", t.rotations,
-           "of bodies: the letters of the axes about which they do not rotate; by default all, where directions does not say otherwise");
+           "of bodies: the letters of two or three axes about which they do not rotate; by default all, where directions does not say otherwise");
   keys.may("displacement", t.displacement, "at load factor 1 [length]");
   keys.may("velocity", t.velocity, "in dynamics: x = x(0) + V t");
   keys.may("constant", t.constant, "in full from the start, not scaled by the load factor");
@@ -147,7 +147,7 @@ void hold_bodies(const Problem& problem, const Model& model, const SupportTable&
   if (model.plane_normal)
     for (int c = 0; c < 3; ++c) held[c] = held[c] || c != *model.plane_normal;
   if (std::count(held.begin(), held.end(), true) == 1)
-    mistakes.add(table.place, "rotations", "holds one turn alone, which is no condition on where a body is; hold two or all of them");
+    mistakes.add(table.place, "rotations", "holds one rotation alone, which is no condition on where a body is; hold two or all of them");
   if (!table.rotation || table.rotation->place.broken) return;
   s.rotation = table.rotation->vector();
   if (!model.plane_normal) return;

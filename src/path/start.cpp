@@ -1,5 +1,7 @@
 #include "path/start.hpp"
 
+#include "energy/step_limits.hpp"
+
 #include <fmt/format.h>
 
 namespace elamin {
@@ -17,7 +19,9 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
     as_it_is.status = Status::converged, as_it_is.why = "the state as it was stored";
     if (as_it_is.residual <= newton.tolerance()) return assess(newton, state, as_it_is);
   }
-  Report report = newton.correct(state);
+  newton.energy().evaluate(state);
+  const bool falls = !falling(newton.energy()).empty();         // what nothing holds has no branch to be on before it has come to rest
+  Report report = falls ? Report{} : newton.correct(state);
   if (report.converged()) {
     Equilibrium e = assess(newton, state, report);
     // Along a motion that costs nothing a correction is the quotient of two roundings.

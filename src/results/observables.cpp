@@ -96,7 +96,7 @@ struct Observables::Seen {
 
 Observables::Observables(const Problem& problem, const Model& model)
     : problem_(problem), model_(model), held_(decltype(held_)::Constant(3, model.particles() + 2 * static_cast<int>(model.bodies.size()), false)) {
-  std::vector<Mistake> mistakes;
+  Mistakes mistakes(problem.file);
   std::set<std::size_t> parts;                        // of derivatives
   for (std::size_t k = 0; k < problem.observe.size(); ++k) {
     const ObserveTable& o = problem.observe[k];
@@ -106,17 +106,15 @@ Observables::Observables(const Problem& problem, const Model& model)
     for (const std::size_t part : made_of(problem.observe, k))
       if (part != k) parts.insert(part);
   }
-  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  mistakes.raise();
   if (!parts.empty()) rates_ = std::make_unique<PathRates>(problem, model, std::vector(parts.begin(), parts.end()));
   hold_supports();
 }
 
 Observables::~Observables() = default;
 
-Observables::Subject Observables::subject_of(const ObserveTable& o, std::vector<Mistake>& mistakes) const {
-  const auto wrong = [&](const char* key, const std::string& what) {
-    mistakes.push_back({problem_.file, o.place.line, o.place.column, key, what});
-  };
+Observables::Subject Observables::subject_of(const ObserveTable& o, Mistakes& mistakes) const {
+  const auto wrong = [&](const char* key, const std::string& what) { mistakes.add(o.place, key, what); };
   Subject subject;
   if (of_observables(o.quantity)) return subject;
   const auto members = [&](const auto& of) {
@@ -137,14 +135,14 @@ Observables::Subject Observables::subject_of(const ObserveTable& o, std::vector<
     wrong(key, "there is no group \"" + name + "\"; there are " + known);
     return false;
   };
-  subject.known = find("observe.group", o.group, subject.entities);
-  if (!o.to.empty()) find("observe.to", o.to, subject.to);
-  if (!o.through.empty()) find("observe.through", o.through, subject.through);
+  subject.known = find("group", o.group, subject.entities);
+  if (!o.to.empty()) find("to", o.to, subject.to);
+  if (!o.through.empty()) find("through", o.through, subject.through);
   if (!subject.known) return subject;
   if (subject.wall >= 0 && o.quantity != Quantity::reaction && o.quantity != Quantity::gap && o.quantity != Quantity::contacts) {
-    wrong("observe.quantity", "\"" + o.group + "\" is a wall; it has a reaction, gap and contacts only");
+    wrong("quantity", "\"" + o.group + "\" is a wall; it has a reaction, gap and contacts only");
   } else if (subject.entities.empty() && subject.wall < 0) {
-    wrong("observe.group", of_bodies(o.quantity) ? "the group \"" + o.group + "\" has no body; particles have no rotation, torque and angular velocity"
+    wrong("group", of_bodies(o.quantity) ? "the group \"" + o.group + "\" has no body; particles have no rotation, torque and angular velocity"
                                                  : "the group \"" + o.group + "\" has no particle and no body; at least one is needed");
   }
   const auto has = [&](int i) { return std::binary_search(subject.entities.begin(), subject.entities.end(), i); };
@@ -158,12 +156,12 @@ Observables::Subject Observables::subject_of(const ObserveTable& o, std::vector<
     const auto bodies = std::lower_bound(subject.entities.begin(), subject.entities.end(), model_.particles());
     subject.entities.erase(bodies, subject.entities.end());
     if (subject.entities.size() < least)
-      wrong("observe.group", "the group \"" + o.group + "\" has too few particles for a row; it must have " + std::to_string(least));
+      wrong("group", "the group \"" + o.group + "\" has too few particles for a row; it must have " + std::to_string(least));
     else if (o.quantity == Quantity::area) {
       const Vec3 area = vector_area(model_.start, subject.entities);
       subject.about = area.normalized();
       if (!(length_of(area) > flat * std::pow(sides_of(model_.start).maxCoeff(), 2)))
-        wrong("observe.group", "the group \"" + o.group + "\" encloses no area at the start, along whose normal it could be counted");
+        wrong("group", "the group \"" + o.group + "\" encloses no area at the start, along whose normal it could be counted");
     }
   }
   return subject;

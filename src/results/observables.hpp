@@ -89,7 +89,7 @@ class Observables {
     std::optional<Vec3> about = {};                   // of an angle; of an area its normal
   };
   struct Seen;                                        // a state with what is computed from it once
-  Subject subject_of(const ObserveTable& o, std::vector<Mistake>& mistakes) const;
+  Subject subject_of(const ObserveTable& o, Mistakes& mistakes) const;
   void hold_supports();
   double of_shape(const ObserveTable& o, const Subject& subject, const State& state) const;
   std::vector<Vec3> of_group(const ObserveTable& o, const Subject& subject, Seen& seen) const;

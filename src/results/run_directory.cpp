@@ -133,7 +133,7 @@ void RunDirectory::add(const PathPoint& point, const Field& forces, const std::v
 
 void RunDirectory::add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches) {
   add_point(state_name(label), label, point);
-  add_contacts(contacts_, label, point.state, touches);
+  for (const Row& row : contact_rows(label, point.state, touches)) contacts_.add(row);
 }
 
 void RunDirectory::add_point(const std::string& name, const std::string& called, const PathPoint& point) {
@@ -158,8 +158,7 @@ void RunDirectory::add_frame(const PathPoint& point, const Model& model, const F
   const std::string name = frame_name(point.step);
   add_point(name, fmt::format("step {}", point.step), point);
   add_fields_as(name, model, point.state, fields);
-  CsvFile contacts(results_.file(name + ".contacts.csv"), contact_columns);
-  add_contacts(contacts, "", point.state, touches);
+  write_csv(results_.file(name + ".contacts.csv"), {contact_columns, contact_rows("", point.state, touches)});
 }
 
 void RunDirectory::drop_files(const std::set<std::int64_t>& steps) {
@@ -178,7 +177,7 @@ void RunDirectory::add(const Moment& moment, const std::vector<Touch>& touches) 
   add_state_file(name, moving, state, fmt::format("{}; time {:.17g}", moment.label, moment.motion.time));
   write_text(results_.file(name + ".json"), supplement_text({state.load_factor, state.low, {}, {}, stored_poses(state)}));
   add_picture(name, state, moment.label);
-  add_contacts(contacts_, moment.label, state, touches);
+  for (const Row& row : contact_rows(moment.label, state, touches)) contacts_.add(row);
 }
 
 void RunDirectory::add_frame(const Motion& motion) {
@@ -186,12 +185,14 @@ void RunDirectory::add_frame(const Motion& motion) {
   write_frame(results_.file(fmt::format("frames/{}.csv", motion.step)), model_, motion);
 }
 
-void RunDirectory::add_contacts(CsvFile& file, const std::string& label, const State& state, const std::vector<Touch>& touches) {
+std::vector<Row> RunDirectory::contact_rows(const std::string& label, const State& state, const std::vector<Touch>& touches) const {
+  std::vector<Row> rows;
   for (const Touch& t : closed_contacts(touches, model_, label)) {
     const Cell second = t.other >= 0 ? Cell(id_of(model_, t.other)) : Cell(model_.walls[t.wall].name);
     const Vec3 f = t.force.array() + 0.0, x = t.point.array() + 0.0;       // no negative zeros
-    file.add({label, state.load_factor, id_of(model_, t.particle), second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
+    rows.push_back({label, state.load_factor, id_of(model_, t.particle), second, t.gap, f.norm(), f[0], f[1], f[2], x[0], x[1], x[2]});
   }
+  return rows;
 }
 
 void RunDirectory::add_picture(const std::string& name, const State& state, const std::string& called) {
@@ -221,39 +222,43 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
   };
   std::vector<std::string> names{"id"};
   for (const std::string& c : columns("u")) names.push_back(c);
-  CsvFile file(results_.file(state_name(label) + ".modes.csv"), names);
+  Table particles{names, {}};
   for (int i = 0; i < model_.particles(); ++i) {
     Row row{model_.id[i]};
     for (const Field& v : vectors)
       for (int c = 0; c < 3; ++c) row.emplace_back(v(c, i));
-    file.add(row);
+    particles.rows.push_back(std::move(row));
   }
+  write_csv(results_.file(state_name(label) + ".modes.csv"), particles);
   if (model_.bodies.empty()) return;
   for (const std::string& c : columns("t")) names.push_back(c);
-  CsvFile bodies(results_.file(state_name(label) + ".bodies.modes.csv"), names);
+  Table bodies{names, {}};
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     Row row{model_.bodies[b].id};
     for (const Field& v : vectors) append(row, body_motion(model_, v, b).head<3>());
     for (const Field& v : vectors) append(row, body_motion(model_, v, b).tail<3>());
-    bodies.add(row);
+    bodies.rows.push_back(std::move(row));
   }
+  write_csv(results_.file(state_name(label) + ".bodies.modes.csv"), bodies);
 }
 
 void RunDirectory::add_mode(const Mode& mode, const State& state) {
   const std::string name = fmt::format("mode-{}", ++mode_);
   if (!modes_) modes_.emplace(results_.file("modes.csv"), std::vector<std::string>{"mode", "eigenvalue", "zero_mode"});
   modes_->add({mode_, mode.eigenvalue, mode.zero_mode.empty() ? Cell{} : Cell(mode.zero_mode)});
-  CsvFile shape(results_.file("modes/" + name + ".csv"), {"id", "ux", "uy", "uz"});
+  Table particles{{"id", "ux", "uy", "uz"}, {}};
   for (int i = 0; i < model_.particles(); ++i)
-    shape.add({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
+    particles.rows.push_back({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
+  write_csv(results_.file("modes/" + name + ".csv"), particles);
   const State moved = moved_along(mode, model_, state);
   if (!model_.bodies.empty()) {
-    CsvFile bodies(results_.file("modes/" + name + ".bodies.csv"), {"id", "ux", "uy", "uz", "tx", "ty", "tz"});
+    Table bodies{{"id", "ux", "uy", "uz", "tx", "ty", "tz"}, {}};
     for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
       Row row{model_.bodies[b].id};
       append(row, body_motion(model_, mode.shape, b));
-      bodies.add(row);
+      bodies.rows.push_back(std::move(row));
     }
+    write_csv(results_.file("modes/" + name + ".bodies.csv"), bodies);
   }
   add_picture(state_name(name), moved, name);
   add_state_file(state_name(name), model_, moved, fmt::format("{}, eigenvalue {:.17g}; load factor {:.17g}", name, mode.eigenvalue, state.load_factor));

@@ -119,7 +119,7 @@ class RunDirectory {
   void add_picture(const std::string& name, const State& state, const std::string& called);
   void add_point(const std::string& name, const std::string& called, const PathPoint& point);
   void add_fields_as(const std::string& name, const Model& model, const State& state, const Fields& fields);
-  void add_contacts(CsvFile& file, const std::string& label, const State& state, const std::vector<Touch>& touches);
+  std::vector<Row> contact_rows(const std::string& label, const State& state, const std::vector<Touch>& touches) const;
   void drop_files(const std::set<std::int64_t>& steps);
 
   ResultsDirectory::Files inputs_;                    // that lie in the directory

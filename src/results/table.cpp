@@ -51,23 +51,22 @@ std::string csv_text(const Cell& cell, Digits digits) {
   return "";
 }
 
-void write_csv(const std::string& file, const Table& table) {
+void write_csv(const std::string& file, const Table& table, Digits digits) {
   std::string text = csv_line(Row(table.columns.begin(), table.columns.end()));
-  for (const Row& row : table.rows) text += csv_line(row);
+  for (const Row& row : table.rows) text += csv_line(row, digits);
   write_text(file, text);
 }
 
-CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits)
-    : out_(std::move(file)), columns_(columns.size()), digits_(digits) {
+CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns) : out_(std::move(file)), columns_(columns.size()) {
   add(Row(columns.begin(), columns.end()));
 }
 
 CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, std::uintmax_t bytes)
-    : out_(std::move(file), bytes), columns_(columns.size()), digits_(Digits::shortest) {}
+    : out_(std::move(file), bytes), columns_(columns.size()) {}
 
 void CsvFile::add(const Row& row) {
   if (row.size() != columns_) throw std::logic_error(fmt::format("a row of {} entries for {} columns", row.size(), columns_));
-  out_.add(csv_line(row, digits_));
+  out_.add(csv_line(row));
 }
 
 SweepTable::~SweepTable() {

@@ -33,14 +33,14 @@ enum class Digits { shortest, all };
 /// A cell as it stands in a CSV file (RFC 4180): a number, true/false, text in quotes where it needs them; empty if empty.
 std::string csv_text(const Cell& cell, Digits digits = Digits::shortest);
 
-/// Writes a whole table as a CSV file. Throws OutputError if it cannot be written.
-void write_csv(const std::string& file, const Table& table);
+/// Writes a table as a CSV file, whole or not at all. Throws OutputError if it cannot be written.
+void write_csv(const std::string& file, const Table& table, Digits digits = Digits::shortest);
 
 /// A CSV file with a header; every row is on the disk before add returns.
 class CsvFile {
  public:
   /// Creates the file and writes the header. Throws OutputError if it cannot be written, as add does.
-  CsvFile(std::string file, const std::vector<std::string>& columns, Digits digits = Digits::shortest);
+  CsvFile(std::string file, const std::vector<std::string>& columns);
   /// The same of a file that is there, cut to its first bytes: rows come behind them. Throws InputError if it has fewer.
   CsvFile(std::string file, const std::vector<std::string>& columns, std::uintmax_t bytes);
   void add(const Row& row);
@@ -50,7 +50,6 @@ class CsvFile {
  private:
   GrowingFile out_;
   std::size_t columns_;
-  Digits digits_;
 };
 
 // sweep.csv, written while the runs of a sweep end in any order.

@@ -153,12 +153,13 @@ TEST_CASE("a wall has no position", "[observables]") {
   Problem problem;
   problem.file = "p.toml";
   problem.observe = {observe("a", "side", Quantity::position, Component::x, Reduce::mean)};
-  problem.observe[0].place.line = 3, problem.observe[0].place.column = 1;
+  problem.observe[0].place.line = 3, problem.observe[0].place.column = 1, problem.observe[0].place.key = "observe.a";
+  problem.observe[0].place.keys["quantity"] = {5, 12};
   try {
     Observables(problem, m);
     FAIL("no error");
   } catch (const InputError& e) {
-    CHECK(std::string(e.what()) == "p.toml:3:1: observe.quantity: \"side\" is a wall; it has a reaction, gap and contacts only");
+    CHECK(std::string(e.what()) == "p.toml:5:12: observe.a.quantity: \"side\" is a wall; it has a reaction, gap and contacts only");
   }
 }
 
@@ -170,12 +171,13 @@ TEST_CASE("observables of a group that is not there or empty", "[observables]") 
                      observe("b", "none", Quantity::position, Component::x, Reduce::mean)};
   problem.observe[0].place.line = 7, problem.observe[1].place.line = 12;
   problem.observe[0].place.column = problem.observe[1].place.column = 1;
+  problem.observe[0].place.key = "observe.a", problem.observe[1].place.key = "observe.b";
   try {
     Observables(problem, m);
     FAIL("no error");
   } catch (const InputError& e) {
     CHECK(std::string(e.what()) ==
-          "p.toml:7:1: observe.group: there is no group \"nobody\"; there are all, ends, two, none, floor, side\n"
-          "p.toml:12:1: observe.group: the group \"none\" has no particle and no body; at least one is needed");
+          "p.toml:7:1: observe.a.group: there is no group \"nobody\"; there are all, ends, two, none, floor, side\n"
+          "p.toml:12:1: observe.b.group: the group \"none\" has no particle and no body; at least one is needed");
   }
 }

@@ -1208,3 +1208,11 @@ TEST_CASE("a ring that bears forces of its own is pushed as it floats, whatever 
       CHECK(run.located_rows.at("contact:2").text("what") == "ring 19 touches wall floor");
     }
 }
+
+TEST_CASE("what nothing holds at the start comes to rest before its path begins, by both methods", "[paths][grains_fall_first]") {
+  for (const std::string& method : {by_load_steps, by_arcs}) {
+    const Run run("grains_fall_first", {method});
+    CHECK_ENDS_AT(run, 1);
+    for (const TableRow& row : run.path) CHECK(row["negative"] == 0);
+  }
+}
