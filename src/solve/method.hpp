@@ -10,7 +10,8 @@
 
 namespace elamin {
 
-/// Newton's method, as the Newton that is given has it; settle() for packings of loose grains, and where Newton's method stalls beside fewer of them.
+/// Newton's method, as the Newton that is given has it, again and again while loose bodies fall farther; settle() for packings of loose grains, and where
+/// Newton's method stalls beside fewer of them.
 struct AutoOptions {};
 
 /// How a minimum is looked for.
