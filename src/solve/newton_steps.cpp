@@ -197,11 +197,9 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
   step.g = energy_.gradient();
   if (step.g.dot(step.p) > 0 && step.g.norm() > 0 && residual() > options_.tolerance) step.p = -step.p;
   step.hp = energy_.multiply(step.p);
-  step.energy = energy_.last_terms().total();
-  step.slope = std::min(0.0, step.g.dot(step.p)), step.curvature = energy_.quadratic_form(step.p);
+  step.energy = energy_.last_terms().total(), step.curvature = energy_.quadratic_form(step.p);
   step.leaves = true;
   if (!(step.curvature < 0)) return false;
-  const double farthest = free_part(state, step.p, limits::largest_rotation) * limits::largest_rotation;
   State best = state, next;
   double lowest = step.energy;
   bool left = false;
@@ -212,9 +210,14 @@ bool Newton::leave_saddle(State& state, const Vector& direction) {
     best = next, lowest = std::min(e, lowest);
     return left = true;
   };
-  for (double alpha = 1e-3; alpha <= farthest && !interrupted() && goes_down(alpha); alpha *= 2) {}       // as far as it goes down …
-  for (double alpha = 0.5e-3; !left && alpha > 1e-9; alpha /= 4)                                          // … or as far as it needs
-    if (alpha <= farthest) goes_down(alpha);
+  for (int side = 0; side < 2 && !left; ++side) {               // forces that are left below the tolerance may point away from one of them
+    if (side == 1) step.p = -step.p, step.hp = -step.hp;
+    step.slope = std::min(0.0, step.g.dot(step.p));
+    const double farthest = free_part(state, step.p, limits::largest_rotation) * limits::largest_rotation;
+    for (double alpha = 1e-3; alpha <= farthest && !interrupted() && goes_down(alpha); alpha *= 2) {}     // as far as it goes down …
+    for (double alpha = 0.5e-3; !left && alpha > 1e-9; alpha /= 4)                                        // … or as far as it needs
+      if (alpha <= farthest) goes_down(alpha);
+  }
   state = best;
   return left;
 }
