@@ -180,7 +180,7 @@ TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {
   CHECK(script_mistakes(mixing + unlike).empty());
   for (const auto& [fix, refused] : {std::pair("nve", true), {"nve/sphere", false}})    // that friction turns
     CHECK(holds(refused_motion(two + "fix 1 all " + fix + "\npair_style granular\npair_coeff * * hertz 9 1 tangential linear_nohistory 0.5 0.1\nrun 1\n"),
-                "nve turns no particle") == refused);
+                "nve rotates no particle") == refused);
   const auto older = [&](const std::string& numbers) {
     return imported(two + "fix 1 all nve/sphere\npair_style gran/hertz/history " + numbers + "\npair_coeff * *\nrun 1\n", {true, false, false}).files.toml;
   };

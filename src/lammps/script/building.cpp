@@ -341,7 +341,7 @@ void set(Interpreter& in) {
       if (!w.sphere) throw Wrong(i, "the mass of such atoms is of their type; `mass` sets it");
       each([&](Atom& a, double v) {
         if (v < 0) negative();
-        const double density = a.diameter > 0 ? v / (3.14159265358979323846 / 6 * a.diameter * a.diameter * a.diameter) : v;
+        const double density = a.diameter > 0 ? v / (pi / 6 * a.diameter * a.diameter * a.diameter) : v;
         w.change(a, a.density != density);
         a.density = density;
       });

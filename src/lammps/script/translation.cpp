@@ -92,7 +92,7 @@ class Translation {
                   {},
                   false});
       }
-      if (options_.dynamics) turning(run);
+      if (options_.dynamics) friction_rotates(run);
       contacts(k, run);
       if (k < flat_.runs && !flat_.always && !options_.dynamics) in_plane(k, run);
     }
@@ -101,8 +101,8 @@ class Translation {
     sheets();
   }
 
-  /// Friction turns what it rubs, in LAMMPS what is integrated as a sphere alone.
-  void turning(const Run& run) const {
+  /// Friction rotates what it acts on; in LAMMPS only what is integrated as a sphere.
+  void friction_rotates(const Run& run) const {
     const auto rubs = [](const auto& what) { return what.damping.find("friction = ") != std::string::npos; };
     const auto& said = run.pairs.coefficients;
     if (std::none_of(said.begin(), said.end(), rubs) &&
@@ -110,7 +110,7 @@ class Translation {
       return;
     for (const Run::Active& a : run.fixes)
       if (a.fix.style == "nve")
-        refuse(a.fix.where, "fix", "nve turns no particle, and friction does so here; nve/sphere is followed in motion (--dynamics)");
+        refuse(a.fix.where, "fix", "nve rotates no particle, and friction does so here; nve/sphere is followed in motion (--dynamics)");
   }
 
   void supports(int k, const Run& run) {
