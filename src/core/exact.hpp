@@ -65,23 +65,14 @@ struct ExactVector {
   bool operator==(const ExactVector&) const = default;
 };
 
-inline ExactVector operator-(const ExactVector& a, const ExactVector& b) {
-  ExactVector d;
-  for (int c = 0; c < 3; ++c) d.set(c, a[c] - b[c]);
-  return d;
-}
-inline ExactVector operator+(const ExactVector& a, const ExactVector& b) {
-  ExactVector d;
-  for (int c = 0; c < 3; ++c) d.set(c, a[c] + b[c]);
-  return d;
-}
+/// The vector of three such sums.
+inline ExactVector exact_vector(Exact x, Exact y, Exact z) { return {Vec3(x.hi, y.hi, z.hi), Vec3(x.lo, y.lo, z.lo)}; }
+
+inline ExactVector operator-(const ExactVector& a, const ExactVector& b) { return exact_vector(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+inline ExactVector operator+(const ExactVector& a, const ExactVector& b) { return exact_vector(a[0] + b[0], a[1] + b[1], a[2] + b[2]); }
 
 /// s v, exact.
-inline ExactVector two_product(double s, const Vec3& v) {
-  ExactVector p;
-  for (int c = 0; c < 3; ++c) p.set(c, two_product(s, v[c]));
-  return p;
-}
+inline ExactVector two_product(double s, const Vec3& v) { return exact_vector(two_product(s, v[0]), two_product(s, v[1]), two_product(s, v[2])); }
 
 /// a · b to about 30 digits of |a||b|.
 inline Exact dot(const ExactVector& a, const ExactVector& b) {

@@ -16,12 +16,7 @@ inline Exact length(const ExactVector& a) { return root(dot(a, a)); }
 
 /// a × b, each component to about 30 digits of |a||b|.
 inline ExactVector cross(const ExactVector& a, const ExactVector& b) {
-  ExactVector c;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    c.set(i, a[j] * b[k] - a[k] * b[j]);
-  }
-  return c;
+  return exact_vector(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 
 }  // namespace elamin

@@ -19,6 +19,12 @@ DRAWS_NOTHING = """
 for (const context of [WebGLRenderingContext, WebGL2RenderingContext])
   for (const draw of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced'])
     if (draw in context.prototype) context.prototype[draw] = () => {};
+const extension = WebGLRenderingContext.prototype.getExtension;
+WebGLRenderingContext.prototype.getExtension = function (name) {
+  const found = extension.call(this, name);
+  if (name === 'ANGLE_instanced_arrays' && found) found.drawArraysInstancedANGLE = found.drawElementsInstancedANGLE = () => {};
+  return found;
+};
 """
 
 

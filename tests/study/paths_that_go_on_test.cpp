@@ -240,7 +240,7 @@ TEST_CASE("a slender column is followed along its side branches", "[paths][colum
 
 TEST_CASE("the ends of a column meet and pass each other", "[paths][elastica_ends_pass]") {
   for (const int n : {20, 50})
-    for (const char* EA : {"1e6", "1e7", "1e8"}) {                 // the elastica is inextensible: 1e6 is off by 2e-5
+    for (const char* EA : {"1e6", n == 20 ? "1e7" : "1e8"}) {      // the elastica is inextensible: 1e6 is off by 2e-5
       const std::string run = " --quiet '" + case_file("elastica_ends_pass") + "' --set beam.column.axial_stiffness=" + EA + " --set " + in_steps(n);
       const ScratchDirectory scratch;
       const Answer answer = elamin_says((EA == std::string("1e6") ? "" : "verify") + run + " -o '" + (scratch / "out") + "'", 60);
@@ -1082,15 +1082,14 @@ TEST_CASE("a ring that floats between plates is pushed by one onto the other", "
       const std::vector<std::string> settings{method, in_steps(n), "loop.ring.particles=" + particles.substr(0, bar), "group.poles.ids=" + particles.substr(bar + 1)};
       std::vector<std::string> driven = settings;
       driven.push_back(lower);
-      for (const bool both : {false, true}) {
-        const Run run("ring_pushed_by_plates", both ? driven : settings);
-        CHECK_ENDS_AT(run, 1);
-        contacts_are_told(run, 1e-3);
-        REQUIRE(run.of("contact").size() >= 2);
-        CHECK(run.of("jump").empty());
-        CHECK(run.of("contact")[0]["lambda"] == Approx(0.3 / 4).epsilon(to_events));
-        CHECK(run.of("contact")[1]["lambda"] == Approx(0.4 / (both ? 5 : 4)).epsilon(to_events));
-      }
+      const bool both = (method == by_arcs) == (n == 17);
+      const Run run("ring_pushed_by_plates", both ? driven : settings);
+      CHECK_ENDS_AT(run, 1);
+      contacts_are_told(run, 1e-3);
+      REQUIRE(run.of("contact").size() >= 2);
+      CHECK(run.of("jump").empty());
+      CHECK(run.of("contact")[0]["lambda"] == Approx(0.3 / 4).epsilon(to_events));
+      CHECK(run.of("contact")[1]["lambda"] == Approx(0.4 / (both ? 5 : 4)).epsilon(to_events));
     }
 }
 

@@ -179,8 +179,8 @@ TEST_CASE("arc length with side branches, deflation and limit points goes on wit
 }
 
 TEST_CASE("what is looked for when a run is stopped is not taken for what is not there", "[resume]") {
-  stop_everywhere(arch, 30);
-  stop_everywhere(deflated, 30);
+  stop_everywhere(arch, 16);
+  stop_everywhere(deflated, 16);
   stop_everywhere(pressed_column_observed + "[study]\ntype = \"modes\"\n[modes]\ncount = 3\n", 6);
   stop_everywhere(pressed_column_observed + "[study]\ntype = \"energy\"\n", 2);
 }

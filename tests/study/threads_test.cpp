@@ -96,17 +96,17 @@ plane = "xy"
 [[sheet]]
 name = "strip"
 shape = "rectangle"
-size = [500, 8.67]
+size = [250, 8.67]
 spacing = 1
 youngs_modulus = 1
 [[group]]
 name = "left"
 of = "strip"
-inside = { shape = "block", lo = [-251, -9, -1], hi = [-249.2, 9, 1] }
+inside = { shape = "block", lo = [-126, -9, -1], hi = [-124.2, 9, 1] }
 [[group]]
 name = "right"
 of = "strip"
-inside = { shape = "block", lo = [249.2, -9, -1], hi = [251, 9, 1] }
+inside = { shape = "block", lo = [124.2, -9, -1], hi = [126, 9, 1] }
 [[group]]
 name = "middle"
 of = "strip"
@@ -115,7 +115,7 @@ inside = { shape = "block", lo = [-1, -9, -1], hi = [1, 9, 1] }
 group = "left"
 [[support]]
 group = "right"
-displacement = [-1, 0, 0]
+displacement = [-2, 0, 0]
 [[observe]]
 name = "y"
 group = "middle"
