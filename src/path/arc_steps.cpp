@@ -300,7 +300,7 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
     if (!crosses && !stands_at(current_, stop) && (deciding(c) || !stands_at(c.e, stop))) continue;
     if (!first || std::abs(stop - from) < std::abs(*first - from)) first = stop;
   }
-  if (!first) return true;
+  if (!first || (is_critical(deciding(c)) && std::abs(to - *first) <= arc_steps::same_stop * std::max(std::abs(from), std::abs(to)))) return true;
   segment.b = c.parameter;
   Equilibrium e;
   double s = 0;

@@ -179,6 +179,9 @@ bool Continuation::goes_on_behind(Event& event) {
   const bool stable_only = options_.when_unstable == WhenUnstable::jump && event.before == 0;
   const bool loses = event.before == 0 && event.after > 0, ends = event.kind == EventKind::limit && (!arcs() || stable_only);
   if (!loses && !ends) return !crosses_over(event);
+  const double left = left_of_path(event.at.point.state.load_factor);
+  if (left <= continuation::all_of_path) return end(Status::converged, fmt::format("load factor {:.10g} reached", options_.to)), false;
+  if (left < continuation::least_snap && !ends) return true;        // the end is nearer than a snap may begin
   switch (options_.when_unstable) {
     case WhenUnstable::jump: jump(event); return false;
     case WhenUnstable::stop:
@@ -190,12 +193,21 @@ bool Continuation::goes_on_behind(Event& event) {
   return !ends;
 }
 
-// A load factor just past an event, but not beyond what is to be hit.
+// A load factor just past an event, but not beyond what is to be hit, unless that is nearer than a snap may begin.
 double Continuation::beyond(double at) const {
-  double way = continuation::snap_beyond * std::abs(range());
+  double way = continuation::snap_beyond;
   for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
-    if (const double ahead = (target - at) / range(); ahead > continuation::same_load) way = std::min(way, ahead * std::abs(range()) / 2);
-  return at + std::copysign(way, range());
+    if (const double ahead = (target - at) / range(); ahead > continuation::least_snap) way = std::min(way, ahead / 2);
+  const double left = left_of_path(at);
+  return left < continuation::least_snap ? options_.to : at + way * range();
+}
+
+// The part of the path that lies behind a load factor.
+double Continuation::left_of_path(double at) const { return (options_.to - at) / range(); }
+
+// Where a snap has led to the end of the path, all that a branch may stop at lies behind.
+void Continuation::end_at_end(double load) {
+  if (left_of_path(load) <= continuation::all_of_path) end(Status::converged, fmt::format("load factor {:.10g} reached", options_.to));
 }
 
 // Where one equilibrium of a family comes to a contact the path goes on from another one: no event, which one it was is the steps' choice.
@@ -215,8 +227,10 @@ bool Continuation::crosses_over(const Event& event) {
   held.zero_modes = side_by_side(held.zero_modes, event.modes);
   Equilibrium other = continue_to(newton_, held, beyond(event.at.point.state.load_factor));
   if (!other.point.report.converged() || other.point.stability.negative > 0) return false;
+  const double load = other.point.state.load_factor;
   begin_anew(other);
   emit(std::move(other.point));
+  end_at_end(load);
   return true;
 }
 
@@ -253,8 +267,10 @@ void Continuation::begin_at(Equilibrium& at) {
 
 // The path goes on from where it has snapped to.
 void Continuation::land(Equilibrium at, const std::string& what, int before, const std::string& parent) {
+  const double load = at.point.state.load_factor;
   begin_anew(at);
   emit_landing(std::move(at.point), what, before, parent);
+  end_at_end(load);
 }
 
 // The branch cannot be followed any further, or there is nothing left to hit.
@@ -298,6 +314,7 @@ bool Continuation::snap(std::string& why) {
     if (searched) note(fmt::format("steps cannot tell what happens between load factors {:.10g} and {:.10g}; the branch goes on", at, target));
     begin_anew(landed);
     emit(std::move(landed.point));
+    end_at_end(target);
     return true;
   }
   note(fmt::format("the branch ends at load factor {:.10g} in an event that {} located: snap from energy {:.10g} to {:.10g}",

@@ -44,6 +44,8 @@ class Continuation : public Path {
   std::optional<Resume> resume_here(const Waypoint& waypoint) const;
   bool goes_on_behind(Event& event);
   double beyond(double at) const;
+  double left_of_path(double at) const;
+  void end_at_end(double load);
   [[nodiscard]] bool slides_away(Equilibrium at);
   [[nodiscard]] bool crosses_over(const Event& event);
   void jump(const Event& event);

@@ -92,6 +92,7 @@ constexpr double least_bent = 1e-6;  // … and the shortest that bends are a re
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
+constexpr double same_stop = 1e-12;  // of the load factor: a limit point or branch point so near to a stop tells more than that
 constexpr double standing = 1e-6;  // of the step: a kink may be where the branch stands
 constexpr double load_rounding = 16 * epsilon;  // of load factors that were summed up
 constexpr int cubic_halvings = 20;  // that find where Hermite's cubic passes a load factor
@@ -114,6 +115,9 @@ constexpr double past_contact = 0.01;  // of a step: where the tangent behind a 
 constexpr int patience = 32;  // steps that are refused, of a path that may snap and whose contacts nobody asks for, on less than …
 constexpr double creep = 1.0 / 64;  // … this part of a step
 constexpr int caught = patience;  // what counts for as many: one step, refused where what floats is caught, as shorter ones would be, too
+constexpr double longer = 1.13;  // of a step that ends on an event by chance: it is looked for within a step so much longer, …
+constexpr double vanished = 1e-6;  // of the softest eigenvalue where it begins
+constexpr double on_target = 1e-6;  // … and is that event if it is so near, in parts of the step
 constexpr int fine = 6;  // halvings after which bends are no reason to halve again
 constexpr double most_bend = 0.3;  // of a step, from the mean of the tangents at both ends
 constexpr int most_iterations = 6;  // of the corrector, of a step that is not halved for that: quadratic convergence from the size of a bond's rotation to rounding
@@ -171,6 +175,10 @@ constexpr double little = 1e-4;  // of the way: over which a gap's rate is taken
 /// What comes after events.
 namespace continuation {
 constexpr double snap_beyond = 1e-3;  // of the range of load factors: where a snap begins
+/// Of the range: a snap from a branch point begins no nearer to it. The minimum beside an unstable equilibrium so far behind it is lower by the square of that, in parts
+/// of the energy: 1e-12, which rounding still tells.
+constexpr double least_snap = 1e-6;
+constexpr double all_of_path = 1e-12;  // of the range: a load factor so near to the end is the end
 constexpr double same_load = 1e-9;  // of the range: load factors that are one, as exactly as events are located
 constexpr double same_point = 1e-6;  // of the structure's displacement scale: one branch point met twice
 constexpr double collapsed_bond = 1e-6;  // of the rest length: there its energy has a kink, and a branch its end

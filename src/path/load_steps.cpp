@@ -96,6 +96,12 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   if (!correct && !searches() && !current_.floats)         // the snap is the minimisation
     correct = [this](State& state) { return newton_.correct(state, current_.zero_modes, &current_.point.state, equilibrium::most_iterations); };
   std::optional<Candidate> c = corrected(current_, target, why, correct);
+  if (c && ends_on_event(*c)) {
+    std::optional<Candidate> longer = corrected(current_, here + load_steps::longer * (target - here), why, correct);
+    if (longer) longer = with_events(std::move(*longer), why);
+    if (!longer) return why = "it ends on an event by chance", std::nullopt;
+    if (!longer->events.empty() && (longer->parameter - target) * sign_ <= load_steps::on_target * std::abs(target - here)) return longer;
+  }
   const bool pushed = c && ((current_.slack && c->e.slack) || current_.pushed || c->e.pushed);
   if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !pushed &&
       bends(newton_.energy().kinematics(), current_, c->e, load_steps::most_bend))
@@ -109,6 +115,14 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   Equilibrium held = current_;
   held.zero_modes = side_by_side(held.zero_modes, critical_);
   return reach_load(held, target, why);
+}
+
+// Whether an eigenvalue vanishes, beside where the step begins or the next ones, just where a step ends: at a limit point as nearly as load factors tell, of whose rounding it is the root.
+bool LoadSteps::ends_on_event(const Candidate& c) const {
+  if (!searches() || c.e.slack || c.e.pushed || singular_) return false;
+  const Vector &before = current_.soft_values, &after = c.e.soft_values;
+  const bool vanishes = after.size() > 0 && after.minCoeff() < load_steps::vanished * (before.size() > 0 ? before.minCoeff() : after.maxCoeff());
+  return vanishes || (c.e.point.stability.critical > 0 && c.e.zero_modes.cols() > current_.zero_modes.cols());
 }
 
 // Whether two limit points may lie within a step from a stable equilibrium to another one, between which the load factor goes back. Before a limit point at λ_c the

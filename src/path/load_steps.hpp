@@ -29,6 +29,7 @@ class LoadSteps final : public Branch {
   [[nodiscard]] std::optional<Candidate> reach(double target, std::string& why);
   [[nodiscard]] std::optional<Candidate> meet(double target);
   bool way_is_free(double target) const;
+  bool ends_on_event(const Candidate& c) const;
   bool may_hide_limits(const Candidate& c);
   Waypoint accept(Candidate c);
   void set_out_on_detour();

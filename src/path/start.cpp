@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 namespace elamin {
 
 Equilibrium first_equilibrium(Newton& newton, const State& start, double load_factor, WhenUnstable when_unstable, bool stored,
@@ -22,6 +25,7 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
   newton.energy().evaluate(state);
   const bool falls = !falling(newton.energy()).empty();         // what nothing holds has no branch to be on before it has come to rest
   Report report = falls ? Report{} : newton.correct(state);
+  std::optional<Equilibrium> saddle;
   if (report.converged()) {
     Equilibrium e = assess(newton, state, report);
     // Along a motion that costs nothing a correction is the quotient of two roundings.
@@ -29,11 +33,16 @@ Equilibrium first_equilibrium(Newton& newton, const State& start, double load_fa
       if (const Report again = newton.correct(still, e.zero_modes); again.converged()) e = assess(newton, still, again);
     if (e.point.stability.negative == 0 || when_unstable != WhenUnstable::jump) return e;
     note = fmt::format("the starting state is unstable ({} negative eigenvalues); it goes down to a minimum", e.point.stability.negative);
+    saddle = std::move(e);
   } else {
     state = given;
   }
   report = descend ? descend(state) : newton.minimise(state);
   if (report.converged()) return assess(newton, state, report);
+  if (saddle && report.status == Status::not_converged && report.residual <= newton.tolerance()) {
+    note = fmt::format("the starting state is unstable ({} negative eigenvalues), but so little that no lower one beside it can be told from it", saddle->point.stability.negative);
+    return *saddle;
+  }
   Equilibrium failed;
   failed.point.state = state;
   report.why = fmt::format("no equilibrium at the start, load factor {:.10g}: {}", load_factor, report.why);
