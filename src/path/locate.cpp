@@ -223,6 +223,8 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     if (std::optional<Sample> free = search(true)) event = finished(*free, true), zero = std::move(free);
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   else event.passing = event.modes * (event.modes.transpose() * newton.energy().kinematics().difference(just_before, zero->e.point.state));
+  // As many eigenvalues are negative there as on the side that has fewer; more, and it is on another branch.
+  if (event.at.point.stability.negative - event.modes.cols() > std::min(before, after)) return {};
   return done(std::move(event), zero->t);
 }
 
@@ -278,7 +280,7 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
 std::vector<Event> locate_user_events(const std::vector<UserEvent>& user_events, const std::vector<double>& sides, const Segment& segment,
                                   const Equilibrium& a, const Equilibrium& b, int negative, bool& missed) {
   std::vector<Event> first;
-  const double together = limits::branch::coincide * std::abs(segment.b - segment.a);
+  const double width = segment.b - segment.a;
   for (std::size_t k = 0; k < user_events.size(); ++k) {
     const UserEvent& w = user_events[k];
     const auto f = [&](const Equilibrium& e) { return w.observable(e.point.state) - w.value; };
@@ -293,9 +295,9 @@ std::vector<Event> locate_user_events(const std::vector<UserEvent>& user_events,
     }
     event->kind = EventKind::user, event->user_event = static_cast<int>(k), event->what = w.name;
     event->before = event->after = negative;
-    const double lead = first.empty() ? 0.0 : event->at_parameter - first.front().at_parameter;
-    if (lead > together) continue;
-    if (lead < -together) first.clear();
+    const double behind = first.empty() ? 0.0 : (event->at_parameter - first.front().at_parameter) / width;
+    if (behind > limits::branch::coincide) continue;
+    if (behind < -limits::branch::coincide) first.clear();
     first.push_back(std::move(*event));
   }
   return first;

@@ -6,6 +6,7 @@
 #include "study/results_of.hpp"
 #include "study/truss.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -1214,4 +1215,76 @@ TEST_CASE("what nothing holds at the start comes to rest before its path begins,
     CHECK_ENDS_AT(run, 1);
     for (const TableRow& row : run.path) CHECK(row["negative"] == 0);
   }
+}
+
+TEST_CASE("an instability that lies on a load step is told, whatever the steps", "[paths][column_critical_on_grid][truss_limit_on_grid]") {
+  for (const std::string& method : {by_load_steps, by_arcs})
+    for (const int n : {2, 6, 10, 24}) {
+      const Run column("column_critical_on_grid", {method, snaps, in_steps(n)});
+      CHECK_ENDS_AT(column, 2);
+      REQUIRE(column.of("branch").size() == 2);
+      CHECK(column.of("branch")[0]["lambda"] == Approx(1).epsilon(to_events));
+      CHECK(column.of("jump").size() == 2);
+      const Run toggle("truss_limit_on_grid", {method, snaps, in_steps(n)});
+      CHECK_ENDS_AT(toggle, 2);
+      REQUIRE(toggle.of("limit").size() == 1);
+      CHECK(toggle.of("limit")[0]["lambda"] == Approx(1).epsilon(to_events));
+      CHECK(toggle.of("jump").size() == 1);
+    }
+}
+
+// The end may be the branch point itself, or so near behind it that the two minima beside the straight state cannot be told from that.
+TEST_CASE("a path that ends where it loses its stability ends there", "[paths][column_critical_on_grid]") {
+  const double critical = 9.788792561429094;
+  for (const double behind : {0.0, 2e-9, 1e-8})
+    for (const std::string& method : {by_load_steps, by_arcs})
+      for (const std::string& then : {snaps, follows}) {
+        const std::string load = fmt::format("load.1.force=[0,0,{:.17g}]", -critical * (1 + behind));
+        const Run run("column_critical_on_grid", {method, then, "path.to=1", in_steps(behind > 0 ? 4 : 7), load});
+        INFO(run.what << run.answer.text << run.told());
+        CHECK(run.answer.status == 0);
+        REQUIRE(run.of("branch").size() == 1);
+        CHECK(run.of("branch")[0]["lambda"] == Approx(1 / (1 + behind)).epsilon(to_events));
+        CHECK(run.of("jump").empty());
+        for (const TableRow& row : run.path) CHECK(row["lambda"] <= 1 + 1e-12);
+        CHECK(std::abs(run.end() - 1) <= 1e-12);
+      }
+}
+
+TEST_CASE("a snap passes the next load step where that is too near to begin there", "[paths][column_critical_on_grid]") {
+  for (const int n : {2, 4, 20}) {
+    const Run run("column_critical_on_grid", {by_load_steps, in_steps(n), "load.1.force=[0,0,-9.788792610373057]"});
+    CHECK_ENDS_AT(run, 2);
+    REQUIRE(run.of("branch").size() == 2);
+    CHECK(run.of("branch")[0]["lambda"] == Approx(1 - 5e-9).epsilon(to_events));
+    CHECK(run.of("jump").size() == 2);
+  }
+}
+
+TEST_CASE("a column that is pushed next to nothing far beyond its critical load has no event", "[paths][column_pushed_far_beyond]") {
+  const Run fine("column_pushed_far_beyond", {by_load_steps, in_steps(60)});
+  CHECK_ENDS_AT(fine, 1);
+  CHECK(fine.events.empty());
+  for (const std::string& method : {by_load_steps, by_arcs})
+    for (const int n : {10, 20, 40}) {
+      const Run run("column_pushed_far_beyond", {method, in_steps(n)});
+      CHECK_ENDS_AT(run, 1);
+      CHECK(run.events.empty());
+      CHECK(run.path.back()["w"] == Approx(fine.path.back()["w"]).epsilon(to_events));
+    }
+}
+
+TEST_CASE("of two events on one step the first is told first, on the way back, too", "[paths][events_on_the_way_back]") {
+  for (const std::string& method : {by_load_steps, by_arcs})
+    for (const int n : {4, 8, 20}) {
+      const Run run("events_on_the_way_back", {method, in_steps(n)});
+      CHECK_ENDS_AT(run, 0);
+      INFO(run.told());
+      REQUIRE(run.events.size() == 4);
+      const std::pair<const char*, double> expected[] = {{"half:1", 0.25}, {"other:1", 0.3}, {"other:2", 0.3}, {"half:2", 0.25}};
+      for (int k = 0; k < 4; ++k) {
+        CHECK(run.events[k].text("label") == expected[k].first);
+        CHECK(run.events[k]["lambda"] == Approx(expected[k].second).epsilon(to_events));
+      }
+    }
 }
