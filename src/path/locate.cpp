@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace elamin {
 
@@ -312,6 +313,31 @@ void pass_user_events(const std::vector<UserEvent>& user_events, const std::vect
   }
 }
 
+namespace {
+
+// The equilibrium at a load factor beside a branch point, on the branch of which all but the amplitude along the critical mode is known. What that is off by may be
+// more than all that moves on the branch from here, so that no tangent tells the way; and of what is slender and all but critical the residual hardly tells how far
+// off a state is, but Newton's steps do, as long as they shrink.
+Equilibrium at_rest_beside(Newton& newton, const Equilibrium& at, double load_factor) {
+  Energy& energy = newton.energy();
+  State state = at.point.state;
+  energy.kinematics().prescribe(state, load_factor);
+  energy.kinematics().retract(state, at.tangent, load_factor - at.point.state.load_factor);
+  const Report report = newton.correct(state, at.zero_modes, &at.point.state, equilibrium::most_iterations);
+  if (!report.converged()) return {};
+  for (double last = std::numeric_limits<double>::infinity();;) {
+    energy.evaluate(state);
+    if (!newton.factors().factorize_holding(at.zero_modes)) return {};
+    const Vector step = -newton.factors().solve_holding(energy.gradient());
+    if (step.norm() == 0 || !(step.norm() <= last / 2)) break;
+    energy.kinematics().retract(state, step);
+    last = step.norm();
+  }
+  return energy.collision_free_step(at.point.state, state) == 1 ? assess(newton, state, report) : Equilibrium{};
+}
+
+}  // namespace
+
 std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, const Equilibrium& a, const Equilibrium& b,
                                     const std::function<double(const Equilibrium&)>& slope) {
   Energy& energy = newton.energy();
@@ -349,8 +375,10 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
   at.zero_modes = known;                                       // beside the point the critical mode is free, and comes to rest
   double part = 0.1 * std::max(std::abs(a.point.state.load_factor - load), std::abs(b.point.state.load_factor - load));
   for (int k = 0; k < 8; ++k, part *= 2) {
-    Equilibrium before = continue_to(newton, at, load - part), after = continue_to(newton, at, load + part);
-    if (!before.point.report.converged() || !after.point.report.converged()) return {};
+    const Equilibrium before = at_rest_beside(newton, at, load - part);
+    if (!before.point.report.converged()) return {};
+    const Equilibrium after = continue_to(newton, before, load + part);
+    if (!after.point.report.converged()) return {};
     if (before.point.stability.negative == after.point.stability.negative) continue;
     const Segment along = segment_of_loads(newton, load - part, load + part);
     std::optional<Event> event = locate_crossing(newton, along, before, before.point.stability.negative, after, {});

@@ -1288,3 +1288,29 @@ TEST_CASE("of two events on one step the first is told first, on the way back, t
       }
     }
 }
+
+// Of one that is straight, reversed, all load factors are those of the other one with the other sign.
+TEST_CASE("a side branch of a column of few links arrives at the straight one, reversed or not", "[paths][column_side_branch_returns]") {
+  for (const int n : {5, 16}) {
+    const Run run("column_side_branch_returns", {in_steps(n)});
+    INFO(run.what << run.answer.text << run.told());
+    CHECK(run.answer.status == 0);
+    CHECK(run.end() == Approx(1).epsilon(to_events));            // it ends where it began: the other half is the way back
+    CHECK(run.branches() == 1);
+    REQUIRE(run.events.size() == 14);
+    const auto load = [&](std::size_t k) { return run.events[k]["lambda"]; };
+    CHECK(load(0) == Approx(1).epsilon(to_events));
+    for (std::size_t k = 0; k < 7; ++k) CHECK(load(k + 7) == Approx(-load(k)).epsilon(to_events));
+    CHECK(run.located_rows.at(run.events[7].text("label")).text("what") == "reached along a side branch");
+  }
+  for (const int n : {41, 132}) {
+    const Run run("column_side_branch_arrives", {in_steps(n)});
+    INFO(run.what << run.answer.text << run.told());
+    CHECK(run.answer.status == 0);
+    CHECK(run.end() == Approx(1).epsilon(to_events));            // it ends where it began: the other half is the way back
+    CHECK(run.branches() == 1);
+    REQUIRE(run.of("branch").size() == 5);
+    CHECK(run.events[3]["lambda"] == Approx(2.6864718346322958).epsilon(to_events));
+    CHECK(run.located_rows.at(run.events[3].text("label")).text("what") == "reached along a side branch");
+  }
+}
