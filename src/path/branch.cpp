@@ -255,6 +255,15 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
     if (!earlier || !(std::abs(earlier->at_parameter - segment.a) < (1 - contact_event::together_in_step) * std::abs(segment.b - segment.a))) break;
     change = std::move(earlier);
   }
+  // What changes at the end of the step may have hidden that another one passes before.
+  if (contacts_ && !current_.slack && change && change->found) {
+    Candidate before{.parameter = change->at_parameter, .e = change->at};
+    segment.b = before.parameter;
+    if (stop_where_contact_passes(segment, before)) {
+      segment.b = before.parameter;
+      if (std::optional<ContactChange> first = locate_contact(newton_, segment, closed_, current_, before.e)) change = std::move(first);
+    }
+  }
   if (!change && !passes) return true;
   if (!change || !change->found) return why = "a contact that is made or lost could not be located", false;
   c.parameter = change->at_parameter;
@@ -327,8 +336,11 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   if (after != negative_) {
     event = locate_crossing(newton_, segment, current_, negative_, c.e, c.natural ? std::nullopt : std::optional(turns));
     if (event && !explained(*event, segment, c)) event.reset();
-  } else if (rises(current_) == sign_) {
+  }
+  // Where a side branch arrives at a double branch point the other mode may have another sign on its other half, as of a structure of odd symmetry.
+  if (!event && turns && rises(current_) == sign_) {
     event = locate_arrival(newton_, segment, current_, c.e, segment.load_rate);
+    if (event && after != negative_ && event->modes.cols() < 2) event.reset();
   }
   if (!event || event->modes.cols() == 0)
     return why = "the Morse index changes, but there is no limit point and no branch point between: two branches pass by each other", false;

@@ -194,8 +194,8 @@ bool Continuation::goes_on_behind(Event& event) {
 }
 
 // A load factor just past an event, but not beyond what is to be hit, unless that is nearer than a snap may begin.
-double Continuation::beyond(double at) const {
-  double way = continuation::snap_beyond;
+double Continuation::beyond(double at, double most) const {
+  double way = most;
   for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
     if (const double ahead = (target - at) / range(); ahead > continuation::least_snap) way = std::min(way, ahead / 2);
   const double left = left_of_path(at);
@@ -225,8 +225,12 @@ bool Continuation::crosses_over(const Event& event) {
   if (arc_steps().direction().load * range() >= 0) return false;
   Equilibrium held = event.at;
   held.zero_modes = side_by_side(held.zero_modes, event.modes);
-  Equilibrium other = continue_to(newton_, held, beyond(event.at.point.state.load_factor));
-  if (!other.point.report.converged() || other.point.stability.negative > 0) return false;
+  const double here = event.at.point.state.load_factor;
+  double way = beyond(here, continuation::snap_beyond.back()) - here;
+  Equilibrium other = continue_to(newton_, held, here + way);
+  // What is all but critical, too, may bend more on this way than its tangent tells: then nearer.
+  for (int k = 0; k < continuation::most_nearer && !other.point.report.converged(); ++k) other = continue_to(newton_, held, here + (way /= 4));
+  if (!other.point.report.converged() || other.point.stability.negative > 0) return jump(event), true;
   const double load = other.point.state.load_factor;
   begin_anew(other);
   emit(std::move(other.point));
@@ -238,7 +242,11 @@ bool Continuation::crosses_over(const Event& event) {
 void Continuation::jump(const Event& event) {
   std::string what;
   family_ = std::max(family_, static_cast<int>(event.modes.cols()) - 1);
-  Equilibrium landed = jump_from(newton_, event, beyond(event.at.point.state.load_factor), what);
+  Equilibrium landed;
+  for (const double way : continuation::snap_beyond) {
+    landed = jump_from(newton_, event, beyond(event.at.point.state.load_factor, way), what);
+    if (landed.point.report.status != Status::not_converged) break;
+  }
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
   if (!landed.point.report.converged()) return end(landed.point.report.status, landed.point.report.why);
   land(std::move(landed), what, event.before, event.at.point.label);
@@ -300,7 +308,7 @@ bool Continuation::comes_back(const Equilibrium& landed, const Equilibrium& from
 // that is reached by going down from there, beyond.
 bool Continuation::snap(std::string& why) {
   const Equilibrium last = steps_->at();
-  const double at = last.point.state.load_factor, target = arcs() ? beyond(at) : load_steps().goal();
+  const double at = last.point.state.load_factor, target = arcs() ? beyond(at, continuation::snap_beyond.back()) : load_steps().goal();
   State state = last.point.state;
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().collision_free_step(last.point.state, state) < 1) return false;

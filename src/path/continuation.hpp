@@ -43,7 +43,7 @@ class Continuation : public Path {
   void show(Waypoint waypoint);
   std::optional<Resume> resume_here(const Waypoint& waypoint) const;
   bool goes_on_behind(Event& event);
-  double beyond(double at) const;
+  double beyond(double at, double most) const;
   double left_of_path(double at) const;
   void end_at_end(double load);
   [[nodiscard]] bool slides_away(Equilibrium at);

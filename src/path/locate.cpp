@@ -363,11 +363,15 @@ std::optional<Event> locate_arrival(Newton& newton, const Segment& segment, cons
   energy.evaluate(state);
   Equilibrium at = lower.e;
   at.point.state = state;
-  const int count = a.point.stability.negative + 1;
+  // All that vanishes there is held: what a double branch point has besides is singular, too.
+  const int count = a.point.stability.negative + 1 + locate::more_modes;
+  const auto least = [&](Equilibrium e) { return lowest_but(newton, e, known, count).values.cwiseAbs().minCoeff(); };
+  const double ends = std::max(least(a), least(b));
   const EigenPairs pairs = lowest_but(newton, at, known, count);
-  Eigen::Index critical = 0;
-  pairs.values.cwiseAbs().minCoeff(&critical);
-  const Eigen::MatrixXd held = side_by_side(known, pairs.vectors.col(critical));
+  const double most = std::max(pairs.values.cwiseAbs().minCoeff(), locate::vanished * ends);
+  Eigen::MatrixXd held = known;
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j)
+    if (std::abs(pairs.values[j]) <= most) held = side_by_side(held, pairs.vectors.col(j));
   const Report report = newton.correct(state, held);
   if (!report.converged()) return {};
   at = assess(newton, state, report);

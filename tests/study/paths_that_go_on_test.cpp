@@ -1314,3 +1314,39 @@ TEST_CASE("a side branch of a column of few links arrives at the straight one, r
     CHECK(run.located_rows.at(run.events[3].text("label")).text("what") == "reached along a side branch");
   }
 }
+
+// Links of the length l (1 − ε) buckle under the force  EA ε = 4 k/(l (1 − ε)) sin²(π/20),  k = EI/l the stiffness of an angle.
+TEST_CASE("a stable path goes on to its end where it meets a straight branch beside a twin that is all but critical", "[paths][columns_twins_unload]") {
+  const double links = 4e-3 * std::pow(std::sin(pi / 20), 2), critical = (1 - std::sqrt(1 - 4 * links)) / 2 / 0.0009869604401089359;
+  for (const std::string push : {"9.869604401089357e-06", "1e-8"})
+    for (const int n : {5, 21}) {
+      const Run run("columns_twins_unload", {in_steps(n), "load.1.force=[" + push + ",0,0]"});
+      CHECK_ENDS_AT(run, 0);
+      REQUIRE(run.events.size() == 3);
+      CHECK(kind_of(run.events[1]) == "jump");
+      CHECK(run.located_rows.at("branch:2").text("what") == "reached along a side branch");
+      for (const char* branch : {"branch:1", "branch:2"}) CHECK(run.located_rows.at(branch)["lambda"] == Approx(critical).epsilon(to_events));
+      CHECK(run.path.back()["wa"] == Approx(1.02 / 48 * std::stod(push)).epsilon(1e-6));
+      CHECK(std::abs(std::strtod(run.path.back().text("wb").c_str(), nullptr)) < 1e-12);      // it may be too small for a double
+    }
+}
+
+// With an odd number of bars the mode that turns the way it sways has another sign on the other half of a side branch.
+TEST_CASE("the side branches of a double branch point arrive at another one", "[paths][pod_sways]") {
+  for (const int bars : {4, 5})
+    for (const int n : {5, 40, 173}) {
+      std::string positions = "[";
+      for (int k = 0; k < bars; ++k)
+        positions += fmt::format("[{:.17g},{:.17g},0],", std::cos(68 * pi / 180) * std::cos(0.2 + 2 * pi * k / bars), std::cos(68 * pi / 180) * std::sin(0.2 + 2 * pi * k / bars));
+      positions += fmt::format("[0,0,{:.17g}]]", std::sin(68 * pi / 180));
+      const Run run("pod_sways", {in_steps(n), "grains.g.positions=" + positions, fmt::format("group.feet.first={}", bars), fmt::format("load.1.force=[0,0,{:.17g}]", -0.3049687782576506 / 4 * bars)});
+      INFO(run.what << run.answer.text << run.told());
+      CHECK(run.answer.status == 0);
+      REQUIRE(run.events.size() >= 2);
+      for (const TableRow& event : run.events) {
+        CHECK(kind_of(event) == "branch");
+        CHECK(std::abs(event["lambda"]) == Approx(1).epsilon(to_events));
+        CHECK(run.located_rows.at(event.text("label"))["multiplicity"] == 2);
+      }
+    }
+}
