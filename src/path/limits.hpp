@@ -92,7 +92,7 @@ constexpr double least_bent = 1e-6;  // … and the shortest that bends are a re
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance
 constexpr int halvings_at_first = 8;  // then steps are quartered
 constexpr double least_length = 1e-6;  // of the extent: L where nothing moves
-constexpr double same_stop = 1e-12;  // of the load factor: a limit point or branch point so near to a stop tells more than that
+constexpr double same_stop = 1e-9;  // of the load factor, as exactly as events are located: a limit point or branch point so near to a stop tells more than that
 constexpr double standing = 1e-6;  // of the step: a kink may be where the branch stands
 constexpr double load_rounding = 16 * epsilon;  // of load factors that were summed up
 constexpr int cubic_halvings = 20;  // that find where Hermite's cubic passes a load factor
@@ -174,7 +174,7 @@ constexpr double little = 1e-4;  // of the way: over which a gap's rate is taken
 
 /// What comes after events.
 namespace continuation {
-constexpr std::array<double, 2> snap_beyond{1e-5, 1e-3};  // of the range of load factors: where a snap begins; farther where it cannot begin so near
+constexpr std::array<double, 2> snap_beyond{1e-4, 1e-3};  // of the range of load factors: where a snap begins, x ∝ √(λ − λ*) there being known to 1e-12; farther where it cannot begin so near
 /// Of the range: a snap from a branch point begins no nearer to it. The minimum beside an unstable equilibrium so far behind it is lower by the square of that, in parts
 /// of the energy: 1e-12, which rounding still tells.
 constexpr double least_snap = 1e-6;

@@ -99,8 +99,8 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   if (c && ends_on_event(*c)) {
     std::optional<Candidate> longer = corrected(current_, here + load_steps::longer * (target - here), why, correct);
     if (longer) longer = with_events(std::move(*longer), why);
-    if (!longer) return why = "it ends on an event by chance", std::nullopt;
-    if (!longer->events.empty() && (longer->parameter - target) * sign_ <= load_steps::on_target * std::abs(target - here)) return longer;
+    if (!longer && (c->e.point.stability.critical > 0 || c->e.point.stability.zero == 0)) return why = "it ends on an event by chance", std::nullopt;
+    if (longer && !longer->events.empty() && (longer->parameter - target) * sign_ <= load_steps::on_target * std::abs(target - here)) return longer;
   }
   const bool pushed = c && ((current_.slack && c->e.slack) || current_.pushed || c->e.pushed);
   if (c && grid_.halvings() < load_steps::fine && may_touch(newton_.energy().model()) && !singular_ && !pushed &&
@@ -122,7 +122,7 @@ bool LoadSteps::ends_on_event(const Candidate& c) const {
   if (!searches() || c.e.slack || c.e.pushed || singular_) return false;
   const Vector &before = current_.soft_values, &after = c.e.soft_values;
   const bool vanishes = after.size() > 0 && after.minCoeff() < load_steps::vanished * (before.size() > 0 ? before.minCoeff() : after.maxCoeff());
-  return vanishes || (c.e.point.stability.critical > 0 && c.e.zero_modes.cols() > current_.zero_modes.cols());
+  return vanishes || c.e.zero_modes.cols() > current_.zero_modes.cols();
 }
 
 // Whether two limit points may lie within a step from a stable equilibrium to another one, between which the load factor goes back. Before a limit point at λ_c the
