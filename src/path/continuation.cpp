@@ -151,7 +151,7 @@ void Continuation::show(Waypoint waypoint) {
   if (!arcs()) return;
   if (waypoint.stop) {
     const double stop = *waypoint.stop;
-    if (stop == options_.to) return end(Status::converged, fmt::format("load factor {:.10g} reached", stop));
+    if (stop == options_.to) return end_reached();
     if (std::find(options_.stops.begin(), options_.stops.end(), stop) == options_.stops.end())
       return end(Status::converged, fmt::format("the branch leaves the range of load factors at {:.10g}", stop));
   }
@@ -178,10 +178,11 @@ bool Continuation::goes_on_behind(Event& event) {
   // Where the load factor turns at a contact the branch may be stable on both sides, but goes back: a path of stable states cannot take it.
   const bool stable_only = options_.when_unstable == WhenUnstable::jump && event.before == 0;
   const bool loses = event.before == 0 && event.after > 0, ends = event.kind == EventKind::limit && (!arcs() || stable_only);
+  const double load = event.at.point.state.load_factor;
+  const bool stops = loses && options_.when_unstable == WhenUnstable::stop;
+  if (event.kind != EventKind::contact && !stops && at_end(load)) return end_reached(), false;
   if (!loses && !ends) return !crosses_over(event);
-  const double left = left_of_path(event.at.point.state.load_factor);
-  if (left <= continuation::all_of_path) return end(Status::converged, fmt::format("load factor {:.10g} reached", options_.to)), false;
-  if (left < continuation::least_snap && !ends) return true;        // the end is nearer than a snap may begin
+  if (left_of_path(load) < continuation::least_snap && !ends && !stops) return true;        // the end is nearer than a snap may begin
   switch (options_.when_unstable) {
     case WhenUnstable::jump: jump(event); return false;
     case WhenUnstable::stop:
@@ -205,10 +206,10 @@ double Continuation::beyond(double at, double most) const {
 // The part of the path that lies behind a load factor.
 double Continuation::left_of_path(double at) const { return (options_.to - at) / range(); }
 
-// Where a snap has led to the end of the path, all that a branch may stop at lies behind.
-void Continuation::end_at_end(double load) {
-  if (left_of_path(load) <= continuation::all_of_path) end(Status::converged, fmt::format("load factor {:.10g} reached", options_.to));
-}
+// Where the path has snapped to its end, or has an event there, all that a branch may stop at lies behind.
+bool Continuation::at_end(double load) const { return left_of_path(load) <= continuation::all_of_path; }
+
+void Continuation::end_reached() { end(Status::converged, fmt::format("load factor {:.10g} reached", options_.to)); }
 
 // Where one equilibrium of a family comes to a contact the path goes on from another one: no event, which one it was is the steps' choice.
 bool Continuation::slides_away(Equilibrium at) {
@@ -234,7 +235,7 @@ bool Continuation::crosses_over(const Event& event) {
   const double load = other.point.state.load_factor;
   begin_anew(other);
   emit(std::move(other.point));
-  end_at_end(load);
+  if (at_end(load)) end_reached();
   return true;
 }
 
@@ -278,7 +279,7 @@ void Continuation::land(Equilibrium at, const std::string& what, int before, con
   const double load = at.point.state.load_factor;
   begin_anew(at);
   emit_landing(std::move(at.point), what, before, parent);
-  end_at_end(load);
+  if (at_end(load)) end_reached();
 }
 
 // The branch cannot be followed any further, or there is nothing left to hit.
@@ -322,7 +323,7 @@ bool Continuation::snap(std::string& why) {
     if (searched) note(fmt::format("steps cannot tell what happens between load factors {:.10g} and {:.10g}; the branch goes on", at, target));
     begin_anew(landed);
     emit(std::move(landed.point));
-    end_at_end(target);
+    if (at_end(target)) end_reached();
     return true;
   }
   note(fmt::format("the branch ends at load factor {:.10g} in an event that {} located: snap from energy {:.10g} to {:.10g}",

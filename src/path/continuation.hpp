@@ -45,7 +45,8 @@ class Continuation : public Path {
   bool goes_on_behind(Event& event);
   double beyond(double at, double most) const;
   double left_of_path(double at) const;
-  void end_at_end(double load);
+  bool at_end(double load) const;
+  void end_reached();
   [[nodiscard]] bool slides_away(Equilibrium at);
   [[nodiscard]] bool crosses_over(const Event& event);
   void jump(const Event& event);

@@ -117,7 +117,7 @@ std::optional<Branch::Candidate> LoadSteps::reach(double target, std::string& wh
   return reach_load(held, target, why);
 }
 
-// Whether an eigenvalue vanishes, beside where the step begins or the next ones, just where a step ends: at a limit point as nearly as load factors tell, of whose rounding it is the root.
+// Whether an eigenvalue vanishes just where a step ends; at a limit point as nearly as the root of the load factor's rounding tells.
 bool LoadSteps::ends_on_event(const Candidate& c) const {
   if (!searches() || c.e.slack || c.e.pushed || singular_) return false;
   const Vector &before = current_.soft_values, &after = c.e.soft_values;
