@@ -255,7 +255,7 @@ bool Branch::find_contact(Segment segment, Candidate& c, std::string& why) {
     if (!earlier || !(std::abs(earlier->at_parameter - segment.a) < (1 - contact_event::together_in_step) * std::abs(segment.b - segment.a))) break;
     change = std::move(earlier);
   }
-  // What changes at the end of the step may have hidden that another one passes before.
+  // What changes at the end of the step may hide another contact that is made and lost before.
   if (contacts_ && !current_.slack && change && change->found) {
     Candidate before{.parameter = change->at_parameter, .e = change->at};
     segment.b = before.parameter;
