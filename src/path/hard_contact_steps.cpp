@@ -272,7 +272,7 @@ void HardContactSteps::kink(Equilibrium at, const Contacts& slack) {
     const std::string why = "contacts change without end";
     if (options_.when_unstable == WhenUnstable::stop || interval_ == targets_.size())
       return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
-    return snap(targets_[interval_], why);
+    return snap(targets_[interval_], why, false);
   }
   std::optional<Contacts> now = equilibrium_.onward(at.point.state, slack, direction());
   if (!now) {
@@ -467,7 +467,7 @@ void HardContactSteps::lose(Event event) {
     return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond", label, at));
   accept(whole, judge(whole, &current_).slack);
   if (limit || (loses && options_.when_unstable == WhenUnstable::jump)) {
-    if (interval_ < targets_.size()) snap(targets_[interval_], "stability is lost");
+    if (interval_ < targets_.size()) snap(targets_[interval_], "stability is lost", true);
     return;
   }
   current_.point.stability.negative = event.after;
@@ -487,7 +487,7 @@ void HardContactSteps::miss(double target, int after) {
 void HardContactSteps::leave_unstable() {
   if (options_.when_unstable == WhenUnstable::stop)
     return end(Status::converged, fmt::format("stopped where stability is lost, load factor {:.10g}", current_.point.state.load_factor));
-  if (options_.when_unstable == WhenUnstable::jump && interval_ < targets_.size()) snap(targets_[interval_], "stability is lost");
+  if (options_.when_unstable == WhenUnstable::jump && interval_ < targets_.size()) snap(targets_[interval_], "stability is lost", true);
 }
 
 void HardContactSteps::halve(double target, const std::string& why) {
@@ -497,12 +497,12 @@ void HardContactSteps::halve(double target, const std::string& why) {
   note(fmt::format("load factor {:.10g} could not be passed in steps of {:.3g}: {}", here, std::abs(target - here), why));
   if (options_.when_unstable == WhenUnstable::stop)
     return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
-  snap(targets_[interval_], why);
+  snap(targets_[interval_], why, false);
 }
 
 // A little farther on, the minimum that Ipopt finds from here. Where the branch goes on, unstable, it is left to both sides of its
 // critical mode, and the lower of two minima is taken; of two that are alike always the same, so that rounding does not choose.
-void HardContactSteps::snap(double target, const std::string& why) {
+void HardContactSteps::snap(double target, const std::string& why, bool stability_lost) {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
   const double here = current_.point.state.load_factor, past = here + direction() * std::min(hard_contact_steps::beyond_event * std::abs(options_.to - options_.from), hard_contact_steps::before_target * std::abs(target - here));
@@ -543,7 +543,7 @@ void HardContactSteps::snap(double target, const std::string& why) {
   if (!report.converged()) return ends(report.status, "; Ipopt finds no minimum beyond: " + report.why);
   Equilibrium landed = assess(newton_, state, report);
   const std::string what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
-  if (same_branch(energy, current_, landed)) {
+  if (!stability_lost && same_branch(energy, current_, landed)) {
     tell(landed.point);                                         // only the steps were too hard
   } else {
     note(fmt::format("jump: {}", what));

@@ -252,9 +252,9 @@ constexpr std::size_t most_near = 12;  // states that stand for the branches
 
 /// Paths with hard contacts.
 namespace hard_contact_steps {
-constexpr int finest = 12;  // halvings of a step
+constexpr int finest = 24;  // halvings of a step
 constexpr int most_changes = 20;  // of contacts at one load factor
-constexpr double beyond_event = 1e-3;  // of the path: where a snap begins …
+constexpr double beyond_event = 1e-4;  // of the path: where a snap begins …
 constexpr double before_target = 0.5;  // … or of the way to the next step
 constexpr double aside = 1e-3;  // turn of what is glued, and way in diameters, to where a snap begins
 constexpr double nearest = 1e-5;  // the barrier where a snap begins, as small as leads to a minimum near by

@@ -144,6 +144,22 @@ Report stable_end(Newton& newton, State& state, const std::function<Report(State
   }
 }
 
+namespace {
+
+// Ipopt may go back to a saddle whose negative curvature is small. Newton's method does not; it knows no hard contacts, and goes as far as none is on the way.
+Report downhill(Newton& newton, State& state) {
+  Report report;
+  do {
+    State next = state;
+    report = newton.minimise(next, Pace::downhill, limits::most_downhill);
+    if (newton.energy().collision_free_step(state, next) < 1) return {};
+    state = next;
+  } while (report.status == Status::not_converged && report.iterations == limits::most_downhill);
+  return report;
+}
+
+}  // namespace
+
 Report minimise(Newton& newton, State& state, const Method& method) {
   if (std::string why = refusal(method, newton.energy()); !why.empty()) {
     Report refused;
@@ -155,9 +171,13 @@ Report minimise(Newton& newton, State& state, const Method& method) {
   }
   if (std::holds_alternative<NewtonOptions>(method)) return newton.minimise(state);
   if (std::holds_alternative<AutoOptions>(method)) return by_what_works(newton, state);
+  bool left = false;                                            // a saddle
   return stable_end(newton, state, [&](State& s) {
-    if (const auto* ipopt = std::get_if<IpoptOptions>(&method)) return minimise_by_ipopt(newton.energy(), s, *ipopt);
-    return minimise_by_nlopt(newton, s, std::get<NloptOptions>(method));
+    const auto* ipopt = std::get_if<IpoptOptions>(&method);
+    if (!ipopt) return minimise_by_nlopt(newton, s, std::get<NloptOptions>(method));
+    if (const Report found = left ? downhill(newton, s) : Report{}; found.converged()) return found;
+    left = true;
+    return minimise_by_ipopt(newton.energy(), s, *ipopt);
   });
 }
 

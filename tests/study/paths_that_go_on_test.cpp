@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
 
 namespace {
@@ -1363,4 +1364,26 @@ TEST_CASE("the side branches of a double branch point arrive at another one", "[
         CHECK(run.located_rows.at(event.text("label"))["multiplicity"] == 2);
       }
     }
+}
+
+TEST_CASE("beside hard walls a saddle is left, a limit point has its snap, and a push is followed", "[paths][hard_walls_saddles]") {
+  const std::map<std::string, std::vector<std::string>> kinds{{"arch_above_hard_floor", {"branch", "jump", "contact", "contact", "limit", "jump"}},
+                                                              {"arch_onto_hard_floor", {"branch", "jump", "limit", "jump"}},
+                                                              {"column_pushed_hard_walls", {"contact", "contact", "contact", "contact", "contact"}}};
+  for (const auto& [name, expected] : kinds) {
+    std::unique_ptr<Run> first;
+    for (const int n : {4, 9, 60}) {
+      auto walked = std::make_unique<Run>(name, std::vector{in_steps(n)});
+      const Run& run = *walked;
+      INFO(run.what << run.answer.text << run.told());
+      CHECK(run.answer.status == 0);
+      REQUIRE(run.events.size() == expected.size());
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        CHECK(kind_of(run.events[k]) == expected[k]);
+        if (first) CHECK(run.events[k]["lambda"] == Approx(first->events[k]["lambda"]).epsilon(to_events));
+      }
+      if (first) CHECK(run.path.back()["energy"] == Approx(first->path.back()["energy"]).epsilon(to_events));
+      else first = std::move(walked);
+    }
+  }
 }
