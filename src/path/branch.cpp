@@ -6,6 +6,7 @@
 #include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"
+#include "solve/limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -358,8 +359,27 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
 // factor meets a limit point.
 bool Branch::explained(const Event& event, const Segment& segment, const Candidate& c) const {
   const auto leads_to = [&](const Equilibrium& end) { return segment.leads(event.at, end); };
-  if (event.kind == EventKind::limit) return !c.natural && leads_to(singular_ ? c.e : current_);
+  if (event.kind == EventKind::limit) return !c.natural && leads_to(singular_ ? c.e : current_) && turns_back(event);
   return leads_to(c.e) && (singular_ || leads_to(current_));
+}
+
+// At a limit point the load factor turns back from where it has been going:  λ'' = −vᵀ∇³E v v/(vᵀ∂g/∂λ) has the opposite sign of dλ/ds before it. Beside a pitchfork that
+// is all but perfect the other branch has one that opens onward. Not asked where something touches, whose stiffness changes at once, or where rounding hides it.
+bool Branch::turns_back(const Event& event) const {
+  Energy& energy = newton_.energy();
+  const Vector v = event.modes.col(0);
+  const double way = branch::to_see_turn * std::abs(v.dot(energy.kinematics().difference(current_.point.state, event.at.point.state)));
+  double stiffness[2], rounding = 0;
+  for (const int side : {0, 1}) {
+    const State aside = moved_by(energy.kinematics(), event.at.point.state, v, 0, side ? way : -way);
+    if (!energy.touches(aside).empty()) return true;
+    energy.evaluate(aside);
+    const BilinearForm form = energy.form(v, v);
+    stiffness[side] = form.value, rounding += form_rounding * epsilon * form.size;
+  }
+  energy.evaluate(event.at.point.state);
+  const double third = stiffness[1] - stiffness[0], work = v.dot(energy.load_derivative());
+  return std::abs(third) <= rounding || sign_ * third * work >= 0;
 }
 
 bool Branch::find_user_events(Segment segment, Candidate& c, std::string& why) {

@@ -97,6 +97,7 @@ class Branch {
   [[nodiscard]] bool find_contact(Segment segment, Candidate& c, std::string& why);
   [[nodiscard]] bool find_critical(Segment segment, Candidate& c, std::string& why);
   bool explained(const Event& event, const Segment& segment, const Candidate& c) const;
+  bool turns_back(const Event& limit) const;
   [[nodiscard]] bool find_user_events(Segment segment, Candidate& c, std::string& why);
   /// The branch is at the candidate from now on.
   void take(const Candidate& c);

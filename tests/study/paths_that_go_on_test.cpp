@@ -1387,3 +1387,19 @@ TEST_CASE("beside hard walls a saddle is left, a limit point has its snap, and a
     }
   }
 }
+
+// The knee is a few millionths of the way; the limit point beyond it is the other branch's, and opens onward.
+TEST_CASE("a step that passes the knee of a column that is all but perfect stays on the side of the push", "[paths][column_pushed_knee]") {
+  for (const std::string push : {"3.1e-7", "-1e-7", "1e-6", "-2e-5"}) {
+    double energy = 0;
+    for (const int n : {2, 3, 8, 47})
+      for (const std::string& by : {by_load_steps, by_arcs}) {
+        const Run run("column_pushed_knee", {in_steps(n), by, "load.1.force=[" + push + ",0,0]"});
+        CHECK_ENDS_AT(run, 1);
+        CHECK(run.events.empty());
+        CHECK(run.path.back()["w"] * std::stod(push) > 0);
+        if (energy == 0) energy = run.path.back()["energy"];
+        CHECK(run.path.back()["energy"] == Approx(energy).epsilon(1e-10));
+      }
+  }
+}
