@@ -85,10 +85,28 @@ void Continuation::begin() {
   e.point.label.clear();
   if (options_.resume && (!arcs() || options_.resume->direction.size() == e.tangent.size())) return take_up(std::move(e), *options_.resume);
   if (e.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop) return end(Status::converged, "the starting state is unstable");
+  e = back_from_limit(std::move(e));
   ContactSet closed = closed_contacts(newton_.energy(), e);
   const int negative = e.point.stability.negative;
   const Direction direction = towards_end(e);
   set_out({.at = std::move(e), .negative = negative, .closed = std::move(closed)}, direction);
+}
+
+// From a limit point, where a stage has stopped, back along its stable branch: a step of the load factor has no tangent there, but a little farther back there is
+// a minimum beside it, along the critical mode. Else the equilibrium as it is.
+Equilibrium Continuation::back_from_limit(Equilibrium limit) {
+  Energy& energy = newton_.energy();
+  if (limit.point.stability.negative > 0 || limit.zero_modes.cols() != 1) return limit;
+  energy.evaluate(limit.point.state);
+  const Vector load = energy.load_derivative(), mode = limit.zero_modes.col(0);
+  if (!(std::abs(mode.dot(load)) > locate::orthogonal * load.norm())) return limit;
+  State state = limit.point.state;
+  energy.kinematics().prescribe(state, state.load_factor + continuation::snap_beyond.front() * range());
+  const Report report = newton_.minimise(state, Pace::downhill);
+  const Vector way = energy.kinematics().difference(limit.point.state, state);
+  if (!report.converged() || std::abs(mode.dot(way)) < continuation::along_mode * way.norm()) return limit;
+  Equilibrium back = assess(newton_, state, report);
+  return back.point.stability.negative == 0 && back.zero_modes.cols() == 0 ? back : limit;
 }
 
 Direction Continuation::towards_end(const Equilibrium& e) const {
@@ -110,7 +128,12 @@ void Continuation::take_up(Equilibrium at, const Resume& resume) {
   from.at_contact = resume.label.starts_with("contact:"), from.singular = event.has_value();
   for (const UserEvent& w : options_.user_events) from.sides.push_back(resume.label.starts_with(w.name + ":") ? 0 : w.side(at.point.state));
   from.at = std::move(at);
-  set_out(std::move(from), {resume.direction, resume.load}, resume.step, resume.shortest);
+  // Of unit length in the metric of the path that stopped here: another range of load factors has another one, and other steps.
+  Direction direction{resume.direction, resume.load};
+  const double size = arcs() ? std::sqrt(cosine(direction, direction, metric_)) : 1;
+  if (std::abs(size - 1) < 1e-9) return set_out(std::move(from), direction, resume.step, resume.shortest);
+  direction.x /= size, direction.load /= size;
+  set_out(std::move(from), direction);
 }
 
 void Continuation::set_out(Departure from, const Direction& direction, double step, double shortest) {

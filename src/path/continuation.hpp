@@ -38,6 +38,7 @@ class Continuation : public Path {
   double range() const { return options_.to - options_.from; }
   Direction towards_end(const Equilibrium& e) const;
   void begin();
+  [[nodiscard]] Equilibrium back_from_limit(Equilibrium limit);
   void take_up(Equilibrium at, const Resume& resume);
   void set_out(Departure from, const Direction& direction = {}, double step = 0, double shortest = 0);
   void show(Waypoint waypoint);

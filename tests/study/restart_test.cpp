@@ -159,6 +159,51 @@ TEST_CASE("the final state of an arc-length path knows where the path was headin
   CHECK(elamin_says(run + (scratch / "new") + "' --set path.start='\"whole/states/final.data\"' --set path.start_lambda=0").status == 0);
 }
 
+TEST_CASE("an arc-length path goes on to another end than the one that it was to have", "[restart]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("p.toml", R"(
+plane = "xz"
+[[beam]]
+name = "c"
+particles = 12
+from = [0, 0, 0]
+to = [1, 0, 0]
+diameter = 0.01
+axial_stiffness = 1e6
+bending_stiffness = 1.0
+[[group]]
+name = "foot"
+of = "c"
+first = 2
+[[group]]
+name = "tip"
+of = "c"
+last = 1
+[[support]]
+group = "foot"
+[[load]]
+group = "tip"
+force = [0, 0, -10]
+[path]
+method = "arc_length"
+steps = 7
+)"), run = "'" + file + "' --quiet -o '";
+  REQUIRE(elamin_says(run + (scratch / "whole") + "'").status == 0);
+  const TableRow end = table_of(scratch / "whole/path.csv").back();
+  for (const std::string to : {"0.05", "0.23", "0.6"}) {
+    REQUIRE(elamin_says(run + (scratch / "first") + "' --set path.to=" + to).status == 0);
+    for (const std::string next : {"1"}) {
+      const Answer answer = elamin_says(run + (scratch / "then") + "' --set path.start='\"first/states/final.data\"' --set path.to=" + next);
+      INFO(to << " " << next << " " << answer.text);
+      REQUIRE(answer.status == 0);
+      const TableRow last = table_of(scratch / "then/path.csv").back();
+      CHECK(last["lambda"] == std::stod(next));
+      if (next == "1") CHECK(last["energy"] == Approx(end["energy"]).epsilon(1e-12));
+      else CHECK(std::abs(last["energy"]) < 1e-12 * std::abs(end["energy"]));
+    }
+  }
+}
+
 TEST_CASE("where a stored path was heading is left aside by any other path", "[restart]") {
   const ScratchDirectory scratch;
   const std::string file = scratch.file("p.toml", snapping), run = "'" + file + "' --quiet -o '";
