@@ -115,15 +115,16 @@ bool Branch::stop_where_contact_passes(const Segment& segment, Candidate& c) {
   return true;
 }
 
-// Looks between the ends of a step where `where` tells, up to a few times nearer, for a state that is `wanted`: then the candidate becomes that.
-bool Branch::look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const {
+// Looks between the ends of a step where `where` tells, up to a few times nearer, for a state that is `wanted`: then the candidate becomes that. Nothing if no equilibrium
+// is found where it is to be looked for.
+std::optional<bool> Branch::look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const {
   double ta = segment.a, tb = segment.b;
   Equilibrium a = current_, b = c.e;
   std::optional<Place> next = where(ta, a, tb, b);
   for (int k = 0; next && k < branch::most_looks; ++k) {
     const double t = next->t;
     Equilibrium e = segment.at(t, a);
-    if (!e.point.report.converged()) return false;
+    if (!e.point.report.converged()) return {};
     if (wanted(e)) return c.parameter = t, c.e = std::move(e), c.events.clear(), true;
     const std::optional<Place> before = where(ta, a, t, e), behind = where(t, e, tb, b);
     const bool first = before && (!behind || before->by <= behind->by);
@@ -147,7 +148,7 @@ bool Branch::stop_where_load_goes_back(const Segment& segment, Candidate& c) {
     return Place{ta + u * width, by};
   };
   const double change = c.e.point.state.load_factor - current_.point.state.load_factor;
-  return look_between(segment, c, slowest, [&](Equilibrium& e) { return segment.load_rate(e) * sign_ < 0; }) ||
+  return look_between(segment, c, slowest, [&](Equilibrium& e) { return segment.load_rate(e) * sign_ < 0; }).value_or(false) ||
          -sign_ * change <= branch::load_rounding * std::abs(current_.point.state.load_factor);
 }
 
@@ -170,8 +171,9 @@ void Branch::see_softest_here(const Candidate& c, double change) {
 
 // Where an eigenvalue changes its sign twice between the ends of a step, or two of them in opposite ways, two branch points lie between that the Morse index does
 // not tell at the ends: the candidate becomes a state between them. It is looked for where Hermite's cubics of the softest eigenvalues, of modes that are alike at
-// both ends, make another index than at the ends: in the middle of where first; or where one is least beside its values at both ends, if that is little.
-void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
+// both ends, make another index than at the ends: in the middle of where first; or where one is least beside its values at both ends, if that is little. False if no
+// equilibrium is found there: the branch does not lead straight from the one end to the other.
+bool Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
   const auto look_at = [&](Equilibrium& e, const Equilibrium& neighbour) {
     see_softest(newton_, e, neighbour.softest, branch::little * (segment.b - segment.a) * segment.load_rate(e));
   };
@@ -203,10 +205,10 @@ void Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
     if (least.by < branch::slowed) return least;
     return {};
   };
-  look_between(segment, c, softest, [&](Equilibrium& e) {
+  return look_between(segment, c, softest, [&](Equilibrium& e) {
     if (e.point.stability.negative != negative_) return true;
     return look_at(e, current_), false;
-  });
+  }).has_value();
 }
 
 // An unstable branch may become stable at a limit point or branch point, and unstable again where a contact is lost, whose stiffness vanishes there. Then the Morse index is the
@@ -315,7 +317,8 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   if (!c.natural && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_load_goes_back(segment, c))
     return why = "the load factor goes back between two states at which it goes on", false;
   segment.b = c.parameter;
-  if (!c.natural && c.events.empty() && c.e.point.stability.negative == negative_ && rises(c.e) == sign_) stop_where_index_goes_back(segment, c);
+  if (!c.natural && c.events.empty() && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_index_goes_back(segment, c))
+    return why = "no equilibrium was found on the step where an eigenvalue may vanish", false;
   segment.b = c.parameter;
   const int after = c.e.point.stability.negative;
   const bool stays_stable = !c.events.empty() && negative_ == 0 && after == 0;      // up to a contact, behind which the tangent may be any other one

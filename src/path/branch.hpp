@@ -84,9 +84,9 @@ class Branch {
   bool stop_where_contact_passes(const Segment& segment, Candidate& c);
   struct Place { double t, by; };      // on a segment, and how likely: the less the more
   using Where = std::function<std::optional<Place>(double ta, const Equilibrium& a, double tb, const Equilibrium& b)>;
-  bool look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const;
+  std::optional<bool> look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const;
   bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
-  void stop_where_index_goes_back(const Segment& segment, Candidate& c);
+  [[nodiscard]] bool stop_where_index_goes_back(const Segment& segment, Candidate& c);
   bool softens() const;
   /// Tells the softest eigenpairs where the step begins, if they are told at its end alone; `change`: the load factor over which their change is taken.
   void see_softest_here(const Candidate& c, double change);

@@ -1406,8 +1406,8 @@ TEST_CASE("a step that passes the knee of a column that is all but perfect stays
 
 TEST_CASE("a stage that begins at a limit point, where the one before has stopped, goes back along the stable branch", "[paths][column_stops_and_unloads]") {
   double energy = 0;
-  for (const int n : {2, 10, 50})
-    for (const std::string by : {"stage.s3.method=\"load_steps\"", "stage.s3.method=\"arc_length\""}) {
+  for (const int n : {2, 5, 10, 50})
+    for (const std::string& by : {by_load_steps, by_arcs, std::string("stage.s3.method=\"arc_length\"")}) {
       const Run run("column_stops_and_unloads", {"stage.s2.steps=" + std::to_string(n), "stage.s3.steps=" + std::to_string(n), by});
       CHECK_ENDS_AT(run, -1);
       REQUIRE(run.events.size() == 1);
