@@ -179,7 +179,7 @@ constexpr std::array<double, 2> snap_beyond{1e-4, 1e-3};  // of the range of loa
 /// Of the range: a snap from a branch point begins no nearer to it. The minimum beside an unstable equilibrium so far behind it is lower by the square of that, in parts
 /// of the energy: 1e-12, which rounding still tells.
 constexpr double least_snap = 1e-6;
-constexpr double along_mode = 0.9;  // of the way from a limit point back along its branch
+constexpr double along_mode = 0.9;  // of the way from a limit point to a minimum that is on its branch: along the critical mode
 constexpr double all_of_path = 1e-12;  // of the range: a load factor so near to the end is the end
 constexpr int most_nearer = 10;  // times another branch is looked for nearer to where it is met, by a factor of four each: down to 1e-9 of the range, as exactly as events are located
 constexpr double same_load = 1e-9;  // of the range: load factors that are one, as exactly as events are located
