@@ -6,6 +6,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstdint>
+#include <limits>
 
 namespace elamin {
 
@@ -16,6 +17,7 @@ using Field = Eigen::Matrix3Xd;                       // a vector for every part
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;  // symmetric: lower triangle only
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = 2.220446049250313e-16;     // spacing of the doubles at 1
 
 }  // namespace elamin

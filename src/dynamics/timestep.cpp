@@ -18,7 +18,7 @@ namespace elamin {
 namespace {
 
 constexpr double accuracy = 0.005;              // of ω², twice: what is left open, and what is added to be safe
-constexpr int most_iterations = 1000, between_looks = 8;
+constexpr int most_rounds = 1000, between_looks = 8;
 
 // The largest eigenvalue of M^{-1/2} K M^{-1/2} from above, by Lanczos's method from a random vector: the largest Ritz value θ
 // and the size |β s| of its residual.
@@ -30,7 +30,7 @@ double largest_eigenvalue(Energy& energy, const InverseMass& mass, int& iteratio
   v.normalize();
   std::vector<double> diagonal, beside;
   double upper = 0;
-  for (iterations = 1; iterations <= most_iterations; ++iterations) {
+  for (iterations = 1; iterations <= most_rounds; ++iterations) {
     Vector w = mass.root(energy.multiply(mass.root(v), false));
     diagonal.push_back(w.dot(v));
     w -= diagonal.back() * v;

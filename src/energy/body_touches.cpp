@@ -13,7 +13,6 @@ namespace elamin {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<IndexPair> candidates(const Model& model, const BodyRules& rules, const State& state, double within) {
   const auto feel = [&](int i, int j) {

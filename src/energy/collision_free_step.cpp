@@ -27,7 +27,7 @@ double touching(const Model& model, const ContactRules& rules, int i, int j) {
 }
 
 // The smaller root s > 0 of |d + s u| = floor < |d|; infinity: it stays away.
-double root(const Vec3& d, const Vec3& u, double floor) {
+double smaller_root(const Vec3& d, const Vec3& u, double floor) {
   const double a = u.squaredNorm(), b = d.dot(u), c = d.squaredNorm() - floor * floor, discriminant = b * b - a * c;
   if (!(b < 0) || discriminant < 0) return std::numeric_limits<double>::infinity();
   return c / (-b + std::sqrt(discriminant));
@@ -40,7 +40,7 @@ double among_particles(const Model& model, const Neighbours& neighbours, const S
     const double touch = touching(model, rules, i, j);
     if (touch == 0) return std::numeric_limits<double>::infinity();
     const Vec3 d = (from.at(j) - from.at(i)).hi;
-    return root(d, u.col(j) - u.col(i), particles_keep * std::min(d.norm(), touch));
+    return smaller_root(d, u.col(j) - u.col(i), particles_keep * std::min(d.norm(), touch));
   };
   if (neighbours.covers(from) && neighbours.covers(to)) {       // then on the whole way
     double least = 1;

@@ -16,7 +16,7 @@ namespace elamin {
 namespace {
 
 // In the list of groups; each with glued particles, and then the same without.
-enum Place { bonds, angles = 2, contacts = 4, cohesion = 6, walls = 8, body_particles = 10, body_pairs = 12, body_walls, body_loads,
+enum Slot { bonds, angles = 2, contacts = 4, cohesion = 6, walls = 8, body_particles = 10, body_pairs = 12, body_walls, body_loads,
              pressures, sheet_pressures, hard_pairs, hard_walls, places };
 
 // The term of each place.
@@ -295,7 +295,7 @@ Vector Energy::load_derivative() const {
 
 Vector Energy::load_force() const {
   Vector pressed = Vector::Zero(dofs());
-  for (const Place given : {pressures, sheet_pressures, body_loads}) assembler_->add_load_derivative(*groups_[given], evaluated_, pressed);
+  for (const Slot given : {pressures, sheet_pressures, body_loads}) assembler_->add_load_derivative(*groups_[given], evaluated_, pressed);
   return kinematics_.restrict(scaled_load_) - pressed;
 }
 

@@ -17,7 +17,7 @@ namespace elamin {
 
 namespace {
 
-constexpr double small_type = 6.5, type = 7.5;
+constexpr double small_type = 6.5, large_type = 7.5;
 
 std::string power_of_ten(int exponent) {
   static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -93,8 +93,8 @@ void draw_axes(Drawing& drawing, const PlotArea& f, const std::string& x, const 
   }
   drawing.lines(marks, {});
   drawing.area({f.lo, {f.hi.x(), f.lo.y()}, f.hi, {f.lo.x(), f.hi.y()}}, "", {});
-  drawing.words({(f.lo.x() + f.hi.x()) / 2, f.lo.y() + 18.5}, with_factor(x, across.exponent), Anchor::middle, type);
-  drawing.words({f.lo.x() - 6.5 - widest, (f.lo.y() + f.hi.y()) / 2}, with_factor(y, up.exponent), Anchor::middle, type, true);
+  drawing.words({(f.lo.x() + f.hi.x()) / 2, f.lo.y() + 18.5}, with_factor(x, across.exponent), Anchor::middle, large_type);
+  drawing.words({f.lo.x() - 6.5 - widest, (f.lo.y() + f.hi.y()) / 2}, with_factor(y, up.exponent), Anchor::middle, large_type, true);
 }
 
 namespace {
@@ -141,7 +141,7 @@ std::string first_of(std::initializer_list<std::string> names) {
 std::string axis_name(const std::string& column) { return column == "lambda" ? "load factor λ" : column; }
 
 // The columns of the two axes.
-struct Columns {
+struct CurveColumns {
   int x, y;
   std::optional<Vec2> at(const Row& row) const {
     const auto u = number_in(row, x), v = number_in(row, y);
@@ -149,7 +149,7 @@ struct Columns {
   }
 };
 
-Diagram begun(const Table& table, const Axes& axes, const std::string& file, Columns& columns) {
+Diagram begun(const Table& table, const Axes& axes, const std::string& file, CurveColumns& columns) {
   columns = {needed(table, axes.x, file), needed(table, axes.y, file)};
   return {axis_name(axes.x), axis_name(axes.y), {}, {}};
 }
@@ -167,7 +167,7 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
   const auto if_changing = [&](const char* name) { return changes(path, column(name)) ? name : ""; };
   const Axes axes{asked.x.empty() ? "lambda" : asked.x,
                   first_of({asked.y, first_changing(path, "stable", "parent"), if_changing("negative"), "energy"})};
-  Columns at{};
+  CurveColumns at{};
   Diagram d = begun(path, axes, file, at);
   const int label = column("label"), branch = column("branch"), stable = column("stable"), parent = column("parent"), stage = column("stage");
   std::map<std::string, Vec2> events;
@@ -211,7 +211,7 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
 }
 
 Diagram curve_diagram(const Table& table, const Axes& asked, const std::string& file) {
-  Columns at{};
+  CurveColumns at{};
   Diagram d = begun(table, {first_of({asked.x, "second"}), first_of({asked.y, "lambda"})}, file, at);
   const int label = column_index(table.columns, "label");
   d.curves.emplace_back();
@@ -225,7 +225,7 @@ Diagram curve_diagram(const Table& table, const Axes& asked, const std::string& 
 }
 
 Diagram landscape_diagram(const Table& table, const Axes& asked, const std::string& file) {
-  Columns at{};
+  CurveColumns at{};
   Diagram d = begun(table, {first_of({asked.x, "lambda"}), first_of({asked.y, "energy"})}, file, at);
   const int label = column_index(table.columns, "label");
   for (const Row& row : table.rows) {
@@ -261,7 +261,7 @@ Diagram motion_diagram(const Table& trajectory, const Axes& asked, const std::st
   std::string observed;
   for (std::size_t c = static_cast<std::size_t>(balance + 1); balance >= 0 && c < trajectory.columns.size() && observed.empty(); ++c)
     if (changes(trajectory, static_cast<int>(c))) observed = trajectory.columns[c];
-  Columns at{};
+  CurveColumns at{};
   Diagram d = begun(trajectory, {first_of({asked.x, "time"}), first_of({asked.y, observed, "kinetic"})}, file, at);
   Curve curve;
   for (const Row& row : trajectory.rows)
@@ -271,7 +271,7 @@ Diagram motion_diagram(const Table& trajectory, const Axes& asked, const std::st
 }
 
 Diagram modes_diagram(const Table& modes, const Axes& asked, const std::string& file) {
-  Columns at{};
+  CurveColumns at{};
   Diagram d = begun(modes, {first_of({asked.x, "mode"}), first_of({asked.y, "eigenvalue"})}, file, at);
   d.whole_x = d.x == "mode";
   for (const Row& row : modes.rows)
@@ -289,7 +289,7 @@ Diagram sweep_diagram(const Table& sweep, const Axes& asked, const std::string& 
   const bool in_time = column_index(sweep.columns, "balance") >= 0;
   if (axes.y.empty())
     axes.y = first_of({first_changing(sweep, "status", "step"), first_changing(sweep, "stable", "parent"), in_time ? "kinetic" : "energy"});
-  Columns at{};
+  CurveColumns at{};
   Diagram d = begun(sweep, axes, file, at);
   if (d.x == sweep.columns[static_cast<std::size_t>(at.x)] && d.x.find('.') != std::string::npos) d.x = d.x.substr(d.x.find('.') + 1);
   if (is_event(d.y)) d.y = "load factor λ of " + d.y;

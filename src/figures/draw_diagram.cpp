@@ -9,12 +9,12 @@
 namespace elamin {
 namespace {
 
-constexpr double legend_type = 6.5, thick = 1.3, thin = 0.7, invisible = 0.04;     // [pt]
+constexpr double legend_type = 6.5, thick_line = 1.3, thin_line = 0.7, invisible = 0.04;     // [pt]
 const char* const dashes = "2.6 1.6";
 const char* const dots = "0.7 1.5";
 
 // Kinds of events in the order in which legends have them; whatever else happens is a square.
-const std::vector<std::string> kinds{"branch", "limit", "contact", "jump"};
+const std::vector<std::string> marked_kinds{"branch", "limit", "contact", "jump"};
 
 void draw_mark(Drawing& drawing, const std::string& kind, const Vec2& at) {
   const Pen pen{"#000000", 0.6};
@@ -46,17 +46,17 @@ std::vector<LegendEntry> entries_of(const Diagram& d) {
   };
   const std::string any = d.names.empty() ? colour(0) : "#000000";
   if (styles.count(Curve::Kind::unstable)) {
-    if (styles.count(Curve::Kind::stable)) line("stable", {any, thick});
-    line("unstable", {any, thin, dashes});
+    if (styles.count(Curve::Kind::stable)) line("stable", {any, thick_line});
+    line("unstable", {any, thin_line, dashes});
   }
-  if (styles.count(Curve::Kind::snap)) line("snap", {"#555555", thin, dots});
+  if (styles.count(Curve::Kind::snap)) line("snap", {"#555555", thin_line, dots});
   constexpr std::size_t most = 8;
   for (std::size_t k = 0; k < d.names.size() && k < most; ++k)
-    all.push_back({d.names[k], [k](Drawing& to, const Vec2& at) { to.lines({{at - Vec2(6, 0), at + Vec2(6, 0)}}, {colour(static_cast<int>(k)), thick}); }});
+    all.push_back({d.names[k], [k](Drawing& to, const Vec2& at) { to.lines({{at - Vec2(6, 0), at + Vec2(6, 0)}}, {colour(static_cast<int>(k)), thick_line}); }});
   std::set<std::string> there;
   for (const EventMark& m : d.marks) there.insert(m.kind);
   std::vector<std::string> ordered;
-  for (const std::string& kind : kinds)
+  for (const std::string& kind : marked_kinds)
     if (there.erase(kind)) ordered.push_back(kind);
   ordered.insert(ordered.end(), there.begin(), there.end());
   for (const std::string& kind : ordered) {
@@ -98,7 +98,7 @@ double draw_diagram(Drawing& drawing, const Diagram& d, const Vec2& corner, doub
     for (const Vec2& p : c.points) line.push_back(f.at(p.x(), p.y()));
     const std::string& its = colour(c.colour);
     if (c.kind != Curve::Kind::points) {
-      const Pen pen = c.kind == Curve::Kind::stable ? Pen{its, thick} : c.kind == Curve::Kind::unstable ? Pen{its, thin, dashes} : Pen{"#555555", thin, dots};
+      const Pen pen = c.kind == Curve::Kind::stable ? Pen{its, thick_line} : c.kind == Curve::Kind::unstable ? Pen{its, thin_line, dashes} : Pen{"#555555", thin_line, dots};
       drawing.lines({thinned(line, invisible)}, pen);
       continue;
     }

@@ -17,7 +17,7 @@
 namespace elamin {
 namespace {
 
-constexpr double column_width = 85 / 25.4 * 72, height = 135, margin = 3;       // 85 mm [pt]
+constexpr double column_width = 85 / 25.4 * 72, diagram_height = 135, margin = 3;       // 85 mm [pt]
 
 Diagram landscape_or_tree(const Table& table, const Axes& axes, const std::string& file) {
   if (!axes.x.empty() || !axes.y.empty()) return landscape_diagram(table, axes, file);
@@ -62,7 +62,7 @@ std::string write_figure(const FigureOptions& options) {
   for (const std::string& label : labels) scenes.push_back(read_scene(options.directory, label));
   Drawing drawing;
   double y = margin;
-  if (diagram) y = draw_diagram(drawing, *diagram, {margin, y}, column_width - 2 * margin, height);
+  if (diagram) y = draw_diagram(drawing, *diagram, {margin, y}, column_width - 2 * margin, diagram_height);
   if (!scenes.empty()) y = draw_shapes(drawing, scenes, {margin, y + (diagram ? 6 : 0)}, column_width - 2 * margin);
   const std::string svg = drawing.svg(column_width, y + margin, std::filesystem::path(options.directory).lexically_normal().filename().string());
   if (pdf) write_pdf(svg, file);

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // A table with these columns, whose entries are numbers; what is empty is not finite.
-class Numbers {
+class NumberTable {
  public:
-  explicit Numbers(std::string file) : file_(std::move(file)), table_(read_table(file_)) {}
+  explicit NumberTable(std::string file) : file_(std::move(file)), table_(read_table(file_)) {}
   std::size_t rows() const { return table_.rows.size(); }
   double operator()(std::size_t row, const char* column) const {
     return as_number(cell(row, column)).value_or(std::numeric_limits<double>::quiet_NaN());
@@ -64,7 +64,7 @@ std::string stem_of_step(const std::string& directory, const std::string& step) 
   throw InputError(fmt::format("{}: no state of step {} was kept; there are those of the steps {} ([path] frames or every keep more)", directory, step, listed(known)));
 }
 
-Region wall_in(const Numbers& walls, std::size_t row) {
+Region wall_in(const NumberTable& walls, std::size_t row) {
   static const std::map<std::string, Shape> shapes{
       {"plane", Shape::plane}, {"block", Shape::block}, {"cylinder", Shape::cylinder}, {"sphere", Shape::sphere}, {"cone", Shape::cone}};
   const auto shape = shapes.find(walls.text(row, "shape"));
@@ -146,7 +146,7 @@ Scene read_scene(const std::string& directory, const std::string& label) {
                                  known.empty() ? "this run has left no such states: run it again" : "there are the states " + listed(known) + did_you_mean(name, known)));
   }
   if (moved) vectors = stem + ".modes.csv";
-  const Numbers particles(stem + ".particles.csv");
+  const NumberTable particles(stem + ".particles.csv");
   std::map<int, int> number;                               // of a particle, by its id
   for (std::size_t k = 0; k < particles.rows(); ++k) {
     if (particles.text(k, "kind") == "body") continue;
@@ -154,7 +154,7 @@ Scene read_scene(const std::string& directory, const std::string& label) {
     scene.particles.push_back({particles.vector(k, {"x", "y", "z"}), particles(k, "radius")});
   }
   if (fs::exists(stem + ".bonds.csv")) {
-    const Numbers bonds(stem + ".bonds.csv");
+    const NumberTable bonds(stem + ".bonds.csv");
     for (std::size_t k = 0; k < bonds.rows(); ++k) {
       const auto i = number.find(static_cast<int>(bonds(k, "first"))), j = number.find(static_cast<int>(bonds(k, "second")));
       if (i == number.end() || j == number.end()) throw InputError(fmt::format("{}.bonds.csv: a bond of a particle that is not in {}.particles.csv", stem, name));
@@ -162,12 +162,12 @@ Scene read_scene(const std::string& directory, const std::string& label) {
     }
   }
   if (fs::exists(stem + ".walls.csv")) {
-    const Numbers walls(stem + ".walls.csv");
+    const NumberTable walls(stem + ".walls.csv");
     for (std::size_t k = 0; k < walls.rows(); ++k) scene.walls.push_back(wall_in(walls, k));
   }
   scene.bodies = bodies_in(stem + ".vtk");
   if (vectors.empty()) return scene;
-  const Numbers moves(vectors);
+  const NumberTable moves(vectors);
   const std::string axis(first);
   const auto component = [&](char c) { return axis.substr(0, 1) + c + axis.substr(2); };
   const std::string y = component('y'), z = component('z');

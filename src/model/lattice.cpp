@@ -9,10 +9,9 @@ namespace {
 
 constexpr double within_edges = 1e-9;              // of the spacing: what is that far beyond an edge is on it
 constexpr double half_root_three = 0.86602540378443864676;
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Interval {
-  double from = -infinite, to = infinite;
+  double from = -infinity, to = infinity;
   Interval operator&(const Interval& other) const { return {std::max(from, other.from), std::min(to, other.to)}; }
 };
 

@@ -23,7 +23,6 @@ using namespace limits;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Centres of particles and bodies: 3 × count.
 Field centres(const State& s) {
@@ -414,7 +413,7 @@ int Landscape::euler() const {
 }
 
 double Landscape::barrier(const NodeImage& minimum) const {
-  double least = infinite;
+  double least = infinity;
   for (const Pass& p : passes)
     if (!(p.minima[0] == p.minima[1]) && (p.minima[0] == minimum || p.minima[1] == minimum))
       least = std::min(least, node(p.saddle).energy());

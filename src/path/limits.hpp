@@ -125,7 +125,7 @@ constexpr int most_iterations = 6;  // of the corrector, of a step that is not h
 }
 
 /// Bracketed root finding.
-namespace root {
+namespace root_search {
 constexpr double leap = 0.125, narrow = 1.0 / 256;  // of a bracket that gets narrower by 1/256 the values' difference falls to 1/256, of √t to 1/16; where more than 1/8 is left the branch leaps to another one
 constexpr double rounding = 16 * epsilon;  // of a segment: a user's value may be much smaller than the observable's change on the segment
 constexpr int most_evaluations = 80;  // bisection alone, every fourth, gives 2⁻²⁰; the rest converge superlinearly

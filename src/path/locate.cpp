@@ -269,7 +269,7 @@ std::optional<Event> locate_root(const Segment& segment, const Equilibrium& a, c
                                  const std::function<double(const Equilibrium&)>& f) {
   const Sample lower{segment.a, f(a), a}, upper{segment.b, f(b), b};
   if ((lower.f < 0) == (upper.f < 0)) return {};
-  const auto zero = find_zero(lower, upper, [&](double t) { return segment.resolution(t, root::rounding); }, [&](double t, const Sample& from) -> std::optional<Sample> {
+  const auto zero = find_zero(lower, upper, [&](double t) { return segment.resolution(t, root_search::rounding); }, [&](double t, const Sample& from) -> std::optional<Sample> {
     const Equilibrium e = segment.at(t, from.e);
     if (!e.point.report.converged()) return {};
     return Sample{t, f(e), e};

@@ -17,7 +17,7 @@ std::optional<Sample> find_zero(Sample a, Sample b, const std::function<double(d
   double weight_a = a.f, weight_b = b.f, whole = std::abs(b.t - a.t), rise = std::abs(b.f - a.f), earlier = whole;
   int lately = 0;                                               // which end was replaced last: −1 a, 1 b
   bool new_a = false, new_b = false;                            // since a leap was looked for last
-  for (int k = 0; k < root::most_evaluations; ++k) {
+  for (int k = 0; k < root_search::most_evaluations; ++k) {
     const double width = b.t - a.t;
     bool halve = false;
     if (k % 4 == 3) halve = std::abs(width) > earlier / 2, earlier = std::abs(width);
@@ -33,9 +33,9 @@ std::optional<Sample> find_zero(Sample a, Sample b, const std::function<double(d
     else b = std::move(*c), weight_b = b.f, new_b = true, stays(weight_a, a.f);
     lately = end;
     if (a.f == 0 || b.f == 0) break;
-    if (!new_a || !new_b || std::abs(b.t - a.t) > root::narrow * whole) continue;
+    if (!new_a || !new_b || std::abs(b.t - a.t) > root_search::narrow * whole) continue;
     const double before = std::exchange(rise, std::abs(b.f - a.f));
-    if (rise > std::max(root::leap * before, next_to_none)) return {};
+    if (rise > std::max(root_search::leap * before, next_to_none)) return {};
     whole = std::abs(b.t - a.t), new_a = new_b = false;
   }
   return std::abs(a.f) < std::abs(b.f) ? a : b;

@@ -25,12 +25,6 @@ Json table_data(const Table& table) {
   return {{"columns", table.columns}, {"values", std::move(values)}};
 }
 
-Json object(const std::vector<std::pair<std::string, double>>& entries) {
-  Json all = Json::object();
-  for (const auto& [name, v] : entries) all[name] = json_of(v);
-  return all;
-}
-
 /// The problem file, if it is still the one that was run.
 Json input_text(const Summary& summary) {
   try {

@@ -22,14 +22,14 @@ void append_rest(Row& row, const PathPoint& p, const std::vector<double>& observ
   row.insert(row.end(), {p.parent, known(p.stability.negative_rigid)});
 }
 
-const std::vector<std::string> rest{"residual", "iterations", "negative", "stable"};
+const std::vector<std::string> further{"residual", "iterations", "negative", "stable"};
 const std::vector<std::string> last_columns{"parent", "negative_rigid"}, last_of_event{"negative_before", "negative_after", "what"};
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<std::string> with_rest(std::vector<std::string> columns, const std::vector<std::string>& observables) {
   append(columns, energy_columns());
-  for (const auto* more : {&rest, &observables, &last_columns}) append(columns, *more);
+  for (const auto* more : {&further, &observables, &last_columns}) append(columns, *more);
   return columns;
 }
 

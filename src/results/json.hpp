@@ -22,4 +22,11 @@ inline Json json_of(const Cell& cell) {
   return nullptr;
 }
 
+/// An object of these entries, in their order.
+inline Json object(const std::vector<std::pair<std::string, double>>& entries) {
+  Json all = Json::object();
+  for (const auto& [name, v] : entries) all[name] = json_of(v);
+  return all;
+}
+
 }  // namespace elamin

@@ -18,7 +18,6 @@ namespace elamin {
 namespace {
 
 constexpr double flat = 1e-12;                        // an area of the square of all there is
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double component(const Vec3& v, Component c) {
   switch (c) {
@@ -369,7 +368,7 @@ std::vector<Touch> observed_touches(Energy& energy, const State& state, const Ob
   const double extent = sides_of(state).maxCoeff();
   for (double reach = largest / 4; !observables.sufficient(touches); reach *= 4) {
     const bool all = !(reach > 0 && reach < extent);
-    touches = energy.touches(state, all ? std::numeric_limits<double>::infinity() : reach);
+    touches = energy.touches(state, all ? infinity : reach);
     if (all) break;
   }
   return touches;

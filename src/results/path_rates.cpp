@@ -11,7 +11,7 @@
 namespace elamin {
 namespace {
 
-constexpr double distortion = 0.1;     // of the longest step: how far it turns or stretches a bond, turns a body, moves a grain by its size
+constexpr double largest_distortion = 0.1;     // of the longest step: how far it turns or stretches a bond, turns a body, moves a grain by its size
 constexpr int least_halvings = 12, most_halvings = 40;
 constexpr double just = 1e-8;          // touching: a gap in sizes, a hard contact's force in parts of the largest
 constexpr int refinements = 2;
@@ -85,7 +85,7 @@ std::optional<PathRates::Tangent> PathRates::tangent(const State& state) {
   return t;
 }
 
-/// The steps along a tangent: as long as `distortion` allows, and so often halved that contacts stay closed at the last ones.
+/// The steps along a tangent: as long as `largest_distortion` allows, and so often halved that contacts stay closed at the last ones.
 PathRates::Steps PathRates::steps(const State& state, const Tangent& t) {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
@@ -93,7 +93,7 @@ PathRates::Steps PathRates::steps(const State& state, const Tangent& t) {
   Field v = kinematics.extend(t.q, state);
   for (int site = 0; site < kinematics.sites(); ++site) v.col(site) += t.load * kinematics.drive(site);
   std::vector<bool> bonded(kinematics.sites(), false);
-  double rate = 2 * distortion * t.load / std::max(1.0, std::abs(state.load_factor));
+  double rate = 2 * largest_distortion * t.load / std::max(1.0, std::abs(state.load_factor));
   for (const Bond& b : model.bonds) {
     const auto [i, j] = b.particles;
     rate = std::max(rate, (v.col(j) - v.col(i)).norm() / (state.at(j) - state.at(i)).hi.norm());
@@ -107,7 +107,7 @@ PathRates::Steps PathRates::steps(const State& state, const Tangent& t) {
     if (!bonded[site] && kinematics.size(site) > 0) rate = std::max(rate, v.col(site).norm() / kinematics.size(site));
   if (const double size = kinematics.smallest_size(); size > 0)
     for (int w = 0; w < static_cast<int>(model.walls.size()); ++w) rate = std::max(rate, of_wall(w) / size);
-  Steps steps{distortion / rate, least_halvings};
+  Steps steps{largest_distortion / rate, least_halvings};
   const auto of_entity = [&](int e) {
     if (!is_body(model, e)) return v.col(e).norm();
     const int body = e - model.particles();

@@ -19,12 +19,6 @@ Json object(const Table& table, const Row& row) {
   return all;
 }
 
-Json object(const std::vector<std::pair<std::string, double>>& entries) {
-  Json all = Json::object();
-  for (const auto& [name, v] : entries) all[name] = json_of(v);
-  return all;
-}
-
 std::string text_of(const Json& all) { return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }     // replace: text that is not UTF-8
 
 std::string unfinished(const std::string& title, const std::string& status, const std::string& message) {

@@ -49,6 +49,9 @@ class Ink {
   bool on_ = false;
 };
 
+/// The number by a format of fmt; "not finite" where it is none.
+std::string number_text(const char* format, double v);
+
 /// One line of a point: step, load factor, energy, residual, stability, label, iterations, closed contacts where there are any.
 std::string progress_line(const PathPoint& point, int contacts = 0);
 

@@ -29,7 +29,7 @@ struct Column {
 };
 
 // The XML in front, the bytes that it points to behind.
-class Document {
+class VtkFile {
  public:
   template <class Number> void array(const char* type, const std::string& name, const std::vector<Number>& numbers, const std::string& more = "") {
     xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n", type, name, more, bytes_.size());
@@ -142,7 +142,7 @@ class Grid {
   }
 
   std::string text() const {
-    Document d;
+    VtkFile d;
     d.tag("UnstructuredGrid"), d.tag("FieldData");
     const std::string one = " NumberOfTuples=\"1\"";
     d.array("Int64", "step", std::vector<std::int64_t>{shot_.step}, one);

@@ -135,8 +135,7 @@ Report settle(Newton& newton, State& state, int most) {
   Energy& energy = newton.energy();
   const Model& model = energy.model();
   Report report;
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  double smallest = infinite;
+  double smallest = infinity;
   for (const int d : energy.unbonded_dofs()) smallest = std::min(smallest, model.diameter[energy.kinematics().site_of(d)]);
   const double farthest = limits::settling_step * smallest;
   const Drive drive = drive_of(energy, state);
@@ -152,10 +151,10 @@ Report settle(Newton& newton, State& state, int most) {
     Energy in(soft);
     Factors factors(in);
     // Beside bonds that bear far more than a grain weighs a small residual tells nothing of what still falls.
-    const double enough = drive.force > 0 ? limits::softened_tolerance * drive.force : infinite;
+    const double enough = drive.force > 0 ? limits::softened_tolerance * drive.force : infinity;
     falls = !descend(in, factors, std::max(newton.tolerance(), limits::softened_tolerance), enough) && !falling(in).empty();
   }
-  if (!falls) descend(energy, newton.factors(), newton.tolerance(), infinite);
+  if (!falls) descend(energy, newton.factors(), newton.tolerance(), infinity);
   Report last = newton.minimise(state);
   report.history.insert(report.history.end(), last.history.begin(), last.history.end());
   last.history = std::move(report.history);

@@ -26,14 +26,14 @@ constexpr double largest_part = 0.01;                           // of the time o
 
 constexpr std::size_t digits = 64;                              // of a SHA-256
 
-std::string first_line() { return fmt::format("elamin {} checkpoint\n", version()); }
+std::string heading() { return fmt::format("elamin {} checkpoint\n", version()); }
 // What its bytes mean depends on the sources, and the bits that follow on the compiler.
 std::string second_line() { return fmt::format("build {}\n", build_fingerprint()); }
 
 std::string text_of(Checkpoint& c) {
   Archive archive;
   archive(c.record, c.phase, c.resumed, c.state);
-  return first_line() + second_line() + sha256(archive.bytes()) + "\n" + archive.bytes();
+  return heading() + second_line() + sha256(archive.bytes()) + "\n" + archive.bytes();
 }
 
 std::string bytes_of(const std::string& file) {
@@ -68,7 +68,7 @@ std::optional<Checkpoint> read_checkpoint(const std::string& directory) {
   const std::string file = checkpoint_file(directory);
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return {};
-  const std::string all = bytes_of(file), first = first_line();
+  const std::string all = bytes_of(file), first = heading();
   if (!all.starts_with(first)) throw InputError(fmt::format("{}: is no checkpoint of elamin {}; a run goes on with the version that began it", file, version()));
   const std::string second = second_line();
   if (all.compare(first.size(), second.size(), second) != 0)

@@ -7,6 +7,7 @@
 #include "input/resolved.hpp"
 #include "results/run_directory.hpp"
 #include "results/stored_run.hpp"
+#include "results/terminal.hpp"
 #include "study/modes.hpp"
 #include "study/trace.hpp"
 #include "study/run.hpp"
@@ -23,11 +24,9 @@ namespace elamin {
 
 namespace {
 
-std::string number(const char* format, double v) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "not finite"; }
-
 std::string log_line(const PathPoint& p) {
   std::string line = fmt::format("step {} {} load factor {:.17g} energy {} residual {} iterations {} negative {} zero {}: {}",
-                                 p.step, p.label, p.state.load_factor, number("{:.17g}", p.energy.total()), number("{:.3g}", p.report.residual),
+                                 p.step, p.label, p.state.load_factor, number_text("{:.17g}", p.energy.total()), number_text("{:.3g}", p.report.residual),
                                  p.report.iterations, p.stability.negative, p.stability.zero, p.report.why);
   for (const std::string& name : p.stability.zero_modes) line += "; zero mode: " + name;
   return line;
@@ -104,8 +103,8 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     if (!point.report.converged()) point.stability.stable = false;          // only an equilibrium is
     for (std::size_t k = 0; k < point.report.history.size(); ++k) {
       const Iteration& i = point.report.history[k];
-      teller.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number("{:.10g}", i.energy),
-                             number("{:.3g}", i.residual), number("{:.3g}", i.step), number("{:.3g}", i.shift)));
+      teller.log(fmt::format("  iteration {} energy {} residual {} step {} shift {}", k, number_text("{:.10g}", i.energy),
+                             number_text("{:.3g}", i.residual), number_text("{:.3g}", i.step), number_text("{:.3g}", i.shift)));
     }
     teller.log(log_line(point));
     const Doing writing("writing");

@@ -2,6 +2,7 @@
 // A moving configuration of data/lammps as a model.
 #include "dynamics/contact_damping.hpp"
 #include "input/model_of.hpp"
+#include "matrices.hpp"
 #include "study/lammps_case.hpp"
 
 namespace elamin {
@@ -33,7 +34,5 @@ inline Field field_of(const nlohmann::json& rows) {
     for (int c = 0; c < 3; ++c) f(c, row[0].get<int>() - 1) = row[1 + c];
   return f;
 }
-
-inline double largest(const Field& f) { return f.cwiseAbs().maxCoeff(); }
 
 }  // namespace elamin

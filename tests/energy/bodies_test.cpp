@@ -7,20 +7,12 @@
 #include "energy/load_difference.hpp"
 #include "laws/check_law.hpp"
 #include "laws/rounded/rotation.hpp"
+#include "matrices.hpp"
+#include "solve/bodies.hpp"
 
 using namespace elamin;
 
 namespace {
-
-Pose pose(const Vec3& x, const Vec3& turned) { return {{x, Vec3::Zero()}, quaternion(turned)}; }
-
-int add_body(Model& m, const CoreMesh& core, double radius, const Pose& at) {
-  m.shapes.push_back(rounded_shape(core, radius));
-  const int b = static_cast<int>(m.bodies.size());
-  m.bodies.push_back({b, m.particles() + b + 1, 1, 2.0, Mat3::Identity()});
-  m.start.bodies.push_back(at);
-  return b;
-}
 
 // A chain whose first two particles a box carries, boxes and a rod that press on it, on each other, on a free particle and on a
 // plane; forces at points, torques, weights.
@@ -28,10 +20,10 @@ Model crowd(RoundedFormulation formulation) {
   Model m = chain(7, 50, 0.4, 0.5, Vec3(1, 0.2, -0.3));
   const Vec3 from = m.start.position.col(0);
   const Vec3 along = (Vec3(m.start.position.col(6)) - from).normalized();
-  add_body(m, box_core(Vec3(0.8, 0.6, 0.5)), 0.2, pose(from - 0.35 * along, Vec3(0.3, -0.2, 0.1)));
-  add_body(m, cube_core(0.7), 0.15, pose(from + Vec3(-0.55, 0.2, 1.02), Vec3(0.4, 0.3, -0.7)));
-  add_body(m, rod_core(1.2), 0.25, pose(from + Vec3(0.2, -0.95, 0.1), Vec3(-0.2, 0.5, 0.9)));
-  add_body(m, tetrahedron_core(0.9), 0.1, pose(from + 2.2 * along + Vec3(0.1, 0.75, 0.2), Vec3(1, 0.2, -0.5)));
+  add_body(m, box_core(Vec3(0.8, 0.6, 0.5)), 0.2, pose(from - 0.35 * along, Vec3(0.3, -0.2, 0.1)), 2);
+  add_body(m, cube_core(0.7), 0.15, pose(from + Vec3(-0.55, 0.2, 1.02), Vec3(0.4, 0.3, -0.7)), 2);
+  add_body(m, rod_core(1.2), 0.25, pose(from + Vec3(0.2, -0.95, 0.1), Vec3(-0.2, 0.5, 0.9)), 2);
+  add_body(m, tetrahedron_core(0.9), 0.1, pose(from + 2.2 * along + Vec3(0.1, 0.75, 0.2), Vec3(1, 0.2, -0.5)), 2);
   for (const int p : {0, 1})
     m.glued.push_back({p, 0, m.start.bodies[0].rotation.conjugate() * (Vec3(m.start.position.col(p)) - m.start.bodies[0].position.hi)});
   RoundedPair t;
@@ -59,8 +51,6 @@ Model crowd(RoundedFormulation formulation) {
 }
 
 const double accuracy_of_bodies = 200 * std::pow(epsilon, 0.8);
-
-Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 
 }  // namespace
 
@@ -214,8 +204,8 @@ TEST_CASE("a step ends before a body passes through another one, a particle or a
   model.start.position.col(0) = Vec3(0, 0, 3);
   model.id = model.type = model.molecule = {1};
   model.diameter = model.density = {0.5};
-  add_body(model, cube_core(1), 0.1, pose(Vec3(0, 0, 0), Vec3::Zero()));
-  add_body(model, rod_core(1), 0.1, pose(Vec3(3, 0.1, 0), Vec3(0, 0, 1)));
+  add_body(model, cube_core(1), 0.1, pose(Vec3(0, 0, 0), Vec3::Zero()), 2);
+  add_body(model, rod_core(1), 0.1, pose(Vec3(3, 0.1, 0), Vec3(0, 0, 1)), 2);
   RoundedPair t;
   t.particles = {std::vector{0}, std::vector<int>{}}, t.bodies = {std::vector{0, 1}, std::vector{0, 1}};
   t.kernel.normal = 10;

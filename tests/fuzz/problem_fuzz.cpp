@@ -33,7 +33,7 @@ namespace {
 using namespace elamin;
 namespace fs = std::filesystem;
 
-constexpr int seconds = 30;                         // of the processor, that one input may take
+constexpr int most_seconds = 30;                         // of the processor, that one input may take
 constexpr double gigabyte = 1e9, most_memory = 4;   // of the process that takes it
 constexpr double moment = 0.3;                      // seconds that what is read runs before it is asked to stop
 constexpr int one_runs = 4;                         // of so many that are read
@@ -215,7 +215,7 @@ TEST_CASE("damaged problems, grains, states and settings are read or refused, wh
       set_threads(1);
       Inputs inputs;
       while (tally->next < from + count) {
-        const itimerval time{{0, 0}, {seconds, 0}};
+        const itimerval time{{0, 0}, {most_seconds, 0}};
         setitimer(ITIMER_PROF, &time, nullptr);                 // and then SIGPROF
         inputs(tally->next, *tally);
         ++tally->next;

@@ -6,6 +6,7 @@
 #include "laws/hertz_contact.hpp"
 #include "laws/wall_sites.hpp"
 #include "lammps/data.hpp"
+#include "matrices.hpp"
 #include "reference.hpp"
 
 #include <map>
@@ -157,8 +158,6 @@ Field forces_of(const json& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) f.col(i) = Vec3(rows[i][1], rows[i][2], rows[i][3]);
   return f;
 }
-
-double largest(const Field& f) { return f.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 

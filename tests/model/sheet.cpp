@@ -8,7 +8,7 @@ using namespace elamin;
 
 namespace {
 
-constexpr int most = std::numeric_limits<int>::max();
+constexpr int beyond_counting = std::numeric_limits<int>::max();
 
 /// Largest |length − rest length| of the bonds.
 double misfit(const Model& m) {
@@ -261,11 +261,11 @@ TEST_CASE("Sheets too large to build are counted as such", "[model]") {
                                {1.0, nan},
                                {inf, 1.0},
                                {1.0, inf}}) {
-      CHECK(sheet_particles(rectangle(x, y, 1, angle * degree)) == most);
-      CHECK(sheet_particles(cylinder(x, y, 1, angle * degree)) == most);
-      CHECK(sheet_particles(circle(1e5 * std::max(x, y), 1, angle * degree)) == most);
+      CHECK(sheet_particles(rectangle(x, y, 1, angle * degree)) == beyond_counting);
+      CHECK(sheet_particles(cylinder(x, y, 1, angle * degree)) == beyond_counting);
+      CHECK(sheet_particles(circle(1e5 * std::max(x, y), 1, angle * degree)) == beyond_counting);
     }
-  CHECK(sheet_particles(rectangle(1, 1, 1e-300)) == most);
+  CHECK(sheet_particles(rectangle(1, 1, 1e-300)) == beyond_counting);
   CHECK(sheet_particles(rectangle(0, 0, 1)) == 1);
   CHECK(sheet_particles(rectangle(5, 0, 1)) == 6);
   CHECK(sheet_particles(circle(0.5, 1)) == 1);

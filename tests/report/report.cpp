@@ -20,14 +20,13 @@
 #include <set>
 
 using namespace elamin;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
 const std::string hostile = "</script><script>alert(1)</script><!-- & \"b\" 'c'";
 
 /// A truss that snaps through.
-const std::string problem = R"(title = "</script><script>alert(1)</script><!-- & \"b\" 'c'")" + truss + R"(
+const std::string hostile_problem = R"(title = "</script><script>alert(1)</script><!-- & \"b\" 'c'")" + truss + R"(
 [path]
 method = "arc_length"
 steps = 10
@@ -39,7 +38,7 @@ at = "final"
 value = 12345
 )";
 
-std::string made(const ScratchDirectory& scratch, const std::string& text = problem) {
+std::string made(const ScratchDirectory& scratch, const std::string& text = hostile_problem) {
   RunOptions options;
   options.file = scratch.file("p.toml", text), options.directory = scratch / "run", options.threads = 1, options.quiet = true;
   REQUIRE(run(options).exit_status == exit_done);
@@ -132,7 +131,7 @@ TEST_CASE("a page holds the numbers of a run's files", "[report]") {
       if (const auto value = as_number(run.path.rows[r][c])) CHECK((there.is_boolean() ? there == (*value != 0) : there == *value));
     }
   CHECK(data["events"]["values"][0].size() == run.events.rows.size());
-  CHECK(data["input"]["text"] == problem);
+  CHECK(data["input"]["text"] == hostile_problem);
   CHECK(data["status"] == "done");
   REQUIRE(data["expected"].size() == 1);
   CHECK(data["expected"][0]["met"] == false);
@@ -260,7 +259,7 @@ to = 0.5
 TEST_CASE("a page says what is missing", "[report]") {
   ScratchDirectory scratch;
   const std::string directory = made(scratch);
-  scratch.file("p.toml", problem + "# changed\n");
+  scratch.file("p.toml", hostile_problem + "# changed\n");
   CHECK(run_data(directory, 1000)["input"]["text"].is_null());
   std::filesystem::remove(directory + "/summary.json");
   CHECK(run_data(directory, 1000)["status"] == "interrupted");

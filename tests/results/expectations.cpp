@@ -10,10 +10,10 @@ using namespace elamin;
 
 namespace {
 
-struct Run {
+struct ExpectedRun {
   Model model = sample_model();
   Problem problem;
-  Run() {
+  ExpectedRun() {
     problem.file = "p.toml";
     problem.observe = {observe("mid_x", "two", Quantity::displacement, Component::x, Reduce::max)};
     ExpectTable e;
@@ -44,7 +44,7 @@ struct Run {
 }  // namespace
 
 TEST_CASE("expectations hold where the run gives what is expected, and only there", "[expectations]") {
-  Run run;
+  ExpectedRun run;
   CHECK(run.verdict("lambda", "branch:1", 0.6).met);
   CHECK(run.verdict("multiplicity", "branch:1", 2).met);
   CHECK(run.verdict("lambda", "final", 1).met);
@@ -104,7 +104,7 @@ TEST_CASE("a threshold is held by the middle of what encloses it", "[expectation
 }
 
 TEST_CASE("what an expectation cannot find is not met, and the sentence says what there is", "[expectations]") {
-  Run run;
+  ExpectedRun run;
   const auto unmet = [&](const std::string& observable, const std::string& at) {
     const Verdict v = run.verdict(observable, at, 0, 1e9, 1e9);
     CHECK(!v.met);

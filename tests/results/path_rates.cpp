@@ -77,26 +77,26 @@ TEST_CASE("springs in series: the force rises by what the springs together bear"
 }
 
 TEST_CASE("a truss: its stiffness on both sides of the limit point, and there", "[derivative]") {
-  const Truss truss;
+  const Truss two_bars;
   Problem problem;
   problem.observe = {observe("y", "apex", Quantity::position, Component::y, Reduce::mean), observe("thrust", "right", Quantity::reaction, Component::x, Reduce::sum),
                      observe("T", "all", Quantity::tension, Component::x, Reduce::max), observe("U", "all", Quantity::energy, Component::x, Reduce::sum),
                      derivative("dy", "y"), derivative("thrust_by_y", "thrust", "y"), derivative("T_by_y", "T", "y"), derivative("U_by_y", "U", "y")};
-  const double limit = std::sqrt(std::pow(truss.rest, 2.0 / 3) - 1);
+  const double limit = std::sqrt(std::pow(two_bars.rest, 2.0 / 3) - 1);
   for (const double y : {0.29, 0.2, limit, 0.1, -0.15, -0.4}) {
     CAPTURE(y);
-    State state = truss.model.start;
-    if (y == limit) state.position(1, 1) = y, state.load_factor = truss.load(y);       // to rounding
-    else state = truss.at(y);
-    const std::vector<double> v = values(problem, truss.model, state);
+    State state = two_bars.model.start;
+    if (y == limit) state.position(1, 1) = y, state.load_factor = two_bars.load(y);       // to rounding
+    else state = two_bars.at(y);
+    const std::vector<double> v = values(problem, two_bars.model, state);
     const double r = std::hypot(1, y), rate = 2 * Truss::K * y / r;         // of a bond's tension by y
     // About ten digits; near the limit point the place is known as well as the load divided by the stiffness.
     if (y == limit) CHECK_FALSE(std::abs(v[4]) < 1e6);
-    else CHECK(v[4] == Approx(1 / truss.stiffness(y)).epsilon(1e-9));
-    const double tension = 2 * Truss::K * (r - truss.rest);
+    else CHECK(v[4] == Approx(1 / two_bars.stiffness(y)).epsilon(1e-9));
+    const double tension = 2 * Truss::K * (r - two_bars.rest);
     CHECK(v[6] == Approx(rate).epsilon(1e-9));
     CHECK(v[5] == Approx(rate / r - tension * y / (r * r * r)).epsilon(1e-9));            // of T/r, x = 1
-    CHECK(v[7] == Approx(-truss.load(y)).epsilon(1e-9));                    // dU = −λ dy
+    CHECK(v[7] == Approx(-two_bars.load(y)).epsilon(1e-9));                    // dU = −λ dy
   }
 }
 

@@ -1,6 +1,7 @@
 // LDLᵀ with pivots inside of supernodes, held against dense eigenvalues and equations.
 #include "catch.hpp"
 #include "core/dense.hpp"
+#include "matrices.hpp"
 #include "solve/block_ldl.hpp"
 #include "solve/pivoted.hpp"
 
@@ -29,8 +30,6 @@ SparseMatrix grid(int rows, int columns, int each, std::mt19937& random) {
     }
   return SparseMatrix(Eigen::MatrixXd(h.triangularView<Eigen::Lower>()).sparseView());
 }
-
-Eigen::MatrixXd whole(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 
 }  // namespace
 

@@ -13,7 +13,7 @@ namespace {
 using elamin::pi;
 
 // Curves are computed until corrections are rounding: some 1e-15 of the load factor, more where forces cancel. [1]
-constexpr double exact = 1e-12;
+constexpr double curve_rounding = 1e-12;
 
 std::string curve(const std::string& of, const std::string& second, double from, double to, const std::string& more = "") {
   std::ostringstream text;
@@ -118,7 +118,7 @@ TEST_CASE("the branch load of Hencky's column as its bending stiffness changes",
       curve_of(hencky("x") + curve("branch:1", "beam.column.angle_stiffness", 4e-5, 2e-4, "steps = 10\nstops = [1e-4]\n"));
   REQUIRE(rows.size() > 10);
   for (const TableRow& row : rows) {
-    CHECK(row["lambda"] == Approx(hencky_load(row["second"])).epsilon(exact));
+    CHECK(row["lambda"] == Approx(hencky_load(row["second"])).epsilon(curve_rounding));
     CHECK(row["negative"] == 0);
     CHECK(row["multiplicity"] == 1);
   }
@@ -161,21 +161,21 @@ TEST_CASE("a truss sways first if it is steeper than arccos(2^(−3/2))", "[curv
   for (const TableRow& row : sway) {
     const double y = row["height"], r = std::hypot(1, y), l0 = 1 / std::cos(radians(row));
     if (row.text("label").starts_with("turn")) continue;
-    CHECK(r * r * r == Approx(l0 * y * y).epsilon(exact));
+    CHECK(r * r * r == Approx(l0 * y * y).epsilon(curve_rounding));
     CHECK(row["lambda"] == Approx(2 * y * (1 / r - 1 / l0)).epsilon(1e-11));
   }
-  CHECK(row_of(sway, "turn:1")["second"] == Approx(180 / pi * std::acos(2 / std::pow(3, 1.5))).epsilon(exact));
+  CHECK(row_of(sway, "turn:1")["second"] == Approx(180 / pi * std::acos(2 / std::pow(3, 1.5))).epsilon(curve_rounding));
   const std::vector<TableRow> half = curve_of(tall_truss + curve("branch:1", "constants.degrees", 75, 60, "steps = 10\nuntil = \"turn:1\"\n"));
   CHECK(half.back().text("label") == "turn:1");
   CHECK(half.size() < sway.size());
-  CHECK(sway.back()["lambda"] == Approx(0.76859681475999079427).epsilon(exact));        // the other branch point of the truss at 75°
+  CHECK(sway.back()["lambda"] == Approx(0.76859681475999079427).epsilon(curve_rounding));        // the other branch point of the truss at 75°
   // Limit points: λ = 2 (1 − cos^(2/3) α)^(3/2).
   const std::vector<TableRow> snap = curve_of(tall_truss + curve("limit:1", "constants.degrees", 60, 75, "steps = 10\n"));
   for (const TableRow& row : snap)
-    CHECK(row["lambda"] == Approx(2 * std::pow(1 - std::pow(std::cos(radians(row)), 2.0 / 3), 1.5)).epsilon(exact));
+    CHECK(row["lambda"] == Approx(2 * std::pow(1 - std::pow(std::cos(radians(row)), 2.0 / 3), 1.5)).epsilon(curve_rounding));
   for (const auto& rows : {sway, snap}) {
-    CHECK(row_of(rows, "hilltop:1")["second"] == Approx(steep).epsilon(exact));
-    CHECK(row_of(rows, "hilltop:1")["lambda"] == Approx(std::sqrt(0.5)).epsilon(exact));
+    CHECK(row_of(rows, "hilltop:1")["second"] == Approx(steep).epsilon(curve_rounding));
+    CHECK(row_of(rows, "hilltop:1")["lambda"] == Approx(std::sqrt(0.5)).epsilon(curve_rounding));
   }
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("a side load takes two thirds' powers from a load that sways, and the 
       curve_of(tall_truss + side + curve("limit:1", "load.side.force.1", 1e-3, -1e-3, "steps = 20\nstops = [1e-4, 1e-7, 1e-8, 1e-9]\n"));
   const TableRow cusp = row_of(rows, "cusp:1");
   CHECK(std::abs(cusp["second"]) < 1e-16);                      // rounding of forces of 0.1
-  CHECK(cusp["lambda"] == Approx(0.15156855763440564909).epsilon(exact));
+  CHECK(cusp["lambda"] == Approx(0.15156855763440564909).epsilon(curve_rounding));
   std::map<double, double> lost;
   for (const TableRow& row : rows) lost[row["second"]] = cusp["lambda"] - row["lambda"];
   // λ = λ_c − c ε^(2/3) + O(ε^(4/3)); of the difference at 1e-9 rounding is 1e-10.
@@ -277,14 +277,14 @@ group = "anchor"
   const std::vector<TableRow> rows = curve_of(truss + spring + path + curve("limit:1", "constants.k", 0.1, 0.3, "steps = 20\n"));
   for (const TableRow& row : rows) {
     const double k = row["second"], z = row["z"], r = std::hypot(1, z);
-    CHECK(row["lambda"] == Approx(truss_load(z) + 2 * k * (0.5 - z)).epsilon(exact));
+    CHECK(row["lambda"] == Approx(truss_load(z) + 2 * k * (0.5 - z)).epsilon(curve_rounding));
     CHECK(std::abs(-4 * (1 - std::sqrt(1.25) / (r * r * r)) - 2 * k) < 1e-11);      // dλ/dz
   }
   const TableRow cusp = row_of(rows, "cusp:1");
-  CHECK(cusp["second"] == Approx(2 * (std::sqrt(1.25) - 1)).epsilon(exact));
-  CHECK(cusp["lambda"] == Approx(2 * (std::sqrt(1.25) - 1)).epsilon(exact));
+  CHECK(cusp["second"] == Approx(2 * (std::sqrt(1.25) - 1)).epsilon(curve_rounding));
+  CHECK(cusp["lambda"] == Approx(2 * (std::sqrt(1.25) - 1)).epsilon(curve_rounding));
   CHECK(rows.back()["second"] == 0.1);                          // back to the limit point on the other side
-  CHECK(rows.back()["z"] == Approx(-rows.front()["z"]).epsilon(exact));
+  CHECK(rows.back()["z"] == Approx(-rows.front()["z"]).epsilon(curve_rounding));
 }
 
 TEST_CASE("where a truss touches a floor that is lowered, beyond its limit point", "[curve]") {
@@ -300,12 +300,12 @@ youngs_modulus = 10
   const std::vector<TableRow> rows = curve_of(truss + floor + path +
                                              curve("contact:1", "wall.floor.point.3", 0.3, -0.2, "steps = 20\nstops = [0]\n"));
   for (const TableRow& row : rows) {
-    CHECK(row["z"] == Approx(row["second"] + 0.05).epsilon(exact).margin(1e-13));
+    CHECK(row["z"] == Approx(row["second"] + 0.05).epsilon(curve_rounding).margin(1e-13));
     CHECK(row["lambda"] == Approx(truss_load(row["second"] + 0.05)).epsilon(1e-11));
   }
   const TableRow meeting = row_of(rows, "meeting:1");
   CHECK(meeting["z"] == Approx(truss_limit_z).epsilon(1e-7));   // the overlap's stiffness begins like its root
-  CHECK(meeting["lambda"] == Approx(truss_limit).epsilon(exact));
+  CHECK(meeting["lambda"] == Approx(truss_limit).epsilon(curve_rounding));
   CHECK(rows.back()["negative"] == 1);
 }
 

@@ -21,18 +21,18 @@ double angle_energy(const Model& model) {
   return energy.terms(model.start).angle;
 }
 
-struct Approach {
+struct EnergyError {
   double x;         // spacing over radius
   double error;     // energy over that of the continuum, minus 1
 };
 
 /// log(e₁/e₂)/log(x₁/x₂).
-double order(const Approach& coarse, const Approach& fine) {
+double order(const EnergyError& coarse, const EnergyError& fine) {
   return std::log(coarse.error / fine.error) / std::log(coarse.x / fine.x);
 }
 
 /// N particles on a circle of radius R against a beam of length 2πR: U = π EI/R.
-Approach bent_chain(int particles, Section section) {
+EnergyError bent_chain(int particles, Section section) {
   const double R = 3, E = 2, t = 0.7, q0 = chord(R, particles);
   Model model;
   Ring ring;
@@ -55,7 +55,7 @@ Sheet tube(double radius, double height, double degrees) {
 
 /// Energy of a particle of the tube against D/(2R²) on its area a²√3/2, D = (3√3/4) B. Of two heights the rims are the same:
 /// what the higher one has more is the inside of the plate.
-Approach bent_plate(double radius, double degrees) {
+EnergyError bent_plate(double radius, double degrees) {
   std::array<double, 2> U{}, particles{};
   for (int k = 0; k < 2; ++k) {
     Model model;
@@ -124,10 +124,10 @@ class Patch {
 TEST_CASE("equations (10), (12), (14): a bent chain approaches the beam as 1 − x²/24 − 17x⁴/5760", "[equations]") {
   const Section section = GENERATE(Section::cylinder, Section::square);
   for (const int n : {16, 64}) {
-    const Approach coarse = bent_chain(n, section), middle = bent_chain(2 * n, section), fine = bent_chain(4 * n, section);
+    const EnergyError coarse = bent_chain(n, section), middle = bent_chain(2 * n, section), fine = bent_chain(4 * n, section);
     CHECK(order(coarse, middle) == Approx(2).epsilon(0.01));
     CHECK(order(middle, fine) == Approx(2).epsilon(0.0025));
-    for (const Approach& a : {coarse, middle, fine}) {
+    for (const EnergyError& a : {coarse, middle, fine}) {
       const double x2 = a.x * a.x;                                      // next: 367/967680 x⁶ of asin
       CHECK(std::abs(a.error + x2 / 24 + 17 * x2 * x2 / 5760) <= 4e-4 * x2 * x2 * x2 + 1e-14);
     }
@@ -137,11 +137,11 @@ TEST_CASE("equations (10), (12), (14): a bent chain approaches the beam as 1 −
 TEST_CASE("equations (26), (27): a plate rolled in any direction approaches D/(2R²) as 1 − (5/64)(a/R)²", "[equations]") {
   const double degrees = GENERATE(0.0, 4.0, 11.0, 15.0, 19.107, 26.0, 30.0, 41.0, 90.0);
   INFO("rows at " << degrees << " degrees");
-  const Approach coarse = bent_plate(6, degrees), middle = bent_plate(12, degrees), fine = bent_plate(24, degrees);
+  const EnergyError coarse = bent_plate(6, degrees), middle = bent_plate(12, degrees), fine = bent_plate(24, degrees);
   CHECK(order(coarse, middle) == Approx(2).epsilon(0.002));
   CHECK(order(middle, fine) == Approx(2).epsilon(0.0005));
   // The direction matters at the fourth order only, and little: its coefficient is between 0.0022 and 0.0025.
-  for (const Approach& a : {coarse, middle, fine}) {
+  for (const EnergyError& a : {coarse, middle, fine}) {
     const double x2 = a.x * a.x;
     CHECK(std::abs(a.error + 5 * x2 / 64 - 0.00236 * x2 * x2) <= 0.0002 * x2 * x2 + 1e-12);
   }

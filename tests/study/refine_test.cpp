@@ -154,8 +154,8 @@ rtol = 0
     CHECK(std::abs(std::stod(rows[1][4]) - 2) < 0.02);
     CHECK(rows[1][5] == "asymptotic");
     CHECK(std::stod(rows[1][2]) == Approx(load).epsilon(1e-4));
-    std::ifstream json(scratch / "r/refine.json");
-    const auto all = nlohmann::json::parse(json);
+    std::ifstream written(scratch / "r/refine.json");
+    const auto all = nlohmann::json::parse(written);
     CHECK(all["levels"].size() == 3);
     CHECK(all["quantities"][0]["at"] == "branch:1");
     // A value elsewhere, and an error wider than it may be.

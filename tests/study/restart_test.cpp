@@ -85,7 +85,7 @@ std::set<std::string> compare_restarts(const std::string& text, const std::strin
   return kinds;
 }
 
-std::string problem(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
+std::string problem_text(const std::string& name) { return text_of(ELAMIN_ROOT "/problems/" + name + ".toml"); }
 
 const std::string resumed_column = pressed_column_observed + R"(
 [path]
@@ -106,20 +106,20 @@ TEST_CASE("load steps go on from a stored state with the same numbers", "[restar
 
 TEST_CASE("load steps go on at contacts, branch points, limit points and behind jumps", "[restart]") {
   const std::set<std::string> all{"initial", "branch", "jump", "contact", "limit"};
-  CHECK(compare_restarts(problem("two_beams")) == all);
-  CHECK(compare_restarts(problem("column_between_walls")) == all);
+  CHECK(compare_restarts(problem_text("two_beams")) == all);
+  CHECK(compare_restarts(problem_text("column_between_walls")) == all);
 }
 
 TEST_CASE("an arc-length path goes on at limit points and branch points, up or down", "[restart]") {
-  CHECK(compare_restarts(problem("truss_tall")) == std::set<std::string>{"initial", "branch", "limit"});
-  CHECK(compare_restarts(problem("arch_buckled")) == std::set<std::string>{"initial", "compression", "branch", "limit"});
+  CHECK(compare_restarts(problem_text("truss_tall")) == std::set<std::string>{"initial", "branch", "limit"});
+  CHECK(compare_restarts(problem_text("arch_buckled")) == std::set<std::string>{"initial", "compression", "branch", "limit"});
   const std::string jumping = " --set path.when_unstable='\"jump\"'";
-  CHECK(compare_restarts(problem("truss_tall"), jumping) == std::set<std::string>{"initial", "branch", "jump"});
+  CHECK(compare_restarts(problem_text("truss_tall"), jumping) == std::set<std::string>{"initial", "branch", "jump"});
 }
 
 TEST_CASE("an arc-length path goes on at contacts", "[restart]") {
   const std::string arc_length = " --set path.method='\"arc_length\"' --set path.when_unstable='\"follow\"'";
-  CHECK(compare_restarts(problem("column_between_walls"), arc_length) == std::set<std::string>{"initial", "branch", "contact", "limit"});
+  CHECK(compare_restarts(problem_text("column_between_walls"), arc_length) == std::set<std::string>{"initial", "branch", "contact", "limit"});
 }
 
 TEST_CASE("a path that is taken up on a side branch goes on along it", "[restart]") {
@@ -255,10 +255,10 @@ TEST_CASE("what stands beside a state", "[restart]") {
   const ScratchDirectory scratch;
   const std::string file = scratch.file("p.toml", resumed_column);
   REQUIRE(elamin_says("'" + file + "' --quiet").status == 0);
-  const auto json = nlohmann::json::parse(text_of(scratch / "p/states/branch-1.json"));
-  CHECK(json["lambda"].get<double>() == row_of(table_of(scratch / "p/events.csv"), "branch:1")["lambda"]);
-  CHECK(json["tail"].size() == 14);
-  CHECK_FALSE(json.contains("stage"));
+  const auto state = nlohmann::json::parse(text_of(scratch / "p/states/branch-1.json"));
+  CHECK(state["lambda"].get<double>() == row_of(table_of(scratch / "p/events.csv"), "branch:1")["lambda"]);
+  CHECK(state["tail"].size() == 14);
+  CHECK_FALSE(state.contains("stage"));
   // Null vectors of the event: orthonormal, zero where the ends are held.
   const auto modes = csv_rows(scratch / "p/states/branch-1.modes.csv");
   REQUIRE(modes.size() == 15);
@@ -280,7 +280,7 @@ TEST_CASE("what stands beside a state", "[restart]") {
   const Answer broken = elamin_says("'" + file + again);
   CHECK(broken.status == 1);
   CHECK(broken.text.find("jump-1.json: must hold {\"lambda\"") != std::string::npos);
-  const std::string lambda = json["lambda"].dump(), tail = json["tail"].dump();
+  const std::string lambda = state["lambda"].dump(), tail = state["tail"].dump();
   for (const auto& [path, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"[]", "path must be {\"varied\""},
            {R"({"varied": [], "rising": 1, "resume": {}})", "path must be {\"varied\""},

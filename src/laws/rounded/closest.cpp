@@ -6,7 +6,6 @@ namespace elamin {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The face of `by` that has all vertices of `seen` farthest outside of it: the separation along its normal, and its
 /// lowest vertex.
