@@ -1,6 +1,7 @@
 #pragma once
 // Error-free transformations: sums, products and differences that keep what rounding would throw away.
 // A pair (hi, lo) stands for the unevaluated sum hi + lo with |lo| ≤ ulp(hi)/2, about 32 digits.
+// Always inlined: a call would cost more than they do, and in large units GCC makes calls of them.
 // Source: Dekker 1971; Ogita, Rump, Oishi 2005, "Accurate sum and dot product", algorithms 3.1–3.3.
 #include "core/types.hpp"
 
@@ -14,36 +15,36 @@ struct Exact {
 };
 
 /// a + b = hi + lo exactly (Knuth).
-inline Exact two_sum(double a, double b) {
+[[gnu::always_inline]] inline Exact two_sum(double a, double b) {
   const double s = a + b, t = s - a;
   return {s, (a - (s - t)) + (b - t)};
 }
 
 /// a + b = hi + lo exactly, for |a| ≥ |b| (Dekker).
-inline Exact quick_two_sum(double a, double b) {
+[[gnu::always_inline]] inline Exact quick_two_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 
 /// a · b = hi + lo exactly, barring underflow.
-inline Exact two_product(double a, double b) {
+[[gnu::always_inline]] inline Exact two_product(double a, double b) {
   const double p = a * b;
   return {p, std::fma(a, b, -p)};
 }
 
 /// a + b, relative error about 2⁻¹⁰⁵ (no cancellation in the tails is lost).
-inline Exact operator+(Exact a, Exact b) {
+[[gnu::always_inline]] inline Exact operator+(Exact a, Exact b) {
   Exact s = two_sum(a.hi, b.hi);
   const Exact t = two_sum(a.lo, b.lo);
   s = quick_two_sum(s.hi, s.lo + t.hi);
   return quick_two_sum(s.hi, s.lo + t.lo);
 }
-inline Exact operator-(Exact a) { return {-a.hi, -a.lo}; }
-inline Exact operator-(Exact a, Exact b) { return a + (-b); }
-inline Exact operator+(Exact a, double b) { return a + Exact{b, 0}; }
+[[gnu::always_inline]] inline Exact operator-(Exact a) { return {-a.hi, -a.lo}; }
+[[gnu::always_inline]] inline Exact operator-(Exact a, Exact b) { return a + (-b); }
+[[gnu::always_inline]] inline Exact operator+(Exact a, double b) { return a + Exact{b, 0}; }
 
 /// a · b, relative error about 2⁻¹⁰⁴.
-inline Exact operator*(Exact a, Exact b) {
+[[gnu::always_inline]] inline Exact operator*(Exact a, Exact b) {
   const Exact p = two_product(a.hi, b.hi);
   return quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
@@ -66,16 +67,16 @@ struct ExactVector {
 };
 
 /// The vector of three such sums.
-inline ExactVector exact_vector(Exact x, Exact y, Exact z) { return {Vec3(x.hi, y.hi, z.hi), Vec3(x.lo, y.lo, z.lo)}; }
+[[gnu::always_inline]] inline ExactVector exact_vector(Exact x, Exact y, Exact z) { return {Vec3(x.hi, y.hi, z.hi), Vec3(x.lo, y.lo, z.lo)}; }
 
-inline ExactVector operator-(const ExactVector& a, const ExactVector& b) { return exact_vector(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
-inline ExactVector operator+(const ExactVector& a, const ExactVector& b) { return exact_vector(a[0] + b[0], a[1] + b[1], a[2] + b[2]); }
+[[gnu::always_inline]] inline ExactVector operator-(const ExactVector& a, const ExactVector& b) { return exact_vector(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+[[gnu::always_inline]] inline ExactVector operator+(const ExactVector& a, const ExactVector& b) { return exact_vector(a[0] + b[0], a[1] + b[1], a[2] + b[2]); }
 
 /// s v, exact.
-inline ExactVector two_product(double s, const Vec3& v) { return exact_vector(two_product(s, v[0]), two_product(s, v[1]), two_product(s, v[2])); }
+[[gnu::always_inline]] inline ExactVector two_product(double s, const Vec3& v) { return exact_vector(two_product(s, v[0]), two_product(s, v[1]), two_product(s, v[2])); }
 
 /// a · b to about 30 digits of |a||b|.
-inline Exact dot(const ExactVector& a, const ExactVector& b) {
+[[gnu::always_inline]] inline Exact dot(const ExactVector& a, const ExactVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
