@@ -127,7 +127,7 @@ TEST_CASE("a file that meets its limit at any byte ends a run in a sentence, wha
     if (entry.is_regular_file()) largest = std::max(largest, entry.file_size());
   std::uint64_t seed = 19;
   int stopped = 0, resumed = 0;
-  for (rlim_t limit = 0; limit < largest; limit += 1 + (seed = seed * 6364136223846793005u + 1442695040888963407u) % (largest / 40)) {
+  for (rlim_t limit = 0; limit < largest; limit += 1 + (seed = seed * 6364136223846793005u + 1442695040888963407u) % (largest / 20)) {
     INFO(limit);
     const std::string out = scratch / "out";
     std::filesystem::remove_all(out);
@@ -186,7 +186,7 @@ group = "edge"
 [[gravity]]
 acceleration = [0, 0, -0.01]
 [path]
-steps = 2
+steps = 1
 )");
   int done = 0, refused = 0, broken_off = 0;
   for (const std::string& file : {column, problems + "sheet_indented.toml", problems + "boxes_stacked.toml", sheet})
