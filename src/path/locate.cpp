@@ -98,6 +98,15 @@ void hold_modes(Newton& newton, Equilibrium& e, const Eigen::MatrixXd& known, co
   e.tangent = newton.factors().solve_holding(-newton.energy().load_derivative());
 }
 
+// On the chord between two samples.
+State chord(const Kinematics& kinematics, const Sample& a, const Sample& b, double t) {
+  const double part = (t - a.t) / (b.t - a.t), from = a.e.point.state.load_factor;
+  State state = a.e.point.state;
+  kinematics.prescribe(state, from + part * (b.e.point.state.load_factor - from));
+  kinematics.retract(state, kinematics.difference(a.e.point.state, b.e.point.state), part);
+  return state;
+}
+
 // Whether the states on both sides of a zero are as near to each other as their parameters: a branch is continuous. Else the eigenvalue has
 // changed its sign in a leap between two branches that pass by each other, as those of an unfolded pitchfork do.
 bool meet(const Kinematics& kinematics, const Segment& segment, const Equilibrium& a, const Equilibrium& b, const Sample& below, const Sample& above) {
@@ -191,8 +200,15 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     std::optional<Sample> zero = find_zero(lower, upper, resolution, [&](double t, const Sample& from) -> std::optional<Sample> {
       Equilibrium e;
       const Eigen::MatrixXd modes = held_at(from);
-      State state = between(t).state;
-      if (modes.cols() > 0) e = settled(state, modes, segment.settle);
+      if (modes.cols() > 0) {
+        State state = between(t).state;
+        e = settled(state, modes, segment.settle);
+        // Where a contact is hardly closed a cubic from the ends is not near enough: the two next samples are.
+        if (!good(e) && below.t != lower.t && above.t != upper.t) {
+          state = chord(newton.energy().kinematics(), below, above, t);
+          e = settled(state, modes, segment.settle);
+        }
+      }
       if (!good(e)) e = segment.at(t, from.e);
       if (!good(e)) return {};
       return sample(t, from, std::move(e));
