@@ -16,7 +16,7 @@ namespace elamin {
 namespace {
 
 constexpr double even = 1e-9;                      // relative: distances this close are the same
-constexpr std::size_t most_made = 20'000'000;
+constexpr std::size_t most_pairs = 20'000'000;
 constexpr std::int64_t most_tries = 500'000'000;   // some seconds
 
 using Pair = std::array<int, 2>;
@@ -143,7 +143,7 @@ class NearPairs {
       });
       if (static_cast<int>(near.size()) < c_.bonds_per_particle && !farthest) return enough_ = false, std::vector<Pair>{};
       if (c_.bonds_per_particle > 0) keep_nearest(near, c_.bonds_per_particle);
-      if (!few || pairs.size() + near.size() > most_made) return std::nullopt;
+      if (!few || pairs.size() + near.size() > most_pairs) return std::nullopt;
       for (const Near& n : near) pairs.push_back({std::min(i, n.particle), std::max(i, n.particle)});
     }
     std::sort(pairs.begin(), pairs.end());
