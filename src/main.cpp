@@ -26,7 +26,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <exception>
 #include <filesystem>
+#include <new>
+#include <string_view>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -60,11 +63,28 @@ void block_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&asking, signal);
   pthread_sigmask(SIG_BLOCK, &asking, nullptr);
 }
+
+// What is thrown where nothing catches it, in a constructor of a library or a thread of OpenMP, ends the program; a lack of memory does so in a sentence.
+[[noreturn]] void end_uncaught() {
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    constexpr std::string_view sentence = "elamin: there is not enough memory\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, sentence.data(), sentence.size());
+    _exit(elamin::exit_not_converged);
+  } catch (...) {
+  }
+  std::abort();
+}
+void before_libraries() {
+  block_signals();
+  std::set_terminate(end_uncaught);
+}
 extern "C" void* wait_for_signals(void*) {
   for (int signal = 0;;)
     if (sigwait(&asking, &signal) == 0) on_interrupt(signal);
 }
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = block_signals;
+[[gnu::section(".preinit_array"), gnu::used]] void (*const first_of_all)() = before_libraries;
 
 const char* const description =
     "elamin: static equilibria of elastic structures made of glued particles.\n"
@@ -174,6 +194,15 @@ int when_printed(int status) {
   if (poll(&out, 1, 0) > 0 && (out.revents & POLLERR)) return status;
   std::fputs("elamin: standard output cannot be written, and is not whole\n", stderr);
   return status == elamin::exit_done ? elamin::exit_not_converged : status;
+}
+
+// MUMPS ends the program by itself where memory is short, with status 0 at times.
+bool main_has_ended = false;
+void on_exit_of_a_library() {
+  if (main_has_ended) return;
+  std::fputs("elamin: a library ended the program, in most cases since there is not enough memory; what was found until then is kept, and elamin resume goes on from there\n", stderr);
+  std::fflush(nullptr);
+  _exit(elamin::exit_not_converged);
 }
 
 int answer(int argc, char** argv) {
@@ -326,10 +355,10 @@ int answer(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_wrong_input;
   } catch (const InputError& error) {
-    complain("{}\n", error.what());
-    return exit_wrong_input;
+    complain("{}\n", told(error));
+    return memory_was_short() ? exit_not_converged : exit_wrong_input;
   } catch (const OutputError& error) {
-    complain("{}\n", error.what());
+    complain("{}\n", told(error));
     return exit_not_converged;
   } catch (const std::exception& error) {
     complain("elamin: {}\n", told(error));
@@ -361,7 +390,16 @@ int answer_together(int argc, char** argv) {
 int main(int argc, char** argv) {
   without_idle_threads(argv);
   elamin::keep_freed_memory();
+  elamin::hold_memory_back();
   open_standard_streams();
   take_signals();
-  return when_printed(answer_together(argc, argv));
+  std::atexit(on_exit_of_a_library);
+  int status = elamin::exit_not_converged;
+  try {
+    status = when_printed(answer_together(argc, argv));
+  } catch (const std::exception& error) {        // before the command line was understood
+    elamin::complain("elamin: {}\n", elamin::told(error));
+  }
+  main_has_ended = true;
+  return status;
 }

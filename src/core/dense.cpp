@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 
 #include <cassert>
+#include <utility>
 
 namespace elamin {
 
@@ -22,9 +23,19 @@ EigenPairs tridiagonal_eigen(const Vector& diagonal, const Vector& beside) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+// A = Q R Pᵀ first, then those of R. JacobiSVD of Eigen 3.4 would do the same, but destroys its Q R twice where there is no memory for it.
 Singular singular_values(const Eigen::MatrixXd& a) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+  if (a.rows() < a.cols()) {
+    Singular of_transpose = singular_values(a.transpose());
+    return {std::move(of_transpose.v), std::move(of_transpose.values), std::move(of_transpose.u)};
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+  const Eigen::MatrixXd r = qr.matrixR().topRows(a.cols()).triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  u.topRows(a.cols()) = svd.matrixU();
+  u.applyOnTheLeft(qr.householderQ());
+  return {std::move(u), svd.singularValues(), qr.colsPermutation() * svd.matrixV()};
 }
 
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a) {

@@ -1,8 +1,11 @@
 #include "core/memory.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <string>
 
 #include <sys/resource.h>
@@ -12,6 +15,10 @@
 #endif
 
 namespace elamin {
+namespace {
+std::atomic<void*> held_back = nullptr;
+std::atomic<bool> was_short = false;
+}
 
 double all_memory() {
   rlimit limit;
@@ -43,5 +50,21 @@ void keep_freed_memory() {
   mallopt(M_TOP_PAD, 1 << 20);
 #endif
 }
+
+void hold_memory_back() {
+  constexpr std::size_t enough = 1 << 20;        // for sentences, summary.json and the last state of some 10^4 particles
+  held_back = std::malloc(enough);
+  std::set_new_handler([] {
+    give_held_memory();
+    throw std::bad_alloc();
+  });
+}
+
+void give_held_memory() noexcept {
+  was_short = true;
+  std::free(held_back.exchange(nullptr));
+}
+
+bool memory_was_short() noexcept { return was_short; }
 
 }  // namespace elamin

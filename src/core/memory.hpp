@@ -13,4 +13,14 @@ double free_memory();
 /// alone to call, before their first factorisation: it is about all of their memory. Nothing where the C library is not glibc.
 void keep_freed_memory();
 
+/// Holds some memory back, which the first allocation by `new` that fails gives free before it throws std::bad_alloc, so that there is room to say so and to
+/// write what was found. For programs alone to call: it sets the handler of `new`.
+void hold_memory_back();
+
+/// Gives that memory free, where something else than `new` has found none. Nothing where it is given, or none was held.
+void give_held_memory() noexcept;
+
+/// Whether it is given free: what goes wrong behind it may do so for lack of memory, since streams keep that to themselves.
+bool memory_was_short() noexcept;
+
 }  // namespace elamin

@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace elamin {
 
@@ -43,7 +44,9 @@ Node convert(const toml::node& from) {
   } else if (const auto* flag = from.as_boolean()) {
     to.value = flag->get();
   } else {
-    to.value = Date{};
+    std::ostringstream written;
+    written << toml::node_view<const toml::node>(from);
+    to.value = Date{written.str()};
   }
   return to;
 }
@@ -146,7 +149,7 @@ std::string shown(const Node& node) {
     return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;   // 10.0 is no integer
   }
   if (const auto* text = std::get_if<std::string>(&node.value)) return "the string " + in_quotes(*text);
-  if (std::holds_alternative<Date>(node.value)) return "a date or time";
+  if (const auto* date = std::get_if<Date>(&node.value)) return "the date or time " + date->text;
   if (std::holds_alternative<Entries>(node.value)) return "a table";
   return "a list of " + std::to_string(std::get<List>(node.value).size());
 }

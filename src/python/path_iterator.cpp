@@ -27,7 +27,7 @@ struct Step {
 
 py::object cell(const Cell& cell) {
   return std::visit([](const auto& v) -> py::object {
-    if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>) return py::none();
+    if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Nothing>) return py::none();
     else return py::cast(v);
   }, cell);
 }

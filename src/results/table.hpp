@@ -12,8 +12,17 @@
 
 namespace elamin {
 
+/// What an empty cell holds. It is not trivial to copy: of a variant of strings and such alone libstdc++ 12 believes that it always has a value, and destroys
+/// one that is not there when the copy of a string throws.
+struct Nothing {
+  Nothing() = default;
+  Nothing(const Nothing&) {}
+  Nothing& operator=(const Nothing&) { return *this; }
+  friend bool operator==(const Nothing&, const Nothing&) { return true; }
+};
+
 /// One entry; empty where nothing is known. A number that is not finite counts as empty wherever it is written.
-using Cell = std::variant<std::monostate, bool, int, double, std::string>;
+using Cell = std::variant<Nothing, bool, int, double, std::string>;
 using Row = std::vector<Cell>;
 
 struct Table {

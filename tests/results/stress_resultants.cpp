@@ -195,7 +195,7 @@ TEST_CASE("stress resultants stand in the table of particles, of sheets only", "
   for (const Row& row : tables[0].second.rows) {
     REQUIRE(row.size() == 16);
     if (std::get<int>(row[0]) == 10) {
-      CHECK(std::holds_alternative<std::monostate>(row[10]));
+      CHECK(std::holds_alternative<Nothing>(row[10]));
       continue;
     }
     CHECK(std::get<double>(row[10]) == Approx(std::sqrt(3) * 2 / 1.5).epsilon(1e-13));
