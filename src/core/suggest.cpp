@@ -69,7 +69,7 @@ const std::string* meant(const std::string& word, const std::vector<std::string>
   };
   for (const auto& [letter, name] : letters)
     if (word == letter)
-      if (const auto* found = first([&](const std::string& c) { return c == name; })) return found;
+      if (const auto* found = first([&, &wanted = name](const std::string& c) { return c == wanted; })) return found;
   if (const auto* found = first([&](const std::string& c) { return abbreviates(sought, lower(c)); })) return found;
   int nearest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   const std::string* best = nullptr;

@@ -4,7 +4,6 @@
 #include "energy/groups.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -41,7 +40,7 @@ constexpr double skin_of_diameter = 0.35;
 constexpr double used_up = 0.8;                 // part of half the skin, moved by, at which the lists are made anew
 
 double skin_for(const Model& model, const ContactRules* rules) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = infinity;
   if (rules)
     for (int i = 0; i < model.particles(); ++i)
       if (rules->cutoff_radius(i) > 0) smallest = std::min(smallest, 2 * rules->cutoff_radius(i));
@@ -82,7 +81,7 @@ Forces::Forces(const Model& model, double load_factor, const EdgeOrder& order)
   if (rub || (pairs_ && pairs_->damped()) || (walls_ && walls_->damped()) || (bodies_ && bodies_->damps_particles()))
     pushes_.damping = movement_.velocity = Rows(n);
   if (rub) pushes_.torque = movement_.angular_velocity = Rows(n);
-  travelled_ = std::numeric_limits<double>::infinity();
+  travelled_ = infinity;
 }
 
 double Forces::farthest(const Columns& x) const {

@@ -14,7 +14,7 @@ constexpr std::int64_t most_cells = 8;           // for every particle; more: th
 }
 
 PairList::PairList(const Model& model, const ContactRules& rules, double skin) : model_(model), rules_(rules), skin_(skin) {
-  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  double smallest = infinity, largest = 0;
   for (int i = 0; i < model.particles(); ++i) {
     if (!(rules.cutoff_radius(i) > 0)) continue;
     members_.push_back(i);
@@ -42,7 +42,7 @@ void PairList::offer(int i, int j, double squared) {
 }
 
 void PairList::find_on_grid(const Columns& x) {
-  Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
+  Vec3 lo = Vec3::Constant(infinity), hi = -lo;
   for (const int i : members_) lo = lo.cwiseMin(x.at(i)), hi = hi.cwiseMax(x.at(i));
   const Vec3 cells = ((hi - lo) / cell_).array().floor() + 1;
   if (!(cells.prod() <= static_cast<double>(most_cells * static_cast<std::int64_t>(members_.size()) + 1000)))

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 
 namespace elamin {
 
@@ -79,7 +78,7 @@ class Relaxation {
   Relaxation(Energy& energy, State& state, const RelaxOptions& options)
       : energy_(energy), state_(state), options_(options), v_(Vector::Zero(energy.dofs())) {
     const Model& model = energy.model();
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = infinity;
     for (int p = 0; p < model.particles(); ++p)
       if (!model.walls.empty() || energy.contact_rules().cutoff_radius(p) > 0) smallest = std::min(smallest, model.diameter[p]);
     for (const Bond& b : model.bonds)

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <random>
 
 namespace elamin {
@@ -127,7 +126,7 @@ double quickest_decay(Energy& energy, const State& state, const InverseMass& mas
 
 TimestepLimit timestep_limit(Energy& energy, const State& state) {
   TimestepLimit limit;
-  limit.stable = std::numeric_limits<double>::infinity();
+  limit.stable = infinity;
   if (energy.dofs() == 0) return limit;
   if (follows_lammps(energy.model())) {
     Model stiff = energy.model();

@@ -168,7 +168,7 @@ double sum_of(const double* value, int count) {
     finite = finite && std::isfinite(value[e]);
     sum.add(value[e]);
   }
-  return finite ? sum.value() : std::numeric_limits<double>::infinity();
+  return finite ? sum.value() : infinity;
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "laws/rounded/rotation.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -65,10 +64,10 @@ double advance(double most, double speed, const Distance& distance) {
 // The least height of the vertices over a wall; infinity where it sees none.
 double height(const RoundedWall& wall, const RoundedBody& body) {
   RoundedWall everywhere = wall;
-  everywhere.kernel.cutoff = std::numeric_limits<double>::infinity();
+  everywhere.kernel.cutoff = infinity;
   std::vector<RoundedWallTouch> touches;
   everywhere.touches(body, touches);
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (const RoundedWallTouch& t : touches) least = std::min(least, t.gap + body.shape->radius);
   return least;
 }
@@ -110,7 +109,7 @@ double collision_free_body_step(const Model& model, const BodyRules& rules, cons
     if (interrupted()) return 0;
     const RoundedBody a = way.at(i, 0), b = way.at(j, 0);
     const double speed = (way.move().col(i) - way.move().col(j)).norm() + way.turning(i, a) + way.turning(j, b);
-    part = std::min(part, advance(part, speed, [&](double s) { return core_separation(way.at(i, s), way.at(j, s)); }));
+    part = std::min(part, advance(part, speed, [&, a = i, b = j](double s) { return core_separation(way.at(a, s), way.at(b, s)); }));
   }
   return part;
 }

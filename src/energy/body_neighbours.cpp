@@ -1,7 +1,6 @@
 #include "energy/body_neighbours.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -10,7 +9,7 @@ constexpr double skin_of_cutoff = 0.2;
 }
 
 BodyNeighbours::BodyNeighbours(const Model& model) : rules_(model) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = infinity;
   for (int e = 0; e < rules_.entities(); ++e)
     if (rules_.cutoff_radius(e) > 0) smallest = std::min(smallest, rules_.cutoff_radius(e));
   if (rules_.any()) skin_ = skin_of_cutoff * smallest;

@@ -23,7 +23,7 @@ Kinds kinds(const Model& model, const std::vector<Element>& elements, std::size_
   for (const Element& e : elements) {
     std::vector<int> on;
     for (const auto& [change, member] : members)
-      if (std::all_of(e.particles.begin(), e.particles.end(), [&](int p) { return member[p]; })) on.push_back(change);
+      if (std::all_of(e.particles.begin(), e.particles.end(), [&in = member](int p) { return in[p]; })) on.push_back(change);
     if (on.empty()) {
       all.of.push_back(e.type);
       continue;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 
@@ -29,7 +28,7 @@ double touching(const Model& model, const ContactRules& rules, int i, int j) {
 // The smaller root s > 0 of |d + s u| = floor < |d|; infinity: it stays away.
 double smaller_root(const Vec3& d, const Vec3& u, double floor) {
   const double a = u.squaredNorm(), b = d.dot(u), c = d.squaredNorm() - floor * floor, discriminant = b * b - a * c;
-  if (!(b < 0) || discriminant < 0) return std::numeric_limits<double>::infinity();
+  if (!(b < 0) || discriminant < 0) return infinity;
   return c / (-b + std::sqrt(discriminant));
 }
 
@@ -38,7 +37,7 @@ double among_particles(const Model& model, const Neighbours& neighbours, const S
   const auto free_part = [&](const IndexPair& pair) {
     const auto [i, j] = pair;
     const double touch = touching(model, rules, i, j);
-    if (touch == 0) return std::numeric_limits<double>::infinity();
+    if (touch == 0) return infinity;
     const Vec3 d = (from.at(j) - from.at(i)).hi;
     return smaller_root(d, u.col(j) - u.col(i), particles_keep * std::min(d.norm(), touch));
   };
@@ -48,7 +47,7 @@ double among_particles(const Model& model, const Neighbours& neighbours, const S
       for (const IndexPair& pair : *list) least = std::min(least, free_part(pair));
     return least;
   }
-  double fastest = 0, smallest = std::numeric_limits<double>::infinity();
+  double fastest = 0, smallest = infinity;
   for (int i = 0; i < model.particles(); ++i)
     if (rules.cutoff_radius(i) > 0) fastest = std::max(fastest, u.col(i).norm()), smallest = std::min(smallest, 2 * rules.cutoff_radius(i));
   if (fastest == 0) return 1;
@@ -59,7 +58,7 @@ double among_particles(const Model& model, const Neighbours& neighbours, const S
     if (begin > 0 && interrupted()) return begin;
     for (int i = 0; i < model.particles(); ++i)
       if (rules.cutoff_radius(i) > 0) radii[i] = rules.cutoff_radius(i) + width / 2 * u.col(i).norm();
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     for (const IndexPair& pair : near_pairs(from.position + (begin + width / 2) * u, radii, [&](int p, int q) { return touching(model, rules, p, q) > 0; }))
       least = std::min(least, free_part(pair));
     if (least <= begin + width) return std::min(looked_at, least);
@@ -70,7 +69,7 @@ double among_particles(const Model& model, const Neighbours& neighbours, const S
 // Distance of the particle's centre to the wall's surface; infinity where the wall does not see it.
 double distance(const Wall& wall, double load_factor, const ExactVector& x, double r) {
   constexpr double aside = 1e-9;                                 // in radii: on an axis or at a centre a curved wall has no direction
-  constexpr double far = std::numeric_limits<double>::infinity();
+  constexpr double far = infinity;
   const WallContact now = wall_at(wall, load_factor);
   const auto nearest = [&](const ExactVector& at) {
     std::array<WallTouch, WallContact::most_faces> faces;

@@ -1,7 +1,6 @@
 #include "energy/neighbours.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -10,7 +9,7 @@ constexpr double skin_of_diameter = 0.3, hard_skin_of_diameter = 1;
 }
 
 Neighbours::Neighbours(const Model& model) : model_(model), rules_(model) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = infinity;
   for (int i = 0; i < model.particles(); ++i)
     if (rules_.cutoff_radius(i) > 0) smallest = std::min(smallest, 2 * rules_.cutoff_radius(i));
   const bool hard = std::any_of(model.contacts.begin(), model.contacts.end(), [](const PairContact& c) { return c.hard; });

@@ -5,7 +5,6 @@
 #include "energy/contact_rules.hpp"
 
 #include <array>
-#include <limits>
 
 namespace elamin {
 
@@ -27,7 +26,7 @@ class Neighbours {
   const std::vector<IndexPair>& lj() const { return pairs_[1]; }
   const std::vector<IndexPair>& hard() const { return pairs_[2]; }
   /// How far every particle may move before the list must be looked at anew; infinity without tables. [length]
-  double freedom() const { return rules_.any() ? skin_ / 2 : std::numeric_limits<double>::infinity(); }
+  double freedom() const { return rules_.any() ? skin_ / 2 : infinity; }
   /// The list, whose order sums follow.
   void carry(Archive& archive) { archive(listed_, pairs_); }
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 
@@ -53,7 +52,7 @@ double movement(const Energy& energy, const Vector& step) {
 }
 
 double extent(const Model& model) {
-  if (model.contacts.empty() && model.walls.empty() && model.rounded.empty()) return std::numeric_limits<double>::infinity();
+  if (model.contacts.empty() && model.walls.empty() && model.rounded.empty()) return infinity;
   Eigen::AlignedBox3d box = box_of(model, model.start);
   if (box.isEmpty()) return 0;
   for (const Wall& w : model.walls) {

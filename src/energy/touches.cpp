@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 
@@ -88,7 +87,7 @@ double pair_gap(const Model& model, int i, int j, const State& state) {
 
 double wall_gap(const Model& model, int particle, int wall, const State& state) {
   std::array<WallTouch, WallContact::most_faces> faces;
-  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  constexpr double anywhere = infinity;
   const int n = wall_at(model.walls[wall], state.load_factor).touches(state.at(particle), model.diameter[particle] / 2, anywhere, faces);
   double least = anywhere;
   for (int k = 0; k < n; ++k) least = std::min(least, faces[k].gap);

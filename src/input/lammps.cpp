@@ -3,6 +3,7 @@
 #include "core/dense.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "input/document.hpp"
 #include "input/parts.hpp"
 #include "input/stages.hpp"
 #include "input/state_supplement.hpp"
@@ -132,7 +133,7 @@ Eigen::Quaterniond rotation_between(const std::vector<Vec3>& r, const std::vecto
 
 /// How far a shape turned by q is from another one, relative to its size; infinity if they do not compare.
 double off(const RoundedShape& shape, const Eigen::Quaterniond& q, const RoundedShape& other) {
-  if (shape.vertices.size() != other.vertices.size()) return std::numeric_limits<double>::infinity();
+  if (shape.vertices.size() != other.vertices.size()) return infinity;
   double most = std::abs(shape.radius - other.radius);
   for (std::size_t k = 0; k < shape.vertices.size(); ++k)
     most = std::max(most, (q * shape.vertices[k] - other.vertices[k]).norm());

@@ -262,7 +262,7 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
                                                           model.changes[c].group));
       }
       for (std::vector<int> on : kinds.changes) {
-        std::erase_if(on, [&](int c) { return model.changes[c].*part == 0; });
+        std::erase_if(on, [&, factor = part](int c) { return model.changes[c].*factor == 0; });
         for (const double lambda : load_factors(problem)) {
           const double factor = change_factor(model, on, part, lambda).value();
           if (factor > 0 || !told.insert({on.back(), key}).second) continue;

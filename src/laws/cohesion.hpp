@@ -1,7 +1,6 @@
 #pragma once
 #include "laws/radial.hpp"
 
-#include <limits>
 
 namespace elamin {
 
@@ -98,7 +97,7 @@ struct Cohesion {
 
   double value(Exact q) const {
     if (!acts(q)) return 0;
-    if (!(q.value() > 0)) return std::numeric_limits<double>::infinity();
+    if (!(q.value() > 0)) return infinity;
     if (in_shell(q.value())) return energy_in_shell(shell(), to_cutoff(q));
     const double t = sigma / q.value() * sigma, s = sixth_power(q.value());
     const double excess = (two_product(sigma, sigma) - q).value() / q.value() * (1 + t + t * t);   // t³ − 1 = s − 1

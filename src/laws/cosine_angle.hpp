@@ -5,7 +5,6 @@
 #include "laws/triple.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 
@@ -50,14 +49,14 @@ struct CosineAngle {
 
   double value(const Points<3>& x) const {
     const Hinge t(x, *this);
-    return t.defined ? B * t.versine : std::numeric_limits<double>::infinity();
+    return t.defined ? B * t.versine : infinity;
   }
 
   Local<3> derivatives(const Points<3>& x) const {
     Local<3> U;
     const Hinge t(x, *this);
     if (!t.defined) {
-      U.value = std::numeric_limits<double>::infinity();
+      U.value = infinity;
       return U;
     }
     U.value = B * t.versine;

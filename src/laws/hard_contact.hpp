@@ -40,14 +40,14 @@ struct HardWall {
 
   double value(const Points<1>& x) const {
     WallGap g;
-    return find(x, g) ? force * g.overlap : std::numeric_limits<double>::infinity();
+    return find(x, g) ? force * g.overlap : infinity;
   }
 
   Local<1> derivatives(const Points<1>& x) const {
     Local<1> u;
     WallGap g;
     if (!find(x, g)) {
-      u.value = std::numeric_limits<double>::infinity();
+      u.value = infinity;
       return u;
     }
     u.value = force * g.overlap;
@@ -58,7 +58,7 @@ struct HardWall {
 
   /// The gap to the face at x, with the wall's radius as a fourth coordinate; false where the wall does not see the sphere.
   bool find(const Points<1>& x, WallGap& gap) const {
-    constexpr double anywhere = std::numeric_limits<double>::infinity();
+    constexpr double anywhere = infinity;
     for (const WallGap& g : wall_gaps(region, inside, false, {x.position.col(0), x.low.col(0)}, radius, anywhere))
       if (g.face == face) {
         gap = g;

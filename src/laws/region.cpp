@@ -13,7 +13,7 @@ double depth(const Region& r, const ExactVector& at) {
     case Shape::plane: return dot(from_center, {r.normal, Vec3::Zero()}).hi;
     case Shape::sphere: return -(length(from_center) + (-r.radius)).hi;
     case Shape::block: {
-      double least = std::numeric_limits<double>::infinity();
+      double least = infinity;
       for (int c = 0; c < 3; ++c) least = std::min({least, offset(x[c], r.lo[c]).hi, -offset(x[c], r.hi[c]).hi});
       return least;
     }
@@ -28,7 +28,7 @@ bool Region::contains(const ExactVector& x) const { return depth(*this, x) >= 0;
 // Cylinders and cones in the half-plane of ρ and z: their side lies between both radii and between both ends, their caps are ρ ≤ radius at each end.
 double Region::least_distance(const Vec3& at) const {
   constexpr double roundings = 16 * epsilon;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   const Vec3 x = at - displacement.hi, y = x - center;
   if (shape == Shape::plane) {
     least = std::abs(normal.dot(y));

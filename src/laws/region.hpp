@@ -3,7 +3,6 @@
 #include "core/exact.hpp"
 
 #include <array>
-#include <limits>
 
 namespace elamin {
 
@@ -17,8 +16,8 @@ struct Region {
   Vec3 normal = Vec3::UnitZ();                 // plane: a unit vector
   Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();   // block
   int axis = 2;                                // cylinder, cone: 0, 1, 2 for x, y, z
-  double axial_lo = -std::numeric_limits<double>::infinity();   // cylinder, cone: ends along the axis
-  double axial_hi = std::numeric_limits<double>::infinity();
+  double axial_lo = -infinity;   // cylinder, cone: ends along the axis
+  double axial_hi = infinity;
   double radius = 0;                           // cylinder, sphere
   double radius_lo = 0, radius_hi = 0;         // cone: at axial_lo and axial_hi
   /// Faces that are not there. block: xlo, xhi, ylo, yhi, zlo, zhi; cylinder, cone: lo, hi, side.

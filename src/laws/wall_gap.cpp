@@ -19,7 +19,7 @@ Varying constant(double value) { return {value, Vec4::Zero(), Mat4::Zero()}; }
 ///   dR_eff/dm = s r²/(m + s r)²,   d²R_eff/dm² = −2 s r²/(m + s r)³
 Varying curved_radius(double r, double s, const Varying& m) {
   const double sum = m.value + s * r;
-  if (!(m.value > 0 && sum > 0)) return constant(s > 0 ? 0.0 : std::numeric_limits<double>::infinity());
+  if (!(m.value > 0 && sum > 0)) return constant(s > 0 ? 0.0 : infinity);
   const double first = s * (r / sum) * (r / sum), second = -2 * first / sum;
   const Mat4 square = m.gradient * m.gradient.transpose();
   return {r * (m.value / sum), first * m.gradient, second * square + first * m.hessian};
@@ -64,7 +64,7 @@ class Search {
 
   void block_outside() {
     ExactVector nearest;                                  // from the nearest point of the closed faces to x
-    Exact least{std::numeric_limits<double>::infinity(), 0};
+    Exact least{infinity, 0};
     int of_face = 0;
     for (int face = 0; face < 6; ++face) {
       if (region_.open[face]) continue;
@@ -75,7 +75,7 @@ class Search {
         else if (above_lo.hi < 0) y.set(c, above_lo);
         else if (above_hi.hi > 0) y.set(c, above_hi);
       }
-      const Exact d = y.hi.allFinite() ? length(y) : Exact{std::numeric_limits<double>::infinity(), 0};
+      const Exact d = y.hi.allFinite() ? length(y) : Exact{infinity, 0};
       if (d.hi < least.hi) least = d, nearest = y, of_face = face;
     }
     if (!near(least)) return;

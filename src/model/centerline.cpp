@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 namespace {
@@ -77,7 +76,7 @@ class SinePoints {
   }
 
   bool solve() {
-    double before = std::numeric_limits<double>::infinity();
+    double before = infinity;
     for (int i = 0; i < 100; ++i) {
       const double moved = step() / c_.hi;
       if (!(moved < 1e3)) return false;

@@ -101,7 +101,7 @@ Rolled rolled(const Sheet& s) {
   const auto [cosine, sine] = cosine_sine(turns(s.lattice_angle));
   const double x = around * cosine.hi, y = -around * sine.hi, height = std::sqrt(3) / 2;
   Rolled r;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   for (int k = -1; k <= 2; ++k) {
     const double n2 = std::floor(y / height) + k, n1 = std::round(x - n2 / 2);
     const double off = std::hypot(n1 + n2 / 2 - x, n2 * height - y);

@@ -3,7 +3,6 @@
 #include "model/entities.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace elamin {
 namespace {
@@ -11,10 +10,10 @@ namespace {
 /// The smallest size, or of particles without any the shortest bond at rest.
 double size_of_all(const Model& model) {
   if (const double least = smallest_size(model); least > 0) return least;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (const BondType& b : model.bond_types)
     if (b.rest_length > 0) least = std::min(least, b.rest_length);
-  return least < std::numeric_limits<double>::infinity() ? least : 0;
+  return least < infinity ? least : 0;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class Limit {
 
  private:
   std::vector<double> row_;
-  double best_ = std::numeric_limits<double>::quiet_NaN(), error_ = std::numeric_limits<double>::infinity();
+  double best_ = std::numeric_limits<double>::quiet_NaN(), error_ = infinity;
 };
 
 }  // namespace

@@ -43,7 +43,8 @@ cholmod_factor* analysis_of(const SparseMatrix& pattern, cholmod_common& common)
   std::vector<int> order = pattern.cols() >= by_particles ? fill_reducing_order(pattern) : std::vector<int>();
   common.nmethods = order.empty() ? 0 : 1, common.method[0].ordering = CHOLMOD_GIVEN;      // 0: its own choice
   cholmod_factor* const factor = cholmod_analyze_p(&a, order.empty() ? nullptr : order.data(), nullptr, 0, &common);
-  if (!factor) cholmod_failed("analysis", common.status);
+  // Of a pattern that is valid nothing else fails, by whatever status: CHOLMOD_INVALID, too, where an ordering got no memory.
+  if (!factor) cholmod_failed("analysis", CHOLMOD_OUT_OF_MEMORY);
   return factor;
 }
 

@@ -121,7 +121,7 @@ Report ContactEquilibrium::newton(State& state, double tolerance, const State* f
   Report report;
   const State start = state;
   State previous, best;
-  double least = std::numeric_limits<double>::infinity(), moved = 0;
+  double least = infinity, moved = 0;
   int polishing = 0, worse = 0;
   const auto end = [&](Status status, std::string why) {
     report.status = status, report.why = std::move(why), report.seconds = watch.seconds();
@@ -187,7 +187,7 @@ Report ContactEquilibrium::slide(State& state, const State& origin, const Vector
   borders.rightCols(1) = mode;
   State previous = state, best;
   const State* from = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   const double size = energy_.kinematics().smallest_size();
   report.why = "Newton's method does not contract";
   for (; report.iterations <= limits::hard::most_steps && !interrupted(); ++report.iterations) {

@@ -3,7 +3,6 @@
 #include "solve/factors.hpp"
 #include "solve/report.hpp"
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,7 +16,7 @@ namespace elamin {
 /// Source: Nocedal & Wright 2006, Numerical Optimization, §16.1, §18.1; Wächter & Biegler 2006 (δ).
 class ContactEquilibrium {
  public:
-  static constexpr double anywhere = std::numeric_limits<double>::infinity();
+  static constexpr double anywhere = infinity;
   explicit ContactEquilibrium(Energy& energy) : energy_(energy), factors_(energy) {}
 
   /// The stationary point with these contacts closed, forces of any sign. Not converged if the steps do not shrink. `from`: where a

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace elamin {
@@ -178,7 +177,7 @@ Vector Factors::soft_values(int count) {
 
 void Factors::refine(EigenPairs& pairs) {
   Eigen::MatrixXd& x = pairs.vectors;
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (int k = 0; k < limits::eigenvector_refinements; ++k) {
     Eigen::MatrixXd r(x.rows(), x.cols()), w(x.rows(), x.cols());
     for (Eigen::Index j = 0; j < x.cols(); ++j) r.col(j) = energy_.multiply(x.col(j));

@@ -24,7 +24,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace elamin {
@@ -117,7 +116,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   const double out_of_balance = out_of_balance_of(energy_);
   const Curvature curvature(energy_);
   Inertia inertia;
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (int k = 0;; ++k) {
     const Eigen::Index m = x.cols();
     Eigen::MatrixXd s(m, m), r(x.rows(), m), w(x.rows(), m);

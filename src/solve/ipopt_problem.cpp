@@ -27,7 +27,7 @@ IpoptProblem::IpoptProblem(Energy& energy, ContactEquilibrium& equilibrium, cons
     : energy_(energy), equilibrium_(equilibrium), options_(options), memory_(memory), report_(report), origin_(start), at_(start), state_(start),
       before_(start), trail_{start}, length_(energy.kinematics().mean_size()), extent_(extent(energy.model())) {
   const bool hard = any_hard(energy.model());
-  freedom_ = hard ? std::min(energy_.freedom(), limits::ipopt::wide * length_) : std::numeric_limits<double>::infinity();
+  freedom_ = hard ? std::min(energy_.freedom(), limits::ipopt::wide * length_) : infinity;
   energy_.look_around(start);
   if (hard) contacts_ = energy_.hard_contacts(start, freedom_);
   gaps_.resize(contacts_.size());

@@ -248,7 +248,7 @@ void Multifrontal::eliminate_block(const Front& front) {
   dsytrf_rk_("L", &c, front.left.at, &front.height, beside, order, work.data(), &panel, &info);
   const auto diagonal = [&](int k) { return front.left.at[std::int64_t(k) * (front.height + 1)]; };
   int negative = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (int k = 0; k < c; ++k) {
     if (order[k] < 0) {                                        // 2×2, with eigenvalues of either sign
       const double d = diagonal(k), e = diagonal(k + 1), b = beside[k];

@@ -98,7 +98,7 @@ Newton::Halt Newton::without_factor() const { return no_factor().value_or(Halt{S
 // steps halve: what is soft moves by more than the residual tells. step: makes one, and gives its size [length].
 void Newton::polish(State& state, Report& report, const std::function<double(State&)>& step) {
   const bool meets = may_touch(energy_.model());
-  double last = std::numeric_limits<double>::infinity();
+  double last = infinity;
   for (int k = 0; k < limits::most_polishing && report.residual > (meets ? 4 : limits::exact) * epsilon; ++k) {
     State next = state;
     const double size = step(next);

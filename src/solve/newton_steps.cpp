@@ -82,7 +82,7 @@ bool Newton::take_long(const State& from, const Step& step, double alpha, State&
 // under the force of that stretch; the second takes this bending back, and may be as long. So each is compared with the last but one, or,
 // where something may touch and longer steps could go past it, with the last. Leaves the best state in `to`, and the energy evaluated there.
 bool Newton::take_downhill(const State& from, const Step& step, double alpha, State& to) {
-  double last = std::numeric_limits<double>::infinity(), before_last = last;
+  double last = infinity, before_last = last;
   const double enough = limits::relaxed * alpha * step.p.norm();
   const bool touching = may_touch(energy_.model());
   std::optional<State> fallen;

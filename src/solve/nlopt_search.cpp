@@ -101,7 +101,7 @@ bool NloptSearch::must_stop() {
 double NloptSearch::barred(const Vector& z, double* gradient) {
   if (!z.allFinite()) {
     if (gradient) std::fill_n(gradient, z.size(), 0.0);
-    return std::numeric_limits<double>::infinity();
+    return infinity;
   }
   const double steep = 1 + worst_ - best_value_;
   if (gradient) Eigen::Map<Vector>(gradient, z.size()) = 2 * steep * z;
@@ -140,7 +140,7 @@ double NloptSearch::call(unsigned n, const double* z, double* gradient, void* se
   } catch (...) {                                                 // not through NLopt
     search.thrown_ = std::current_exception();
     nlopt_force_stop(search.running_);
-    return std::numeric_limits<double>::infinity();
+    return infinity;
   }
 }
 

@@ -11,7 +11,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <map>
 
 namespace elamin {
@@ -103,7 +102,7 @@ Checkpointing::Checkpointing(RunDirectory& results, std::optional<RunRecord> rec
 }
 
 void Checkpointing::offer(const std::function<void(Archive&)>& carry) {
-  const double most = every_ > 0 ? largest_part * elapsed_.seconds() : std::numeric_limits<double>::infinity();
+  const double most = every_ > 0 ? largest_part * elapsed_.seconds() : infinity;
   if (!any_ || (keeping_ > most && !interrupted())) return;
   results_.keep_dropped_frames();                               // what is kept, in memory too, speaks of them
   const auto keep = [&] {

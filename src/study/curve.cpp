@@ -29,7 +29,7 @@ bool same_topology(const Energy& a, const Energy& b) {
 /// The contact whose gap is nearest to zero.
 ContactKey nearest_contact(Energy& energy, const State& state) {
   ContactKey key{-1, -1, -1};
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (const Touch& t : energy.touches(state, 1e-6 * energy.kinematics().smallest_size()))
     if (std::abs(t.gap) < least) least = std::abs(t.gap), key = {t.particle, t.other, t.wall, t.feature};
   return key;

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 
@@ -80,7 +79,7 @@ std::string describe_conditions(const Problem& problem, const Model& model) {
 
 std::string describe_timestep(Energy& energy, const State& state, double timestep) {
   const TimestepLimit limit = timestep_limit(energy, state);
-  if (!(limit.stable < std::numeric_limits<double>::infinity()))
+  if (!(limit.stable < infinity))
     return fmt::format("timestep {:.10g}; nothing is stiff at the start: collisions bound it\n", timestep);
   return fmt::format("timestep {:.10g}; stable up to {:.6g} at the start (largest frequency {:.6g}), advised {:.6g}\n", timestep,
                      limit.stable, limit.frequency, limit.advised());

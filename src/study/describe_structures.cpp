@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace elamin {
@@ -21,7 +20,7 @@ namespace elamin {
 namespace {
 
 struct Range {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  double least = infinity, most = -least;
   void add(double v) { least = std::min(least, v), most = std::max(most, v); }
   bool empty() const { return least > most; }
   std::string text() const {
@@ -309,7 +308,7 @@ std::string describe_bodies(const Model& model, const Structure& s) {
   std::string text;
   for (std::size_t shape = 0; shape < model.shapes.size(); ++shape) {
     int count = 0;
-    double least = std::numeric_limits<double>::infinity(), most = 0;
+    double least = infinity, most = 0;
     for (int b = s.first_body; b < s.first_body + s.bodies; ++b)
       if (model.bodies[b].shape == static_cast<int>(shape))
         ++count, least = std::min(least, model.bodies[b].mass), most = std::max(most, model.bodies[b].mass);

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace elamin {
@@ -45,7 +44,7 @@ void mixed_units(const Problem& problem, std::vector<std::string>& lines) {
 /// Residuals are told from rounding to 1e-10 of the largest force: what is softer by more than that is at rest anywhere.
 void stiffness_ratio(const Model& model, std::vector<std::string>& lines) {
   constexpr double most = 1e10;
-  double soft = std::numeric_limits<double>::infinity(), stiff = 0;
+  double soft = infinity, stiff = 0;
   for (const Bond& b : model.bonds)
     if (const double k = model.bond_types[b.type].stiffness; k > 0) soft = std::min(soft, k), stiff = std::max(stiff, k);
   if (stiff > most * soft)
@@ -96,7 +95,7 @@ std::vector<std::string> driven_together(const Problem& problem, const Model& mo
   if (model.contacts.empty() || !problem.stages.empty() || !(path || problem.study == StudyType::equilibrium)) return {};
   const Kinematics kinematics(model);
   const auto fixed = [&](int p) { return kinematics.dof(p, 0) < 0 && kinematics.dof(p, 1) < 0 && kinematics.dof(p, 2) < 0; };
-  double fastest = 0, smallest = std::numeric_limits<double>::infinity();
+  double fastest = 0, smallest = infinity;
   for (int p = 0; p < model.particles(); ++p)
     if (const double v = kinematics.drive(p).norm(); v > 0 && fixed(p))
       fastest = std::max(fastest, v), smallest = std::min(smallest, model.diameter[p]);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 
@@ -27,7 +26,7 @@ CoreDistance from_point(const Vec3& y, const Vec3& b, Feature feature, const Vec
 }
 
 CoreDistance from_edges(const RoundedShape& shape, const Vec3& y, const double* heights) {
-  double best = std::numeric_limits<double>::infinity(), place = 0;
+  double best = infinity, place = 0;
   int nearest = 0;
   for (std::size_t e = 0; e < shape.edges.size(); ++e) {
     const Vec3 a = shape.vertices[shape.edges[e].from], u = shape.vertices[shape.edges[e].to] - a, d = y - a;
@@ -45,7 +44,7 @@ CoreDistance from_edges(const RoundedShape& shape, const Vec3& y, const double* 
 }  // namespace
 
 double face_heights(const RoundedShape& shape, const Vec3& y, double* out) {
-  double largest = -std::numeric_limits<double>::infinity();
+  double largest = -infinity;
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     out[f] = shape.faces[f].normal.dot(y) - shape.faces[f].offset;
     largest = std::max(largest, out[f]);

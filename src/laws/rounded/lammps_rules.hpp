@@ -6,7 +6,6 @@
 #include "laws/rounded/pose.hpp"
 #include "laws/rounded/wrench.hpp"
 
-#include <limits>
 
 namespace elamin {
 
@@ -71,8 +70,8 @@ struct LammpsRules {
 struct LammpsWall {
   double stiffness = 0, normal_damping = 0, tangential_damping = 0;
   int axis = 2;
-  double lo = -std::numeric_limits<double>::infinity();                // infinite: no wall
-  double hi = std::numeric_limits<double>::infinity();
+  double lo = -infinity;                // infinite: no wall
+  double hi = infinity;
 
   /// All of it; what c_n and c_t do of that is added to `damping`, if wanted.
   Wrench on(const RoundedBody& body, const BodyMotion& motion = {}, Wrench* damping = nullptr) const;

@@ -1,6 +1,5 @@
 #include "laws/rounded/pair_view.hpp"
 
-#include <limits>
 
 namespace elamin {
 
@@ -15,7 +14,7 @@ void CoreView::set(const RoundedShape& s, const RoundedShape& b, const Vec3& shi
 }
 
 double CoreView::edge_bound(const RoundedShape::Edge& edge) const {
-  double largest = -std::numeric_limits<double>::infinity();
+  double largest = -infinity;
   const double *p = heights_of(edge.from), *q = heights_of(edge.to);
   for (std::size_t f = 0; f < by->faces.size(); ++f) largest = std::max(largest, std::min(p[f], q[f]));
   return largest;
