@@ -147,9 +147,23 @@ bool Branch::stop_where_load_goes_back(const Segment& segment, Candidate& c) {
     if (!(u > 0 && u < 1 && by < branch::slowed)) return {};
     return Place{ta + u * width, by};
   };
-  const double change = c.e.point.state.load_factor - current_.point.state.load_factor;
-  return look_between(segment, c, slowest, [&](Equilibrium& e) { return segment.load_rate(e) * sign_ < 0; }).value_or(false) ||
-         -sign_ * change <= branch::load_rounding * std::abs(current_.point.state.load_factor);
+  return look_between(segment, c, slowest, [&](Equilibrium& e) { return segment.load_rate(e) * sign_ < 0; }).value_or(false) || !goes_back(c);
+}
+
+// Whether the load factor has gone back from here, by more than rounding.
+bool Branch::goes_back(const Candidate& c) const {
+  const double here = current_.point.state.load_factor;
+  return sign_ * (here - c.e.point.state.load_factor) > branch::load_rounding * std::abs(here);
+}
+
+// Whether a stable state is on this branch, which is stable, too. On a stable branch the load factor goes on all the way, det H > 0 on both sides of each contact: what is
+// at the same load factor, but for rounding δλ, is no farther than the tangents tell, |Δx| ~ |dx/dλ| δλ. Beyond a branch point lies its other half, its mirror image.
+bool Branch::goes_on(const Candidate& c) const {
+  const Kinematics& kinematics = newton_.energy().kinematics();
+  const double here = current_.point.state.load_factor, rounding = branch::load_rounding * std::abs(here);
+  if (sign_ * (c.e.point.state.load_factor - here) > rounding) return true;
+  const double told = branch::most_told * rounding * std::max(current_.tangent.norm(), c.e.tangent.norm());
+  return !goes_back(c) && kinematics.difference(current_.point.state, c.e.point.state).norm() <= told + contact_event::together * kinematics.smallest_size();
 }
 
 // Whether an eigenvalue may vanish twice, or two of them in opposite ways, on the step from here: on the step before, which was half as long or longer, |μ| has then
@@ -322,6 +336,7 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
   const int after = c.e.point.stability.negative;
   const bool stays_stable = !c.events.empty() && negative_ == 0 && after == 0;      // up to a contact, behind which the tangent may be any other one
+  if (stays_stable && !current_.slack && !goes_on(c)) return why = "the load factor does not go on between two stable states: the contact is on another branch", false;
   const bool turns = !c.natural && !stays_stable && rises(c.e) != sign_;
   if (after == negative_ && !turns) {
     if (negative_ == 0 && lower_already(newton_.energy(), current_, c.e))

@@ -86,6 +86,8 @@ class Branch {
   using Where = std::function<std::optional<Place>(double ta, const Equilibrium& a, double tb, const Equilibrium& b)>;
   std::optional<bool> look_between(const Segment& segment, Candidate& c, const Where& where, const std::function<bool(Equilibrium&)>& wanted) const;
   bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
+  bool goes_back(const Candidate& c) const;
+  bool goes_on(const Candidate& c) const;
   [[nodiscard]] bool stop_where_index_goes_back(const Segment& segment, Candidate& c);
   bool softens() const;
   /// Tells the softest eigenpairs where the step begins, if they are told at its end alone; `change`: the load factor over which their change is taken.

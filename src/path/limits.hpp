@@ -70,6 +70,7 @@ constexpr int samples = 32;  // of cubics between two equilibria
 constexpr double same_mode = 0.7;  // cosine between eigenvectors at both ends of a step: more than with all others
 constexpr double little = 1e-4;  // of the step: over which the change of eigenvalues is taken
 constexpr double load_rounding = 1e-10;  // of the load factor: where hardly anything changes it
+constexpr double most_told = 10;  // times what tangents at both ends tell: between them they may be more
 constexpr double before_contact = 0.9;  // of the way to a contact that is lost: there the contact still has its stiffness, and the Morse index is the branch's
 constexpr double to_see_turn = 0.1;  // of the way along the critical mode to a limit point: over which the change of its stiffness is taken
 constexpr double first_past = 1e-5, least_past = 1e-7, last_past = 16;  // of the way over which the other side of a contact is looked for

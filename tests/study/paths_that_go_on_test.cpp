@@ -1416,3 +1416,7 @@ TEST_CASE("a stage that begins at a limit point, where the one before has stoppe
       CHECK(run.path.back()["energy"] == Approx(energy).epsilon(1e-10));
     }
 }
+
+TEST_CASE("a stable branch that leaves a contact does not go back along its mirror image, whatever the steps", "[paths][column_unloads_beside_mirror]") {
+  same_in_steps("column_unloads_beside_mirror", 0, "contact", 6, {50, 5, 13}, {by_arcs, follows});
+}
