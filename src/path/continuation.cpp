@@ -382,7 +382,7 @@ bool Continuation::closes_loop(const Waypoint& waypoint) {
   const Arc arc(newton_, waypoint.at, arc_steps().direction(), metric);
   const double s = arc.position(first_.point.state), away = arc.distance(first_.point.state), step = arc_steps().taken();
   if (!left_) {
-    left_ = std::hypot(s, away) > 8 * step;
+    left_ = step > 0 && std::hypot(s, away) > 8 * step;         // a step of the load factor tells no length
     return false;
   }
   return s <= 0 && s > -step && away < 0.25 * step &&

@@ -1420,3 +1420,9 @@ TEST_CASE("a stage that begins at a limit point, where the one before has stoppe
 TEST_CASE("a stable branch that leaves a contact does not go back along its mirror image, whatever the steps", "[paths][column_unloads_beside_mirror]") {
   same_in_steps("column_unloads_beside_mirror", 0, "contact", 6, {50, 5, 13}, {by_arcs, follows});
 }
+
+// A step of the load factor has no length to tell by how far the branch has gone from where it began.
+TEST_CASE("a branch that has hardly begun does not close to a loop, nor does it chatter between mirror images on its way back", "[paths][column_leaves_hardly_pushed]") {
+  same_in_steps("column_leaves_hardly_pushed", 0, "contact", 13, {40, 12, 13}, {by_arcs, snaps});
+  same_in_steps("column_leaves_hardly_pushed", 0, "contact", 13, {20, 7}, {by_load_steps, snaps});
+}
