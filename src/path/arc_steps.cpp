@@ -92,6 +92,7 @@ std::optional<Waypoint> ArcSteps::next() {
   int refused = 0, shifts = 0;
   const bool loose = current_.slack || current_.pushed;         // where no contact bears a force there is no arc to measure
   double natural = loose ? 1 : arc_steps::first_natural;
+  if (negative_ > 0 && !loose) natural = std::clamp(step_ * std::abs(direction_.load) / options_.load_step, arc_steps::least_bent, natural);
   std::optional<Direction> along;
   bool looked = false;
   if (neutral_.cols() == 1 && rest_in_family(newton_, current_)) {
@@ -264,15 +265,15 @@ bool ArcSteps::joins(const Arc& arc, const Equilibrium& start, const Equilibrium
   const Arc from(newton_, start, direction_of(start, metric_, arc.direction()), metric_);
   State state;
   if (!from.correct(state, from.position(end.point.state), start).converged()) return false;
-  const Kinematics& kinematics = newton_.energy().kinematics();
-  const auto apart = [&](const State& a, const State& b) {
-    const Vector x = kinematics.difference(a, b);
-    const double load = b.load_factor - a.load_factor;
-    return std::sqrt(metric_.dot(x, load, x, load));
-  };
   const double way = apart(start.point.state, end.point.state), missed = apart(state, end.point.state);
   return missed <= arc_steps::same_end * std::max(way, arc_steps::same_end * std::abs(arc.position(end.point.state))) ||
          missed <= left_by_rounding(newton_, state, start.zero_modes) / metric_.length;
+}
+
+double ArcSteps::apart(const State& a, const State& b) const {
+  const Vector x = newton_.energy().kinematics().difference(a, b);
+  const double load = b.load_factor - a.load_factor;
+  return std::sqrt(metric_.dot(x, load, x, load));
 }
 
 // A part of a load step further, or the next stop where that comes before.
@@ -384,9 +385,13 @@ Waypoint ArcSteps::accept(Candidate c) {
   } else {
     rotate(c);
   }
+  const double way = apart(current_.point.state, c.e.point.state);
+  const bool unstable = negative_ > 0;
   take(c);
   if (kink) step_ = std::min(step_, longest());
   else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, arc_steps::least_part * step_);
+  // Where steps of arc length have been refused another branch may be near: they grow again from what has been taken. Of stable ones the energy tells (lower_already).
+  if (c.natural && unstable && c.events.empty()) step_ = std::min(step_, arc_steps::most_growth * way);
   return {std::move(c.e), std::move(c.events), c.stop};
 }
 
@@ -408,7 +413,7 @@ void ArcSteps::rotate(const Candidate& c) {
   direction_ = std::move(next);
   if (!c.events.empty() || c.stop) return;
   const double ease = std::exp2((arc_steps::wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
-  step_ = c.parameter * std::clamp(std::min(ease, arc_steps::wanted_angle / std::max(angle, 1e-9)), 0.25, 2.0);
+  step_ = c.parameter * std::clamp(std::min(ease, arc_steps::wanted_angle / std::max(angle, 1e-9)), 0.25, arc_steps::most_growth);
   weigh(c.e);
 }
 

@@ -60,6 +60,7 @@ class ArcSteps final : public Branch {
   [[nodiscard]] bool look_beyond(const Arc& arc, const Candidate& c);
   void carry_neutral(Equilibrium& e);
   bool joins(const Arc& arc, const Equilibrium& start, const Equilibrium& end) const;
+  double apart(const State& a, const State& b) const;
   double next_load(double part) const;
   bool stands_at(const Equilibrium& e, double stop) const;
   [[nodiscard]] bool find_stop(Segment segment, Candidate& c, std::string& why);

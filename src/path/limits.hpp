@@ -80,6 +80,7 @@ constexpr double first_past = 1e-5, least_past = 1e-7, last_past = 16;  // of th
 namespace arc_steps {
 constexpr double largest_angle = 0.7;  // between the directions at both ends of a step [rad]
 constexpr double wanted_angle = 0.25;  // … that is aimed at [rad]
+constexpr double most_growth = 2;  // of a step over the one before
 constexpr int wanted_iterations = 4;  // of the corrector: quadratic convergence from a tenth to rounding
 constexpr double largest_departure = 0.5;  // of the corrector, in parts of the step
 constexpr double largest_defect = 0.2;  // of the chord from the sum of the tangents, in parts of the chord
@@ -88,7 +89,7 @@ constexpr double least_part = 1e-12;  // of the first step: shorter ones are giv
 constexpr double least_order = 0.5, largest_order = 5;  // of the load factor over the arc length from a branch point, as far as rates and changes tell one order
 constexpr double just_beyond = 0.125;  // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;  // of the way: an event leads there
-constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step: the longest and the shortest that is tried over a contact …
+constexpr double first_natural = 0.01, least_natural = 1e-9;  // of a load step: the longest, if no longer than the step of arc length, and the shortest that is tried over a contact …
 constexpr int refused_first = 6;  // … where so many of arc length have been refused, or right behind a contact
 constexpr double least_bent = 1e-6;  // … and the shortest that bends are a reason to shorten
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance

@@ -1426,3 +1426,8 @@ TEST_CASE("a branch that has hardly begun does not close to a loop, nor does it 
   same_in_steps("column_leaves_hardly_pushed", 0, "contact", 13, {40, 12, 13}, {by_arcs, snaps});
   same_in_steps("column_leaves_hardly_pushed", 0, "contact", 13, {20, 7}, {by_load_steps, snaps});
 }
+
+TEST_CASE("behind a contact steps grow from what has been taken, so that no corner is missed", "[paths][column_turns_in_a_corner]") {
+  same_in_steps("column_turns_in_a_corner", 0, "limit", 4, {13, 50, 90}, {by_arcs, follows});
+  same_in_steps("column_turns_right_behind_stop", 0, "contact", 22, {50, 13, 90}, {by_arcs, follows});
+}
