@@ -62,6 +62,7 @@ ArcSteps::ArcSteps(Newton& newton, Departure from, Direction direction, Metric m
     : Branch(newton, std::move(from), options.contacts, options.event_errors, options.user_events), metric_(metric), options_(std::move(options)),
       direction_(std::move(direction)) {
   sign_ = sign_of(direction_.load);
+  tell_tangent();
   if (negative_ < 0 || current_.family > 0) neutral_ = current_.zero_modes;
   least_length_ = std::min(metric_.length, arc_steps::least_length * span(newton.energy().model()));
   step_ = options_.step > 0 ? options_.step : longest();
@@ -329,16 +330,14 @@ bool ArcSteps::find_stop(Segment segment, Candidate& c, std::string& why) {
 std::optional<Equilibrium> ArcSteps::foreseen(const Segment& segment, const Candidate& c, double load_factor) {
   if (neutral_.cols() > 0 || direction_.load == 0) return {};
   const Kinematics& kinematics = newton_.energy().kinematics();
-  Equilibrium begin = current_;
-  begin.tangent = direction_.x / direction_.load;               // also where the branch begins at a branch point
   double low = segment.a, high = segment.b;
-  const std::function<double(double)> load_at = load_along(segment, begin, c.e);
+  const std::function<double(double)> load_at = load_along(segment, current_, c.e);
   const bool rises = current_.point.state.load_factor < load_factor;
   for (int k = 0; k < arc_steps::cubic_halvings; ++k) {
     const double middle = (low + high) / 2;
     ((load_at(middle) < load_factor) == rises ? low : high) = middle;
   }
-  State state = interpolate(kinematics, segment, begin, c.e, segment.a, segment.b, (low + high) / 2).state;
+  State state = interpolate(kinematics, segment, current_, c.e, segment.a, segment.b, (low + high) / 2).state;
   kinematics.prescribe(state, load_factor);
   const State guess = state;
   const Report report = newton_.correct(state, current_.zero_modes, &current_.point.state, equilibrium::most_iterations);
@@ -388,6 +387,7 @@ Waypoint ArcSteps::accept(Candidate c) {
   const double way = apart(current_.point.state, c.e.point.state);
   const bool unstable = negative_ > 0;
   take(c);
+  tell_tangent();
   if (kink) step_ = std::min(step_, longest());
   else if (c.natural) step_ = longest(), shortest_ = std::min(shortest_, arc_steps::least_part * step_);
   // Where steps of arc length have been refused another branch may be near: they grow again from what has been taken. Of stable ones the energy tells (lower_already).
@@ -415,6 +415,11 @@ void ArcSteps::rotate(const Candidate& c) {
   const double ease = std::exp2((arc_steps::wanted_iterations - std::max(1, c.e.point.report.iterations)) / 2.0);
   step_ = c.parameter * std::clamp(std::min(ease, arc_steps::wanted_angle / std::max(angle, 1e-9)), 0.25, arc_steps::most_growth);
   weigh(c.e);
+}
+
+// Where the equations are singular they do not tell it.
+void ArcSteps::tell_tangent() {
+  if (singular_ && direction_.load != 0) current_.tangent = direction_.x / direction_.load;
 }
 
 // How the branch goes on behind the contacts that have just been made, if they are stiff.

@@ -68,6 +68,7 @@ class ArcSteps final : public Branch {
   std::optional<Equilibrium> foreseen(const Segment& segment, const Candidate& c, double load_factor);
   Waypoint accept(Candidate c);
   void rotate(const Candidate& c);
+  void tell_tangent();
   [[nodiscard]] std::optional<Direction> along_contact();
   void weigh(const Equilibrium& e);
 

@@ -1431,3 +1431,14 @@ TEST_CASE("behind a contact steps grow from what has been taken, so that no corn
   same_in_steps("column_turns_in_a_corner", 0, "limit", 4, {13, 50, 90}, {by_arcs, follows});
   same_in_steps("column_turns_right_behind_stop", 0, "contact", 22, {50, 13, 90}, {by_arcs, follows});
 }
+
+// At a limit point the equations are singular: its tangent is the direction of the branch over that of the load factor.
+TEST_CASE("a branch goes on from a branch point right behind a limit point", "[paths][column_branches_behind_limit]") {
+  const Run first("column_branches_behind_limit", {in_steps(20)});
+  CHECK(first.of("branch").size() == 18);
+  for (const int n : {13, 30, 50}) {
+    const Run run("column_branches_behind_limit", {in_steps(n)});
+    CHECK(run.answer.status == 0);
+    same_events(first, run);
+  }
+}
