@@ -524,7 +524,7 @@ void HardContactSteps::snap(double target, const std::string& why, bool stabilit
     state = on.point.state;
     const Vector mode = canonical_modes(kinematics, equilibrium_.lowest(state, 1).vectors).col(0);
     const double part = std::min(hard_contact_steps::aside / std::max(distortion(energy, state, mode), 1e-300), hard_contact_steps::aside / std::max(movement(energy, mode), 1e-300));
-    for (const double side : {1.0, -1.0}) {
+    for (const double side : {-1.0, 1.0}) {
       starts.push_back(state);
       kinematics.retract(starts.back(), mode, side * part);
     }

@@ -258,10 +258,10 @@ constexpr std::size_t most_near = 12;  // states that stand for the branches
 namespace hard_contact_steps {
 constexpr int finest = 24;  // halvings of a step
 constexpr int most_changes = 20;  // of contacts at one load factor
-constexpr double beyond_event = 1e-4;  // of the path: where a snap begins …
+constexpr double beyond_event = continuation::snap_beyond.front();  // of the path: where a snap begins …
 constexpr double before_target = 0.5;  // … or of the way to the next step
 constexpr double aside = 1e-3;  // turn of what is glued, and way in diameters, to where a snap begins
-constexpr double nearest = 1e-5;  // the barrier where a snap begins, as small as leads to a minimum near by
+constexpr double nearest = 1e-7;  // the barrier where a snap begins: of a column that stays with its contacts 1e-5 led over to mirror images by 3 of 4 numbers of steps, 1e-6 and less never
 constexpr double alike = 1e-6;  // of the energy that is lost
 constexpr int look_for_limit = 3;  // after so many halvings, and again
 constexpr int most_crossings = 20;  // of modes in one step, before the first one is found

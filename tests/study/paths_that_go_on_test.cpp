@@ -1125,6 +1125,18 @@ TEST_CASE("where two mirror images of a branch with hard contacts meet, the cont
   }
 }
 
+TEST_CASE("a snap beside hard contacts lands in the nearest of alike minima, whatever the steps", "[paths][column_half_buckles]") {
+  const Run first("column_half_buckles", {in_steps(7)});
+  CHECK_ENDS_AT(first, 0.5);
+  REQUIRE(first.of("branch").size() > 1);
+  for (const int n : {12, 23, 50}) {
+    const Run run("column_half_buckles", {in_steps(n)});
+    CHECK_ENDS_AT(run, 0.5);
+    REQUIRE(run.events.size() == first.events.size());
+    for (std::size_t k = 0; k < run.events.size(); ++k) CHECK(run.events[k]["lambda"] == Approx(first.events[k]["lambda"]).epsilon(to_events));
+  }
+}
+
 namespace {
 
 const std::string locates_nothing = "path.locate=[]";
