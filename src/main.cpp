@@ -65,6 +65,7 @@ void block_signals() {
 }
 
 // What is thrown where nothing catches it, in a constructor of a library or a thread of OpenMP, ends the program; a lack of memory does so in a sentence.
+std::terminate_handler end_by_default;
 [[noreturn]] void end_uncaught() {
   try {
     if (std::current_exception()) throw;
@@ -74,11 +75,12 @@ void block_signals() {
     _exit(elamin::exit_not_converged);
   } catch (...) {
   }
+  end_by_default();
   std::abort();
 }
 void before_libraries() {
   block_signals();
-  std::set_terminate(end_uncaught);
+  end_by_default = std::set_terminate(end_uncaught);
 }
 extern "C" void* wait_for_signals(void*) {
   for (int signal = 0;;)

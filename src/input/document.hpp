@@ -12,7 +12,7 @@ namespace elamin {
 
 struct Node;
 struct Entry;
-struct Date { std::string text; };     // a date or time, as it stands: no key wants one
+struct Date { std::string text; };     // a date or time, as it stands: no key wants one. Not trivial to copy, for the reason that Nothing (results/table.hpp) is not
 using List = std::vector<Node>;
 using Entries = std::vector<Entry>;    // of a table, in the order of the file
 
