@@ -34,35 +34,19 @@ void synchronise(const std::string& place, int flags, int (*how)(int)) {
   if (const int descriptor = open(place.c_str(), flags | O_CLOEXEC); descriptor >= 0) how(descriptor), close(descriptor);
 }
 
-void write_whole(const std::string& file, std::string_view text, bool to_disk) {
-  std::error_code error;
-  const fs::file_type type = fs::symlink_status(file, error).type();
-  const std::string beside = unfinished(file);
-  const bool replaceable = type == fs::file_type::regular || type == fs::file_type::not_found;
-  const int descriptor = replaceable ? open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, everybody) : -1;
-  if (descriptor < 0) return GrowingFile(file).add(text);
-  const bool whole = write_all(descriptor, text);
-  int reason = errno;
-  if (close(descriptor) != 0 && whole) reason = errno;
-  else if (whole) reason = 0;
-  if (reason == 0 && to_disk) synchronise(beside, O_RDONLY, fsync);
-  if (reason == 0 && std::rename(beside.c_str(), file.c_str()) != 0) reason = errno;
-  if (reason != 0) {
-    fs::remove(beside, error);
-    errno = reason;
-    cannot_write(file);
-  }
-  const std::string folder = fs::path(file).parent_path().string();
-  if (to_disk) synchronise(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, fsync);
-}
-
 }  // namespace
 
 void cannot_write(const std::string& file) { throw OutputError(file + ": cannot be written: " + std::strerror(errno)); }
 
-void write_text(const std::string& file, std::string_view text) { write_whole(file, text, false); }
+void write_text(const std::string& file, std::string_view text) {
+  WholeFile whole(file);
+  whole.add(text), whole.keep();
+}
 
-void write_to_disk(const std::string& file, std::string_view text) { write_whole(file, text, true); }
+void write_to_disk(const std::string& file, std::string_view text) {
+  WholeFile whole(file);
+  whole.add(text), whole.keep(true);
+}
 
 bool write_over(const std::string& file, std::string_view text) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC);
@@ -101,6 +85,39 @@ void GrowingFile::replace(std::uintmax_t bytes, std::string_view text) {
   if (ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0) size_ = bytes;
   errno = reason;
   cannot_write(file_);
+}
+
+WholeFile::WholeFile(std::string file) : file_(std::move(file)) {
+  std::error_code error;
+  const fs::file_type type = fs::symlink_status(file_, error).type();
+  if (type == fs::file_type::regular || type == fs::file_type::not_found)
+    descriptor_ = open(unfinished(file_).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, everybody);
+  if (descriptor_ < 0) as_it_is_.emplace(file_);
+}
+
+WholeFile::~WholeFile() {
+  if (descriptor_ < 0) return;
+  close(descriptor_);
+  remove_unfinished(file_);
+}
+
+void WholeFile::add(std::string_view text) {
+  if (as_it_is_) as_it_is_->add(text);
+  else if (!write_all(descriptor_, text)) cannot_write(file_);
+}
+
+void WholeFile::keep(bool to_disk) {
+  if (as_it_is_) return;
+  if (to_disk) fsync(descriptor_);
+  const bool closed = close(std::exchange(descriptor_, -1)) == 0;
+  if (!closed || std::rename(unfinished(file_).c_str(), file_.c_str()) != 0) {
+    const int reason = errno;
+    remove_unfinished(file_);
+    errno = reason;
+    cannot_write(file_);
+  }
+  const std::string folder = fs::path(file_).parent_path().string();
+  if (to_disk) synchronise(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, fsync);
 }
 
 void remove_unfinished(const std::string& file) {

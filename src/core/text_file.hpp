@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -8,8 +9,7 @@ namespace elamin {
 /// Throws OutputError with the reason that errno has.
 [[noreturn]] void cannot_write(const std::string& file);
 
-/// Writes a file whole or not at all: into NAME.new beside it, which then takes its place; over links, devices and where no other file can be made
-/// it is written as it is. Throws OutputError if that fails.
+/// Writes a file whole or not at all, see WholeFile. Throws OutputError if that fails.
 void write_text(const std::string& file, std::string_view text);
 
 /// The same, and the bytes are on the disk before the file has its name.
@@ -37,6 +37,25 @@ class GrowingFile {
   std::string file_;
   int descriptor_ = -1;
   std::uintmax_t size_ = 0;
+};
+
+/// A file that is written piece by piece, whole or not at all: into NAME.new beside it, which takes its place by `keep`, and which goes where that was not
+/// called; over links, devices and where no other file can be made it is written as it is. Throws OutputError if it cannot be written.
+class WholeFile {
+ public:
+  explicit WholeFile(std::string file);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void add(std::string_view text);
+  /// to_disk: the bytes are on the disk before the file has its name.
+  void keep(bool to_disk = false);
+
+ private:
+  std::string file_;
+  int descriptor_ = -1;                 // of the file beside it
+  std::optional<GrowingFile> as_it_is_;
 };
 
 /// Removes what a process that was killed while it wrote such a file has left beside it.

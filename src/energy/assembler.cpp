@@ -13,34 +13,46 @@ namespace {
 constexpr std::int64_t grain = 5000;               // elements and sites a thread
 constexpr std::int64_t grain_of_blocks = 1000;     // sites, each with a few hundred additions
 
-// A part of a block: the place of an element's Hessian, the number of the rows' site among the element's, and that of the columns' site.
-static_assert(Assembler::most_sites <= 16);
-std::int64_t block_part(std::int64_t place, int rows, int columns) { return place << 8 | rows << 4 | columns; }
+// One part of a block: the place of an element's Hessian, of `sites` sites, and which of them are that of the rows and that of the columns; `others`: the
+// first site of an element that may be moved as a whole, minus all others, see ElementGroup::derivatives.
+struct BlockPart {
+  static constexpr int others = 15;
+  std::int64_t place;
+  int sites, rows, columns;
 
-// Adds it to a block, given by columns; of the block of a site with itself the lower triangle.
-void add_part(const std::vector<double>& hessians, std::int64_t part, double (&block)[3][3]) {
-  const double* const h = hessians.data() + (part >> 8);
-  const int r = static_cast<int>(part >> 4 & 15), c = static_cast<int>(part & 15);
+  std::int64_t code() const { return place << 12 | sites << 8 | rows << 4 | columns; }
+  static BlockPart of(std::int64_t code) {
+    return {code >> 12, static_cast<int>(code >> 8 & 15), static_cast<int>(code >> 4 & 15), static_cast<int>(code & 15)};
+  }
+};
+static_assert(Assembler::most_sites < BlockPart::others);
+
+// Adds the entries of two sites to a block, given by columns.
+void add_entries(const double* h, int r, int c, double sign, double (&block)[3][3]) {
   for (int k = 0; k < 3; ++k) {
     const double* const row = h + (r < c ? ElementGroup::packed(3 * c + k, 3 * r) : ElementGroup::packed(3 * r + k, 3 * c));
-    if (r < c) block[k][0] += row[0], block[k][1] += row[1], block[k][2] += row[2];
-    else
-      for (int b = 0; b < (r == c ? k + 1 : 3); ++b) block[b][k] += row[b];
+    for (int b = 0; b < (r == c ? k + 1 : 3); ++b) {
+      if (r >= c) block[b][k] += sign * row[b];
+      if (r < c || (r == c && b < k)) block[k][b] += sign * row[b];
+    }
   }
+}
+
+void add_part(const std::vector<double>& hessians, std::int64_t code, double (&block)[3][3]) {
+  const BlockPart p = BlockPart::of(code);
+  const double* const h = hessians.data() + p.place;
+  if (p.rows != BlockPart::others && p.columns != BlockPart::others) return add_entries(h, p.rows, p.columns, 1, block);
+  const auto from = [](int site) { return site == BlockPart::others ? 0 : site; };
+  const auto to = [&](int site) { return site == BlockPart::others ? p.sites : site + 1; };
+  const double sign = p.rows == p.columns ? 1 : -1;
+  for (int r = from(p.rows); r < to(p.rows); ++r)
+    for (int c = from(p.columns); c < to(p.columns); ++c) add_entries(h, r, c, sign, block);
 }
 
 // The free dof of a row of an element, −1: prescribed, or no site.
 int dof_of(const Kinematics& kinematics, const ElementGroup& group, int e, int row) {
   const int site = group.stencil(e)[row / 3];
   return site < 0 ? -1 : kinematics.dof(site, row % 3);
-}
-
-// Calls body(element, local row, local column ≤ row) for the packed lower triangle of every element of the group.
-template <class Body>
-void for_each_entry(const ElementGroup& group, const Body& body) {
-  for (int e = 0; e < group.elements(); ++e)
-    for (int r = 0; r < group.gradient_size(); ++r)
-      for (int c = 0; c <= r; ++c) body(e, r, c);
 }
 
 }  // namespace
@@ -56,7 +68,7 @@ Assembler::Assembler(const Kinematics& kinematics, const Groups& groups) : kinem
   build_site_gather();
   build_blocks();
   build_pattern();
-  if (kinematics_.driven()) build_drives();
+  if (kinematics_.driven()) find_driven();
   values_.resize(v), sums_.resize(groups_.size()), gradients_.resize(g), hessians_.resize(h);       // the largest last, when what has made the lists is gone
 }
 
@@ -80,31 +92,36 @@ void Assembler::build_site_gather() {
 
 // A counting sort of the parts by the site of their columns, then by that of their rows, which keeps the order of the elements.
 void Assembler::build_blocks() {
-  struct Part { int rows; std::int64_t code; };
+  struct Placed { int rows; std::int64_t code; };
   const auto for_each_part = [&](const auto& body) {           // body(columns' site, rows' site, code)
-    for (std::size_t k = 0; k < groups_.size(); ++k)
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      const int first = groups_[k]->hessian_first() / 3, count = groups_[k]->sites() - first, size = groups_[k]->hessian_size();
+      const auto part = [&](int e, int rows, int columns) {
+        const auto among = [&](int i) { return i < first ? BlockPart::others : i - first; };
+        return BlockPart{hessian_offset_[k] + std::int64_t(e) * size, count, among(rows), among(columns)}.code();
+      };
       for (int e = 0; e < groups_[k]->elements(); ++e) {
         const std::span<const int> site = groups_[k]->stencil(e);
-        const std::int64_t place = hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size();
         for (int i = 0; i < static_cast<int>(site.size()); ++i)
           for (int j = 0; j <= i && site[i] >= 0; ++j) {
             if (site[j] < 0) continue;
-            if (i > j && site[i] <= site[j]) body(site[i], site[j], block_part(place, j, i));
-            if (site[i] >= site[j]) body(site[j], site[i], block_part(place, i, j));
+            if (i > j && site[i] <= site[j]) body(site[i], site[j], part(e, j, i));
+            if (site[i] >= site[j]) body(site[j], site[i], part(e, i, j));
           }
       }
+    }
   };
   const std::size_t sites = kinematics_.sites();
   std::vector<std::int64_t> begin(sites + 1, 0);
   for_each_part([&](int columns, int, std::int64_t) { ++begin[columns + 1]; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Part> parts(begin.back());
+  std::vector<Placed> parts(begin.back());
   std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
   for_each_part([&](int columns, int rows, std::int64_t code) { parts[next[columns]++] = {rows, code}; });
   blocks_.first.assign(sites + 1, 0);
   parallel_for(static_cast<std::int64_t>(sites), grain, [&](std::int64_t p) {
     const auto from = parts.begin() + begin[p], to = parts.begin() + begin[p + 1];
-    std::stable_sort(from, to, [](const Part& a, const Part& b) { return a.rows < b.rows; });
+    std::stable_sort(from, to, [](const Placed& a, const Placed& b) { return a.rows < b.rows; });
     std::int64_t count = from == to || from->rows != p;         // its own, though nothing be in it
     for (auto it = from; it != to; ++it) count += it == from || it->rows != (it - 1)->rows;
     blocks_.first[p + 1] = count;
@@ -145,17 +162,16 @@ void Assembler::build_pattern() {
   std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
 }
 
-// Entries of which one dof is free and the other driven: they feed ∂g/∂λ.
-void Assembler::build_drives() {
+// They feed ∂g/∂λ.
+void Assembler::find_driven() {
   for (std::size_t k = 0; k < groups_.size(); ++k)
-    for_each_entry(*groups_[k], [&](int e, int r, int c) {
-      const int i = dof_of(kinematics_, *groups_[k], e, r), j = dof_of(kinematics_, *groups_[k], e, c);
-      if ((i >= 0) == (j >= 0)) return;
-      const int held = i < 0 ? r : c, site = groups_[k]->stencil(e)[held / 3];
-      const double rate = site < 0 ? 0.0 : kinematics_.drive(site)[held % 3];
-      if (rate != 0)
-        drives_.push_back({std::max(i, j), hessian_offset_[k] + std::int64_t(e) * groups_[k]->hessian_size() + ElementGroup::packed(r, c), rate});
-    });
+    for (int e = 0; e < groups_[k]->elements(); ++e) {
+      bool free = false, driven = false;
+      for (const int site : groups_[k]->stencil(e))
+        for (int c = 0; c < 3 && site >= 0; ++c)
+          free = free || kinematics_.dof(site, c) >= 0, driven = driven || kinematics_.drive(site)[c] != 0;
+      if (free && driven) driven_.push_back({k, e});
+    }
 }
 
 namespace {
@@ -228,21 +244,6 @@ void Assembler::sum_hessian() {
   });
 }
 
-void Assembler::add_drive(const State& state, Vector& out) const {
-  for (const Drive& d : drives_) out[d.dof] += hessians_[d.place] * d.rate;
-  for (const auto& group : groups_) add_load_derivative(*group, state, out);
-}
-
-void Assembler::add_load_derivative(const ElementGroup& group, const State& state, Vector& out) const {
-  if (!group.load_dependent()) return;
-  std::vector<double> rate(std::size_t(group.elements()) * group.gradient_size());
-  group.explicit_load_derivative(state, rate.data());
-  for (int e = 0; e < group.elements(); ++e)
-    for (int i = 0; i < group.gradient_size(); ++i)
-      if (const int dof = dof_of(kinematics_, group, e, i); dof >= 0)
-        out[dof] += rate[std::size_t(e) * group.gradient_size() + i];
-}
-
 namespace {
 
 // The part of v that an element sees: differences to its first site, as its energy does not change under translation, or
@@ -265,26 +266,48 @@ void packed_product(const double* __restrict h, const double* __restrict v, [[ma
   }
 }
 
-// Bonds and contacts, angles, hinges of four sites.
-auto packed_product_of(int n) {
-  return n == 6 ? packed_product<6> : n == 9 ? packed_product<9> : n == 12 ? packed_product<12> : packed_product<0>;
-}
+// Bonds and contacts, angles, hinges of four sites, relative to their first.
+auto packed_product_of(int n) { return n == 3 ? packed_product<3> : n == 6 ? packed_product<6> : n == 9 ? packed_product<9> : packed_product<0>; }
 
 }  // namespace
+
+// H_e v of one element, 3·sites.
+void Assembler::product(std::size_t k, std::int64_t e, const Field& v, double* out) const {
+  const ElementGroup& group = *groups_[k];
+  const int n = group.gradient_size(), first = group.hessian_first();
+  double local[most_local];
+  relative_motion(v, group.stencil(static_cast<int>(e)), first == 0, local);
+  packed_product_of(n - first)(hessians_.data() + hessian_offset_[k] + e * group.hessian_size(), local + first, n - first, out + first);
+  if (first == 0) return;
+  out[0] = out[1] = out[2] = 0;
+  for (int i = 3; i < n; ++i) out[i % 3] -= out[i];
+}
+
+void Assembler::add_drive(const State& state, Vector& out) const {
+  for (const auto& [k, e] : driven_) {
+    double rate[most_local];
+    product(k, e, kinematics_.drive(), rate);
+    for (int i = 0; i < groups_[k]->gradient_size(); ++i)
+      if (const int dof = dof_of(kinematics_, *groups_[k], e, i); dof >= 0) out[dof] += rate[i];
+  }
+  for (const auto& group : groups_) add_load_derivative(*group, state, out);
+}
+
+void Assembler::add_load_derivative(const ElementGroup& group, const State& state, Vector& out) const {
+  if (!group.load_dependent()) return;
+  std::vector<double> rate(std::size_t(group.elements()) * group.gradient_size());
+  group.explicit_load_derivative(state, rate.data());
+  for (int e = 0; e < group.elements(); ++e)
+    for (int i = 0; i < group.gradient_size(); ++i)
+      if (const int dof = dof_of(kinematics_, group, e, i); dof >= 0)
+        out[dof] += rate[std::size_t(e) * group.gradient_size() + i];
+}
 
 void Assembler::multiply(const Field& v, Field& out) {
   products_.resize(gradients_.size());
   for (std::size_t k = 0; k < groups_.size(); ++k) {
-    const ElementGroup& group = *groups_[k];
-    const std::span<const int> stencils = group.stencils();
-    const int sites = group.sites(), n = group.gradient_size(), entries = group.hessian_size();
-    const bool anchored = group.anchored();
-    const auto product = packed_product_of(n);
-    parallel_for(group.elements(), grain, [&](std::int64_t e) {
-      double local[most_local];
-      relative_motion(v, stencils.subspan(e * sites, sites), anchored, local);
-      product(hessians_.data() + hessian_offset_[k] + e * entries, local, n, products_.data() + gradient_offset_[k] + e * n);
-    });
+    const int n = groups_[k]->gradient_size();
+    parallel_for(groups_[k]->elements(), grain, [&](std::int64_t e) { product(k, e, v, products_.data() + gradient_offset_[k] + e * n); });
   }
   gather(products_, out);
 }
@@ -315,16 +338,15 @@ BilinearForm Assembler::form(const Field& u, const Field& v, const State* state)
       double left[most_local], right[most_local];
       relative_motion(u, group.stencil(e), group.anchored(), left);
       relative_motion(v, group.stencil(e), group.anchored(), right);
-      const int first = group.anchored() ? 0 : 3;
+      const double* entry = hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size();
       double q = 0;
-      for (int r = first; r < group.gradient_size(); ++r) {
-        const double* row = hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size() + ElementGroup::packed(r, 0);
-        for (int c = first; c < r; ++c) {
-          q += row[c] * (left[r] * right[c] + left[c] * right[r]);
-          size += std::abs(row[c]) * (std::abs(left[r] * right[c]) + std::abs(left[c] * right[r]));
+      for (int r = group.hessian_first(); r < group.gradient_size(); ++r) {
+        for (int c = group.hessian_first(); c < r; ++c, ++entry) {
+          q += *entry * (left[r] * right[c] + left[c] * right[r]);
+          size += std::abs(*entry) * (std::abs(left[r] * right[c]) + std::abs(left[c] * right[r]));
         }
-        q += row[r] * left[r] * right[r];
-        size += std::abs(row[r] * left[r] * right[r]);
+        q += *entry * left[r] * right[r];
+        size += std::abs(*entry * left[r] * right[r]), ++entry;
       }
       sum.add(q);
     }

@@ -16,7 +16,7 @@ struct GatherList {
 
 /// Which 3 × 3 blocks of the element Hessians add up to those of the lower triangle. Of the columns of site p there are blocks first[p] … first[p+1] − 1,
 /// that of p itself, then those of higher sites it shares an element with; block k has the rows of site[k], and is the sum of
-/// part[start[k]] … part[start[k+1] − 1] in this order: the place of an element's Hessian, and which two of its sites, see block_part.
+/// part[start[k]] … part[start[k+1] − 1] in this order: the place of an element's Hessian, and which two of its sites, see BlockPart.
 struct BlockGather {
   std::vector<std::int64_t> first, start;
   std::vector<int> site;
@@ -65,7 +65,8 @@ class Assembler {
   void build_site_gather();
   void build_blocks();
   void build_pattern();
-  void build_drives();
+  void find_driven();
+  void product(std::size_t group, std::int64_t e, const Field& v, double* out) const;
 
   const Kinematics& kinematics_;
   const Groups& groups_;
@@ -73,8 +74,8 @@ class Assembler {
   std::vector<double> values_, sums_, gradients_, hessians_, products_;
   GatherList site_gather_;              // per site: places of its 3 components in gradients_
   BlockGather blocks_;
-  struct Drive { int dof; std::int64_t place; double rate; };
-  std::vector<Drive> drives_;           // ∂g_dof/∂λ += hessians_[place] · rate
+  struct Driven { std::size_t group; int element; };
+  std::vector<Driven> driven_;          // have sites that are free and sites that are driven
   SparseMatrix hessian_;
 };
 

@@ -1,5 +1,7 @@
 #include "energy/carried_group.hpp"
 
+#include "laws/rounded/carried.hpp"
+
 namespace elamin {
 
 CarriedGroup::CarriedGroup(const Model& model, const Kinematics& kinematics, std::unique_ptr<ElementGroup> inner)
@@ -54,18 +56,18 @@ Eigen::VectorXd CarriedGroup::spread(const State& state, int e, const double* in
 }
 
 void CarriedGroup::derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const {
-  const int n = inner_->gradient_size();
+  const int n = inner_->gradient_size(), first = inner_->hessian_first();
   inner_->derivatives(state, tangent, value, gradient_.data(), hessian ? hessian_.data() : nullptr);
   parallel_for(elements(), 100, [&](std::int64_t at) {
     const int e = static_cast<int>(at);
     const double* const g = gradient_.data() + at * n;
     Eigen::Map<Eigen::VectorXd>(gradient + at * gradient_size(), gradient_size()) = spread(state, e, g);
     if (!hessian) return;
-    Eigen::MatrixXd h(n, n);
+    Eigen::MatrixXd h(n - first, n - first), J = jacobian(state, e);
     const double* packed_entry = hessian_.data() + at * inner_->hessian_size();
-    for (int r = 0; r < n; ++r)
+    for (int r = 0; r < n - first; ++r)
       for (int c = 0; c <= r; ++c) h(r, c) = h(c, r) = *packed_entry++;
-    const Eigen::MatrixXd J = jacobian(state, e);
+    if (first > 0) J = (J.bottomRows(n - 3) - J.topRows(3).replicate(n / 3 - 1, 1)).eval();
     Eigen::MatrixXd H = J.transpose() * h * J;
     const std::span<const int> outer = stencil(e), inner = inner_->stencil(e);
     for (int i = 0; i < inner_->sites(); ++i) {

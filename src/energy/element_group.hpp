@@ -37,7 +37,8 @@ class ElementGroup {
   virtual std::span<const int> between(int element) const { return stencil(element); }
   /// Energy of every element.
   virtual void values(const State& state, double* value) const = 0;
-  /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element.
+  /// Energy, gradient (3·sites) and, unless null, Hessian (lower triangle by rows, see packed) of every element. Where an element may be moved as a whole
+  /// (not `anchored`) that of the motion relative to its first site, which has all of it: ∂²U/∂x₀∂x_j = −Σᵢ ∂²U/∂xᵢ∂x_j, i > 0.
   virtual void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const = 0;
   /// Energy of every element that its linearisation at `from` did not predict; false if the law has no such thing.
   virtual bool residual_energy(const State& state, const State& from, double* value) const = 0;
@@ -53,7 +54,9 @@ class ElementGroup {
   virtual void explicit_load_derivative(const State&, double*) const {}
 
   int gradient_size() const { return 3 * sites(); }
-  int hessian_size() const { return 3 * sites() * (3 * sites() + 1) / 2; }
+  /// The first of an element's coordinates that its Hessian has.
+  int hessian_first() const { return anchored() ? 0 : 3; }
+  int hessian_size() const { return packed(gradient_size() - hessian_first(), 0); }
   /// Place of the entry (row ≥ column) in an element's packed Hessian.
   static int packed(int row, int column) { return row * (row + 1) / 2 + column; }
 };

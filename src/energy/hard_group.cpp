@@ -8,10 +8,10 @@ namespace elamin {
 
 namespace {
 
-// Adds factor · (entries of the lower triangle) to an element's packed Hessian.
-void add_packed(const HardGap& gap, double factor, double* hessian) {
-  for (int r = 0; r < 3 * gap.sites; ++r)
-    for (int c = 0; c <= r; ++c) *hessian++ += factor * gap.hessian(r, c);
+// Adds factor · (entries of the lower triangle) to an element's packed Hessian, which has the coordinates from `first` on.
+void add_packed(const HardGap& gap, double factor, int first, double* hessian) {
+  for (int r = first; r < 3 * gap.sites; ++r)
+    for (int c = first; c <= r; ++c) *hessian++ += factor * gap.hessian(r, c);
 }
 
 void clear(const ElementGroup& group, double* value, double* gradient, double* hessian) {
@@ -23,7 +23,7 @@ void clear(const ElementGroup& group, double* value, double* gradient, double* h
 // −f c of one contact into the buffers of its element.
 void add(const ElementGroup& group, const HardGap& gap, double force, std::int64_t e, double* gradient, double* hessian) {
   Eigen::Map<Vector>(gradient + e * group.gradient_size(), group.gradient_size()) -= force * gap.gradient.head(group.gradient_size());
-  if (hessian) add_packed(gap, -force, hessian + e * group.hessian_size());
+  if (hessian) add_packed(gap, -force, group.hessian_first(), hessian + e * group.hessian_size());
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ class Kinematics {
   int coordinate_of(int dof) const { return dof_(0, site_of_[dof]) == dof ? 0 : dof_(1, site_of_[dof]) == dof ? 1 : 2; }
   /// ∂x/∂λ of the prescribed coordinates; zero for free ones.  [length]
   Vec3 drive(int site) const { return drive_.col(site); }
+  const Field& drive() const { return drive_; }
   bool driven() const { return driven_; }
 
   /// The same configuration with the prescribed coordinates where λ puts them.

@@ -17,15 +17,16 @@ Points<n> points(const State& state, const std::array<int, n>& sites) {
   return x;
 }
 
-/// Writes what a law gave for element e into the buffers of its group; hessian may be null.
-template <int n>
+/// Writes what a law gave for element e into the buffers of its group, whose Hessian is that of all sites or without the first; hessian may be null.
+template <bool anchored = true, int n>
 void store(const Local<n>& u, std::int64_t e, double* value, double* gradient, double* hessian) {
   value[e] = u.value;
   Eigen::Map<Eigen::Matrix<double, 3 * n, 1>>(gradient + e * 3 * n) = u.gradient;
   if (!hessian) return;
-  double* h = hessian + e * (3 * n * (3 * n + 1) / 2);
-  for (int r = 0; r < 3 * n; ++r)
-    for (int c = 0; c <= r; ++c) *h++ = u.hessian(r, c);
+  constexpr int first = anchored ? 0 : 3;
+  double* h = hessian + e * ElementGroup::packed(3 * n - first, 0);
+  for (int r = first; r < 3 * n; ++r)
+    for (int c = first; c <= r; ++c) *h++ = u.hessian(r, c);
 }
 
 /// A law whose stiffness across depends on a force that a straight step of finite length falsifies (see HarmonicBond).
@@ -74,7 +75,7 @@ class LawGroup final : public ElementGroup {
   void derivatives(const State& state, const Tangent& tangent, double* value, double* gradient, double* hessian) const override {
     at(state);
     parallel_for(elements(), grain, [&](std::int64_t e) {
-      store(local(state, tangent, e), e, value, gradient, hessian);
+      store<AnchoredLaw<L>>(local(state, tangent, e), e, value, gradient, hessian);
     });
   }
 

@@ -42,8 +42,8 @@ class PythonGroup final : public ElementGroup {
     const Array full = checked(all[2], "Hessian", n * n);
     const double* h = full.data();
     for (int e = 0; e < elements(); ++e, h += n * n)
-      for (py::ssize_t r = 0; r < n; ++r)
-        for (py::ssize_t c = 0; c <= r; ++c) *hessian++ = (h[r * n + c] + h[c * n + r]) / 2;
+      for (py::ssize_t r = hessian_first(); r < n; ++r)
+        for (py::ssize_t c = hessian_first(); c <= r; ++c) *hessian++ = (h[r * n + c] + h[c * n + r]) / 2;
   }
 
  private:

@@ -149,16 +149,17 @@ Row trajectory_row(const Moment& m, const std::vector<double>& observables) {
 }
 
 void write_frame(const std::string& file, const Model& model, const Motion& motion) {
-  Table particles{{"id", "x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"}, {}};
+  WholeCsv particles(file, {"id", "x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"});
   for (int i = 0; i < model.particles(); ++i) {
     Row row{model.id[i]};
     for (const Field* field : {&motion.state.position, &motion.velocity, &motion.force})
       for (int c = 0; c < 3; ++c) row.emplace_back((*field)(c, i));
-    particles.rows.push_back(std::move(row));
+    particles.add(row);
   }
-  write_csv(file, particles);
+  particles.keep();
   if (model.bodies.empty()) return;
-  Table bodies{{"id", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "Lx", "Ly", "Lz", "fx", "fy", "fz", "tx", "ty", "tz"}, {}};
+  WholeCsv bodies(std::filesystem::path(file).replace_extension(".bodies.csv").string(),
+                  {"id", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "Lx", "Ly", "Lz", "fx", "fy", "fz", "tx", "ty", "tz"});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Pose& pose = motion.state.bodies[b];
     const Eigen::Vector4d q = (pose.rotation.w() < 0 ? -1 : 1) * pose.rotation.coeffs();   // x, y, z, w
@@ -167,9 +168,9 @@ void write_frame(const std::string& file, const Model& model, const Motion& moti
     for (const int k : {3, 0, 1, 2}) row.emplace_back(q[k]);
     for (const Field* field : {&motion.body_velocity, &motion.angular_momentum, &motion.body_force, &motion.torque})
       for (int c = 0; c < 3; ++c) row.emplace_back((*field)(c, static_cast<Eigen::Index>(b)));
-    bodies.rows.push_back(std::move(row));
+    bodies.add(row);
   }
-  write_csv(std::filesystem::path(file).replace_extension(".bodies.csv").string(), bodies);
+  bodies.keep();
 }
 
 }  // namespace elamin

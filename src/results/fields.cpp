@@ -186,6 +186,7 @@ Table walls_of(const Model& model, double load_factor) {
 std::vector<BondField> bond_fields(const Model& model, const State& state) {
   const std::vector<HarmonicBond> laws = bond_laws(model, state.load_factor);
   std::vector<BondField> fields;
+  fields.reserve(laws.size());
   for (std::size_t b = 0; b < laws.size(); ++b) {
     const Points<2> x = points<2>(state, model.bonds[b].particles);
     fields.push_back({x.edge(0, 1).hi.norm(), laws[b].strain(x), laws[b].tension(x)});
@@ -196,6 +197,7 @@ std::vector<BondField> bond_fields(const Model& model, const State& state) {
 std::vector<AngleField> angle_fields(const Model& model, const State& state) {
   const std::vector<CosineAngle> laws = angle_laws(model, state.load_factor);
   std::vector<AngleField> fields;
+  fields.reserve(laws.size());
   for (std::size_t a = 0; a < laws.size(); ++a) {
     const std::array<int, 3> sites = angle_sites(model, model.angles[a]);
     fields.push_back(field_of(laws[a], points<3>(state, sites), sites != model.angles[a].particles, model.plane_normal));
@@ -219,10 +221,10 @@ Fields fields_at(Energy& energy, const State& state, const std::vector<Touch>& t
   return fields;
 }
 
-std::vector<std::pair<std::string, Table>> field_tables(const Model& model, const State& state, const Fields& fields) {
-  std::vector<std::pair<std::string, Table>> all;
-  Table particles{{"id", "kind", "x", "y", "z", "radius", "energy", "fx", "fy", "fz"}, {}};
-  if (!fields.sheets.empty()) particles.columns.insert(particles.columns.end(), {"N11", "N22", "N12", "M11", "M22", "M12"});
+void write_fields(const std::function<std::string(const char* end)>& file, const Model& model, const State& state, const Fields& fields) {
+  std::vector<std::string> columns{"id", "kind", "x", "y", "z", "radius", "energy", "fx", "fy", "fz"};
+  if (!fields.sheets.empty()) columns.insert(columns.end(), {"N11", "N22", "N12", "M11", "M22", "M12"});
+  WholeCsv particles(file(".particles.csv"), columns);
   for (int e = 0; e < entities(model); ++e) {
     const bool body = is_body(model, e);
     Row row{id_of(model, e), body ? "body" : "particle"};
@@ -231,30 +233,32 @@ std::vector<std::pair<std::string, Table>> field_tables(const Model& model, cons
     add_components(row, fields.contact_force.col(e));
     if (!body && !fields.sheets.empty() && fields.sheets[e].known)
       for (const Vec3& resultant : {fields.sheets[e].N, fields.sheets[e].M}) add_components(row, resultant);
-    row.resize(particles.columns.size());
-    particles.rows.push_back(std::move(row));
+    row.resize(columns.size());
+    particles.add(row);
   }
-  all.emplace_back(".particles.csv", std::move(particles));
+  particles.keep();
 
-  Table bonds{{"first", "second", "length", "strain", "tension"}, {}};
-  for (std::size_t b = 0; b < fields.bonds.size(); ++b) {
-    const auto& p = model.bonds[b].particles;
-    const BondField& f = fields.bonds[b];
-    bonds.rows.push_back({model.id[p[0]], model.id[p[1]], f.length, f.strain, f.tension});
+  if (!fields.bonds.empty()) {
+    WholeCsv bonds(file(".bonds.csv"), {"first", "second", "length", "strain", "tension"});
+    for (std::size_t b = 0; b < fields.bonds.size(); ++b) {
+      const auto& p = model.bonds[b].particles;
+      const BondField& f = fields.bonds[b];
+      bonds.add({model.id[p[0]], model.id[p[1]], f.length, f.strain, f.tension});
+    }
+    bonds.keep();
   }
-  if (!bonds.rows.empty()) all.emplace_back(".bonds.csv", std::move(bonds));
-
-  Table angles{{"first", "middle", "third", "turn", "curvature", "moment", "mx", "my", "mz"}, {}};
-  for (std::size_t a = 0; a < fields.angles.size(); ++a) {
-    const auto& p = model.angles[a].particles;
-    const AngleField& f = fields.angles[a];
-    Row row{model.id[p[0]], model.id[p[1]], model.id[p[2]], f.angle, f.curvature, f.moment};
-    add_components(row, f.moment_vector);
-    angles.rows.push_back(std::move(row));
+  if (!fields.angles.empty()) {
+    WholeCsv angles(file(".angles.csv"), {"first", "middle", "third", "turn", "curvature", "moment", "mx", "my", "mz"});
+    for (std::size_t a = 0; a < fields.angles.size(); ++a) {
+      const auto& p = model.angles[a].particles;
+      const AngleField& f = fields.angles[a];
+      Row row{model.id[p[0]], model.id[p[1]], model.id[p[2]], f.angle, f.curvature, f.moment};
+      add_components(row, f.moment_vector);
+      angles.add(row);
+    }
+    angles.keep();
   }
-  if (!angles.rows.empty()) all.emplace_back(".angles.csv", std::move(angles));
-  if (!model.walls.empty()) all.emplace_back(".walls.csv", walls_of(model, state.load_factor));
-  return all;
+  if (!model.walls.empty()) write_csv(file(".walls.csv"), walls_of(model, state.load_factor));
 }
 
 }  // namespace elamin

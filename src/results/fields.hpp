@@ -5,8 +5,8 @@
 #include "results/table.hpp"
 
 #include <array>
+#include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace elamin {
@@ -68,12 +68,12 @@ Field contact_forces(const Model& model, const std::vector<Touch>& touches);
 /// The fields of a state at its load factor; touches: its contacts, see Energy::touches.
 Fields fields_at(Energy& energy, const State& state, const std::vector<Touch>& touches);
 
-/// The fields as tables, each with the end of its file's name. ".particles.csv": id, kind ("particle" or "body"), x, y, z, radius (of a
+/// Writes the fields as tables, each to the file of its end. ".particles.csv": id, kind ("particle" or "body"), x, y, z, radius (of a
 /// body: bounding), energy, fx, fy, fz (contact force), and where there are sheets N11, N22, N12, M11, M22, M12 (empty beside them, see
 /// StressResultants); ".bonds.csv": first, second (ids), length, strain, tension; ".angles.csv": first, middle, third, turn, curvature, moment,
 /// mx, my, mz; ".walls.csv", where the walls are at the load factor: name, shape, x, y, z (a plane's point, the centre or a point of the
 /// axis), nx, ny, nz (normal or axis), xlo … zhi (block), lo, hi (ends along the axis, empty: infinite), radius_lo, radius_hi, open. The
-/// last three only where there are any.
-std::vector<std::pair<std::string, Table>> field_tables(const Model& model, const State& state, const Fields& fields);
+/// last three only where there are any. Throws OutputError if one cannot be written.
+void write_fields(const std::function<std::string(const char* end)>& file, const Model& model, const State& state, const Fields& fields);
 
 }  // namespace elamin

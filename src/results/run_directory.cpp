@@ -210,7 +210,7 @@ void RunDirectory::add_fields(const std::string& label, const Model& model, cons
 }
 
 void RunDirectory::add_fields_as(const std::string& name, const Model& model, const State& state, const Fields& fields) {
-  for (const auto& [end, table] : field_tables(model, state, fields)) write_csv(results_.file(name + end), table);
+  write_fields([&](const char* end) { return results_.file(name + end); }, model, state, fields);
 }
 
 void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
@@ -222,43 +222,42 @@ void RunDirectory::add_null_vectors(const std::string& label, const std::vector<
   };
   std::vector<std::string> names{"id"};
   for (const std::string& c : columns("u")) names.push_back(c);
-  Table particles{names, {}};
+  WholeCsv particles(results_.file(state_name(label) + ".modes.csv"), names);
   for (int i = 0; i < model_.particles(); ++i) {
     Row row{model_.id[i]};
     for (const Field& v : vectors)
       for (int c = 0; c < 3; ++c) row.emplace_back(v(c, i));
-    particles.rows.push_back(std::move(row));
+    particles.add(row);
   }
-  write_csv(results_.file(state_name(label) + ".modes.csv"), particles);
+  particles.keep();
   if (model_.bodies.empty()) return;
   for (const std::string& c : columns("t")) names.push_back(c);
-  Table bodies{names, {}};
+  WholeCsv bodies(results_.file(state_name(label) + ".bodies.modes.csv"), names);
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     Row row{model_.bodies[b].id};
     for (const Field& v : vectors) append(row, body_motion(model_, v, b).head<3>());
     for (const Field& v : vectors) append(row, body_motion(model_, v, b).tail<3>());
-    bodies.rows.push_back(std::move(row));
+    bodies.add(row);
   }
-  write_csv(results_.file(state_name(label) + ".bodies.modes.csv"), bodies);
+  bodies.keep();
 }
 
 void RunDirectory::add_mode(const Mode& mode, const State& state) {
   const std::string name = fmt::format("mode-{}", ++mode_);
   if (!modes_) modes_.emplace(results_.file("modes.csv"), std::vector<std::string>{"mode", "eigenvalue", "zero_mode"});
   modes_->add({mode_, mode.eigenvalue, mode.zero_mode.empty() ? Cell{} : Cell(mode.zero_mode)});
-  Table particles{{"id", "ux", "uy", "uz"}, {}};
-  for (int i = 0; i < model_.particles(); ++i)
-    particles.rows.push_back({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
-  write_csv(results_.file("modes/" + name + ".csv"), particles);
+  WholeCsv particles(results_.file("modes/" + name + ".csv"), {"id", "ux", "uy", "uz"});
+  for (int i = 0; i < model_.particles(); ++i) particles.add({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
+  particles.keep();
   const State moved = moved_along(mode, model_, state);
   if (!model_.bodies.empty()) {
-    Table bodies{{"id", "ux", "uy", "uz", "tx", "ty", "tz"}, {}};
+    WholeCsv bodies(results_.file("modes/" + name + ".bodies.csv"), {"id", "ux", "uy", "uz", "tx", "ty", "tz"});
     for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
       Row row{model_.bodies[b].id};
       append(row, body_motion(model_, mode.shape, b));
-      bodies.rows.push_back(std::move(row));
+      bodies.add(row);
     }
-    write_csv(results_.file("modes/" + name + ".bodies.csv"), bodies);
+    bodies.keep();
   }
   add_picture(state_name(name), moved, name);
   add_state_file(state_name(name), model_, moved, fmt::format("{}, eigenvalue {:.17g}; load factor {:.17g}", name, mode.eigenvalue, state.load_factor));

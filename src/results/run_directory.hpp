@@ -72,7 +72,7 @@ class RunDirectory {
   /// point's own.
   void add_state(const std::string& label, const PathPoint& point, const std::vector<Touch>& touches);
 
-  /// The fields of a labelled state as states/LABEL.particles.csv, .bonds.csv, .angles.csv and .walls.csv, see field_tables; model: that
+  /// The fields of a labelled state as states/LABEL.particles.csv, .bonds.csv, .angles.csv and .walls.csv, see write_fields; model: that
   /// in force.
   void add_fields(const std::string& label, const Model& model, const State& state, const Fields& fields);
 

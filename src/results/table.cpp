@@ -20,7 +20,10 @@ std::string csv_quoted(const std::string& text) {
   return all + "\"";
 }
 
-std::string csv_line(const Row& row, Digits digits = Digits::shortest) {
+constexpr std::size_t piece = 1 << 20;                          // bytes that are written at once
+
+std::string csv_line(const Row& row, std::size_t columns, Digits digits = Digits::shortest) {
+  if (row.size() != columns) throw std::logic_error(fmt::format("a row of {} entries for {} columns", row.size(), columns));
   std::string line;
   for (std::size_t i = 0; i < row.size(); ++i) (line += i > 0 ? "," : "") += csv_text(row[i], digits);
   return line += '\n';
@@ -51,10 +54,27 @@ std::string csv_text(const Cell& cell, Digits digits) {
   return "";
 }
 
-void write_csv(const std::string& file, const Table& table, Digits digits) {
-  std::string text = csv_line(Row(table.columns.begin(), table.columns.end()));
-  for (const Row& row : table.rows) text += csv_line(row, digits);
-  write_text(file, text);
+void write_csv(const std::string& file, const Table& table) {
+  WholeCsv csv(file, table.columns);
+  for (const Row& row : table.rows) csv.add(row);
+  csv.keep();
+}
+
+WholeCsv::WholeCsv(std::string file, const std::vector<std::string>& columns, Digits digits)
+    : out_(std::move(file)), columns_(columns.size()), digits_(digits) {
+  add(Row(columns.begin(), columns.end()));
+}
+
+void WholeCsv::add(const Row& row) {
+  text_ += csv_line(row, columns_, digits_);
+  if (text_.size() < piece) return;
+  out_.add(text_);
+  text_.clear();
+}
+
+void WholeCsv::keep() {
+  out_.add(text_);
+  out_.keep();
 }
 
 CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns) : out_(std::move(file)), columns_(columns.size()) {
@@ -65,8 +85,7 @@ CsvFile::CsvFile(std::string file, const std::vector<std::string>& columns, std:
     : out_(std::move(file), bytes), columns_(columns.size()) {}
 
 void CsvFile::add(const Row& row) {
-  if (row.size() != columns_) throw std::logic_error(fmt::format("a row of {} entries for {} columns", row.size(), columns_));
-  out_.add(csv_line(row));
+  out_.add(csv_line(row, columns_));
 }
 
 SweepTable::~SweepTable() {

@@ -42,8 +42,23 @@ enum class Digits { shortest, all };
 /// A cell as it stands in a CSV file (RFC 4180): a number, true/false, text in quotes where it needs them; empty if empty.
 std::string csv_text(const Cell& cell, Digits digits = Digits::shortest);
 
-/// Writes a table as a CSV file, whole or not at all. Throws OutputError if it cannot be written.
-void write_csv(const std::string& file, const Table& table, Digits digits = Digits::shortest);
+/// A CSV file that is written row by row, whole or not at all: as long as `keep` was not called, nothing is there. The rows need no memory. Throws OutputError
+/// if it cannot be written.
+class WholeCsv {
+ public:
+  WholeCsv(std::string file, const std::vector<std::string>& columns, Digits digits = Digits::shortest);
+  void add(const Row& row);
+  void keep();
+
+ private:
+  WholeFile out_;
+  std::string text_;                    // what has not been written yet
+  std::size_t columns_;
+  Digits digits_;
+};
+
+/// Writes a table as such a file.
+void write_csv(const std::string& file, const Table& table);
 
 /// A CSV file with a header; every row is on the disk before add returns.
 class CsvFile {

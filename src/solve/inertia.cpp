@@ -13,7 +13,10 @@
 // known well; X ← X − H⊥⁻¹R makes it vanish, but for the rounding of HX. An eigenvalue of T is zero if it is within the error of its own
 // form (BilinearForm::size, ε) plus the second-order term plus what forces out of balance, g, leave of a motion that costs nothing: it goes
 // on a curve, a rotation at the rate φ on one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ. So X spans the eigenvectors to
-// eigenvalues up to 2|g|φ too.
+// eigenvalues up to 2|g|φ too. A body that is all but a straight line spins about it at a huge φ. What leaves doubt only for such free
+// rotations, orthonormal as columns of U, is decided by T as it were if they cost nothing, which g does not change elsewhere:
+//   T' of (I − UUᵀ) H (I − UUᵀ),   T' = T − ABᵀ − BAᵀ + ACAᵀ,   A = XᵀU,   B = XᵀHU,   C = UᵀHU.
+// An eigenvalue has a sign where those of T and T' have it.
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "model/entities.hpp"
@@ -45,11 +48,28 @@ class Curvature {
     touching_ = may_touch(model);
   }
 
+  /// But for free rotations.
   double of(const Vector& v) const {
-    double most = distortion(energy_, energy_.evaluated(), v);
-    if (touching_) most = std::max(most, movement(energy_, v));
+    const double bent = distortion(energy_, energy_.evaluated(), v);
+    return touching_ ? std::max(bent, movement(energy_, v)) : bent;
+  }
+
+  double of_rotations(const Vector& v) const {
+    double most = 0;
     for (const auto& [u, rate] : rotations_) most = std::max(most, std::abs(u.dot(v)) * rate);
     return most;
+  }
+
+  /// T', see above.
+  Eigen::MatrixXd without_rotations(const Eigen::MatrixXd& x, const Eigen::MatrixXd& t) const {
+    Eigen::MatrixXd u(x.rows(), std::ssize(rotations_));
+    for (Eigen::Index k = 0; k < u.cols(); ++k) u.col(k) = rotations_[k].u;
+    u = orthonormal(u);
+    const auto forms = [&](const Eigen::MatrixXd& left) {
+      return Eigen::MatrixXd::NullaryExpr(left.cols(), u.cols(), [&](Eigen::Index i, Eigen::Index k) { return energy_.form(left.col(i), u.col(k)).value; }).eval();
+    };
+    const Eigen::MatrixXd a = x.transpose() * u, b = forms(x), c = forms(u), twice = a * b.transpose();
+    return t - twice - twice.transpose() + a * (c + c.transpose()) / 2 * a.transpose();
   }
 
   /// The largest of unit vectors, but for bonds.
@@ -120,7 +140,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
   for (int k = 0;; ++k) {
     const Eigen::Index m = x.cols();
     Eigen::MatrixXd s(m, m), r(x.rows(), m), w(x.rows(), m);
-    Vector size(m), bend(m);
+    Vector size(m), bend(m), spin(m);
     for (Eigen::Index j = 0; j < m; ++j) {
       r.col(j) = energy_.multiply(x.col(j));
       for (Eigen::Index i = 0; i <= j; ++i) {
@@ -128,7 +148,7 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
         s(i, j) = s(j, i) = form.value;
         if (i == j) size[j] = form.size;
       }
-      bend[j] = curvature.of(x.col(j));
+      bend[j] = curvature.of(x.col(j)), spin[j] = std::max(bend[j], curvature.of_rotations(x.col(j)));
     }
     r -= x * s;
     r -= x * (x.transpose() * r);
@@ -137,20 +157,27 @@ std::optional<Inertia> Factors::resolve(Eigen::MatrixXd x, bool positive) {
     const Eigen::MatrixXd product = r.transpose() * w, second = (product + product.transpose()) / 2;
     const EigenPairs small = symmetric_eigen(s - second);
     const Eigen::MatrixXd& v = small.vectors;
-    const Eigen::MatrixXd weight = v.cwiseAbs2().transpose();
-    // A translation stretches nothing, but for what rounds the modes themselves: the ε in x of ‖Hx‖.
-    const Vector of_forms = (limits::form_rounding * epsilon * (weight * size)).array() + epsilon * zero_level();
-    const Vector rounding = of_forms + 2 * out_of_balance * (weight * bend);
-    const Vector unknown = (v.transpose() * second * v).diagonal().cwiseAbs();
-    const Vector error = rounding + unknown;
     const Vector& t = small.values;
-    inertia = {below, 0};
-    bool clear = true;
-    for (Eigen::Index j = 0; j < m; ++j) {
-      if (std::abs(t[j]) <= error[j]) ++inertia.zero;
-      else if (t[j] < 0) ++inertia.negative;
-      clear = clear && (std::abs(t[j]) > error[j] || unknown[j] <= rounding[j]);
+    const auto parts = [&](const Eigen::MatrixXd& of, const Vector& each) -> Vector { return of.cwiseAbs2().transpose() * each; };
+    // A translation stretches nothing, but for what rounds the modes themselves: the ε in x of ‖Hx‖.
+    const auto rounding_of_forms = [&](const Eigen::MatrixXd& of) -> Vector { return (limits::form_rounding * epsilon * parts(of, size)).array() + epsilon * zero_level(); };
+    const auto unknown_of = [&](const Eigen::MatrixXd& of) -> Vector { return (of.transpose() * second * of).diagonal().cwiseAbs(); };
+    const auto error_of = [&](const Eigen::MatrixXd& of, const Vector& curved) -> Vector {
+      return rounding_of_forms(of) + 2 * out_of_balance * parts(of, curved) + unknown_of(of);
+    };
+    const Vector of_forms = rounding_of_forms(v), unknown = unknown_of(v), error = error_of(v, spin), held = error_of(v, bend);
+    struct Known { Eigen::Index negative, positive; };
+    const auto known = [](const Vector& values, const Vector& to) {
+      return Known{(values.array() < -to.array()).count(), (values.array() > to.array()).count()};
+    };
+    Known sure = known(t, error);
+    if (const Known still = known(t, held); still.negative + still.positive > sure.negative + sure.positive) {
+      const EigenPairs balanced = symmetric_eigen(curvature.without_rotations(x, s - second));
+      const Known there = known(balanced.values, error_of(balanced.vectors, bend));
+      sure = {std::max(sure.negative, std::min(still.negative, there.negative)), std::max(sure.positive, std::min(still.positive, there.positive))};
     }
+    inertia = {below + static_cast<int>(sure.negative), static_cast<int>(m - sure.negative - sure.positive)};
+    const bool clear = (t.array().abs() > error.array() || unknown.array() <= (error - unknown).array()).all();
     near_.x = x, near_.w = w, near_.r = r, near_.t = s - second, near_.error = of_forms;
     const bool rounded = !(unknown.sum() < std::exchange(before, unknown.sum()) / 2);
     if (clear || rounded || k == most || interrupted()) return inertia;

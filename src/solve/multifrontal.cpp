@@ -57,10 +57,33 @@ void subtract_product(Block c, int n, int m, Block a, Block b, int k, double bet
 
 }  // namespace
 
-// The dense matrix of a supernode: its columns, which stand in L, and the rest, of the rows below on both sides.
+// What is left of a front: of n rows on both sides the lower triangle, in panels of so many columns, each from its first row on.
+class Multifrontal::Rest {
+ public:
+  Rest(int n, int panel, double* at) : n_(n), panel_(panel), at_(at) {}
+  static std::size_t size(int n, int panel) {
+    std::size_t all = 0;
+    for (int j = 0; j < n; j += panel) all += std::size_t(n - j) * std::min(panel, n - j);
+    return all;
+  }
+  /// Its row i is column(j)[i], from the panel's first row on.
+  double* column(int j) const {
+    const std::int64_t p = j / panel_, first = p * panel_, stride = n_ - first;
+    return at_ + p * panel_ * n_ - panel_ * std::int64_t(panel_) * (p * (p - 1) / 2) + (j - first) * stride - first;
+  }
+  /// From an entry on, in the panel of its column.
+  Block from(int i, int j) const { return {column(j) + i, n_ - j / panel_ * panel_}; }
+
+ private:
+  int n_, panel_;
+  double* at_;
+};
+
+// The dense matrix of a supernode: its columns, which stand in L, and the rest, of the rows below.
 struct Multifrontal::Front {
   int s, columns, height;
-  Block left, rest;
+  Block left;
+  Rest rest;
   int below() const { return height - columns; }
 };
 
@@ -113,6 +136,11 @@ void Multifrontal::plan(const std::vector<int>& supernode) {
   waiting_ = std::make_unique<std::atomic<int>[]>(count);
 }
 
+// Large fronts are cut into tiles.
+int Multifrontal::panel(int s) const { return of_.height(s) > 2 * tile ? tile : std::max(1, of_.height(s) - of_.columns(s)); }
+
+Multifrontal::Rest Multifrontal::rest(int s) const { return {of_.height(s) - of_.columns(s), panel(s), rest_[s].get()}; }
+
 bool Multifrontal::alone(int s) const { return operations_[s] <= all_operations_ / branches; }
 
 void Multifrontal::place_entries(const SparseMatrix& pattern, const std::vector<int>& supernode) {
@@ -147,7 +175,7 @@ void Multifrontal::place_entries(const SparseMatrix& pattern, const std::vector<
 void Multifrontal::assemble(const Front& front, int first, int last) {
   const auto column = [&](int j) {                                            // its row i is column(j)[i]
     if (j < front.columns) return front.left.at + std::int64_t(j) * front.left.stride;
-    return front.rest.at + std::int64_t(j - front.columns) * front.rest.stride - front.columns;
+    return front.rest.column(j - front.columns) - front.columns;
   };
   const int used = leaf(front.s) ? front.columns : front.height;              // where there is nothing to add to, products are put
   for (int j = first; j < std::min(last, used); ++j) std::fill(column(j) + j, column(j) + front.height, 0.0);
@@ -159,13 +187,14 @@ void Multifrontal::assemble(const Front& front, int first, int last) {
     const auto first_at = [&](int row) { return static_cast<int>(std::lower_bound(to, to + size, row) - to); };
     const int begin = first_at(first), end = first_at(last);
     if (begin == end) continue;
+    const Rest rest_of_child = rest(child);
     runs.clear();
     for (int i = begin; i < size; ++i)
       if (i > begin && to[i] == to[i - 1] + 1) ++runs.back().length;
       else runs.push_back({i, to[i], 1});
     std::size_t r = 0;
     for (int j = begin; j < end; ++j) {
-      const double* const from = rest_[child].get() + std::int64_t(j) * size;
+      const double* const from = rest_of_child.column(j);
       double* const into = column(to[j]);
       while (runs[r].from + runs[r].length <= j) ++r;
       const int skipped = j - runs[r].from;
@@ -194,9 +223,7 @@ void Multifrontal::by_tiles(const Front& front) {
   cut.push_back(front.height);
   const auto rows = [&](int i) { return cut[i + 1] - cut[i]; };
   const auto at = [&](int i, int j) { return Block{front.left.at + std::int64_t(cut[j]) * front.left.stride + cut[i], front.left.stride}; };
-  const auto rest_at = [&](int i, int j) {
-    return Block{front.rest.at + std::int64_t(cut[j] - front.columns) * front.rest.stride + cut[i] - front.columns, front.rest.stride};
-  };
+  const auto rest_at = [&](int i, int j) { return front.rest.from(cut[i] - front.columns, cut[j] - front.columns); };
   for (int j = 0; j < all; ++j)
 #pragma omp task default(shared) firstprivate(j)
     assemble(front, cut[j], cut[j + 1]);
@@ -231,7 +258,7 @@ void Multifrontal::whole(const Front& front) {
   if (front.below() == 0 || failed_) return;
   const Block under{front.left.at + front.columns, front.height};
   divide(front.left, front.columns, under, front.below());
-  subtract_product(front.rest, front.below(), front.below(), under, under, front.columns, leaf(front.s) ? 0 : 1);
+  subtract_product(front.rest.from(0, 0), front.below(), front.below(), under, under, front.columns, leaf(front.s) ? 0 : 1);
 }
 
 void Multifrontal::eliminate_block(const Front& front) {
@@ -295,7 +322,7 @@ void Multifrontal::eliminate_block(const Front& front) {
   for (int j = 0; j < below; j += strip) {
     const int rows = below - j, columns = std::min(strip, rows);
     dgemm_("N", "T", &rows, &columns, &c, &minus, front.left.at + c + j, &front.height, y.at + j, &below, &beta,
-           front.rest.at + std::int64_t(j) * (below + 1), &below);
+           front.rest.from(j, j).at, &below);
   }
 }
 
@@ -306,18 +333,15 @@ bool Multifrontal::going() {
 }
 
 void Multifrontal::work_on(int s) {
-  Front front{s, of_.columns(s), of_.height(s), {}, {}};
-  const int below = front.below();
-  front.left = {l_ + of_.px[s], front.height};
   if (!going()) return;
-  if (below > 0) {
-    rest_[s].reset(new (std::nothrow) double[std::size_t(below) * below]);
+  if (const int below = of_.height(s) - of_.columns(s); below > 0) {
+    rest_[s].reset(new (std::nothrow) double[Rest::size(below, panel(s))]);
     if (!rest_[s]) {
       out_of_memory_ = failed_ = true;
       return;
     }
-    front.rest = {rest_[s].get(), below};
   }
+  const Front front{s, of_.columns(s), of_.height(s), {l_ + of_.px[s], of_.height(s)}, rest(s)};
   if (front.height > 2 * tile) by_tiles(front);
   else whole(front);
   for (int c = child_start_[s]; c < child_start_[s + 1]; ++c) rest_[child_[c]].reset();

@@ -64,6 +64,7 @@ class Multifrontal {
 
  private:
   struct Front;
+  class Rest;
   void plan(const std::vector<int>& supernode);
   void place_entries(const SparseMatrix& pattern, const std::vector<int>& supernode);
   bool going();
@@ -76,6 +77,8 @@ class Multifrontal {
   bool factorize_all(const SparseMatrix& h, double shift, double* l);
   void share_work();
   bool alone(int s) const;
+  int panel(int s) const;
+  Rest rest(int s) const;
   bool leaf(int s) const { return child_start_[s] == child_start_[s + 1]; }
 
   Supernodes of_;
@@ -95,7 +98,7 @@ class Multifrontal {
   BlockPivots* pivots_ = nullptr;                // none: positive definite
   double largest_ = 0;                           // entry of H
   std::vector<double> diagonal_;                 // of PHPᵀ + shift·I, absolute
-  std::vector<std::unique_ptr<double[]>> rest_;  // of the front of each supernode
+  std::vector<std::unique_ptr<double[]>> rest_;  // of the front of each supernode, see Rest
   std::unique_ptr<std::atomic<int>[]> waiting_;  // for so many children
   std::atomic<bool> failed_{false}, out_of_memory_{false};
   bool stoppable_ = false;

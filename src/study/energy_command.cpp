@@ -66,16 +66,16 @@ void write_forces(const std::string& file, const Model& model, const Forces& for
       for (const double x : v) cells.emplace_back(x + 0.0);        // no negative zeros
     return cells;
   };
-  Table particles{{"id", "fx", "fy", "fz"}, {}};
-  for (int p = 0; p < model.particles(); ++p) particles.rows.push_back(row(model.id[p], {forces.particles.col(p)}));
-  write_csv(file, particles, Digits::all);
+  WholeCsv particles(file, {"id", "fx", "fy", "fz"}, Digits::all);
+  for (int p = 0; p < model.particles(); ++p) particles.add(row(model.id[p], {forces.particles.col(p)}));
+  particles.keep();
   if (model.bodies.empty()) return;
   std::string name = file;
   if (name.ends_with(".csv")) name.resize(name.size() - 4);
-  Table bodies{{"id", "fx", "fy", "fz", "tx", "ty", "tz"}, {}};
+  WholeCsv bodies(name + ".bodies.csv", {"id", "fx", "fy", "fz", "tx", "ty", "tz"}, Digits::all);
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
-    bodies.rows.push_back(row(model.bodies[b].id, {forces.bodies.col(b), forces.torques.col(b)}));
-  write_csv(name + ".bodies.csv", bodies, Digits::all);
+    bodies.add(row(model.bodies[b].id, {forces.bodies.col(b), forces.torques.col(b)}));
+  bodies.keep();
 }
 
 /// What there is and what is in force as the problem begins: in the first of its stages.
