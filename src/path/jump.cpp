@@ -34,7 +34,13 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
     if (!from_saddle) break;
     State beyond = state;
     energy.kinematics().retract(beyond, event.at.tangent, past - at);
-    const bool found = newton.correct(beyond, event.modes, &event.at.point.state).converged() && energy.collision_free_step(event.at.point.state, beyond) == 1;
+    // With the critical modes held; where the tangent has them to interpolation only, what is missing comes at the end.
+    bool found = newton.correct(beyond, event.modes, &event.at.point.state).converged();
+    if (const State held = beyond; !found) {
+      found = newton.correct(beyond, {}, &event.at.point.state).converged();
+      found = found && energy.kinematics().difference(held, beyond).norm() <= jump::most_freed * std::abs(past - at) * event.at.tangent.norm();
+    }
+    found = found && energy.collision_free_step(event.at.point.state, beyond) == 1;
     if (found) state = std::move(beyond);
     if (found || k == jump::most_nearer) break;
   }

@@ -203,6 +203,7 @@ constexpr int most_in_row = 50;  // … or parts in a row move one after the oth
 /// Falls.
 namespace jump {
 constexpr int most_nearer = 4;  // times the snap begins nearer to its event, by a factor of four each
+constexpr double most_freed = 0.1;  // of the way to the unstable equilibrium that it begins at, what the critical modes add: a branch aside is farther, by the root of the way
 constexpr int most_downhill = 50;  // iterations before long steps are allowed
 constexpr int most_descents = 5;  // of solver.max_iterations each: what has many unstable modes comes by a saddle of each, and grows away from it slowly
 }

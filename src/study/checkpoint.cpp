@@ -109,7 +109,8 @@ void Checkpointing::offer(const std::function<void(Archive&)>& carry) {
     const Timed timed(keeping_);
     Archive archive;
     carry(archive);
-    latest_.state = archive.bytes(), latest_.phase = Phase::going, kept_ = true;
+    latest_.state = std::string(archive.bytes());               // no longer than it is: strings that are assigned to grow to twice as much
+    latest_.phase = Phase::going, kept_ = true;
   };
   keep();
   if (since_.seconds() < every_ || writing_ > most) return;

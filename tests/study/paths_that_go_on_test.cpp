@@ -587,7 +587,7 @@ TEST_CASE("a column in space falls from a double branch point, whatever the step
       CHECK_ENDS_AT(run, 1);
       falls_are_right(run);
       INFO(run.what << run.told());
-      REQUIRE(run.events.size() == 2);
+      REQUIRE(run.events.size() == 3);
       REQUIRE(run.of("branch").size() == 1);
       CHECK(run.of("jump").size() == 1);
       if (particles == 12) CHECK(run.events[0]["lambda"] == Approx(critical).epsilon(to_events));
@@ -660,7 +660,7 @@ TEST_CASE("loose cubes are pushed together at no force", "[paths][endless_loose_
       const Run run("cubes_loose", {in_steps(n), method});
       CHECK_ENDS_AT(run, 1);
       INFO(run.what << run.told());
-      REQUIRE(run.events.size() == 2);
+      REQUIRE(run.events.size() == 3);
       CHECK(run.of("contact")[0]["lambda"] == Approx(0.25).epsilon(to_events));
       CHECK(run.of("contact")[1]["lambda"] == Approx(0.5).epsilon(to_events));
       CHECK(run.path.back()["energy"] == Approx(force * squeezed / 2).epsilon(1e-9));
@@ -756,6 +756,17 @@ TEST_CASE("a slender column snaps from its branch point to a minimum, whatever t
   same_events(first, other);
   for (const Run* run : {&first, &other}) CHECK(run->path.back()["negative"] == 0);
   CHECK(other.path.back()["energy"] == Approx(first.path.back()["energy"]).epsilon(1e-10));
+}
+
+TEST_CASE("a snap from a branch point of a bent path begins where any number of steps has it", "[paths][snap_of_bent_column]") {
+  for (const int n : {7, 20, 50}) {
+    const Run run("snap_of_bent_column", {in_steps(n)});
+    CHECK_ENDS_AT(run, 3.1836987299696533);
+    REQUIRE(run.events.size() == 3);
+    const double at = run.of("branch").front()["lambda"];
+    CHECK(at == Approx(3.1184476207678165).epsilon(to_events));
+    CHECK(run.of("jump").front()["lambda"] == Approx(at + 1e-4 * 3.1836987299696533).epsilon(1e-12));
+  }
 }
 
 // Unstable, on the way back, a column meets a stop that is all but rigid: nᵀH⁻¹n < 0 there, the load factor turns where the contact is made, and the contact makes it stable.
@@ -1214,7 +1225,7 @@ TEST_CASE("a ring that bears forces of its own is pushed as it floats, whatever 
       const Run run("ring_floats_bent", {method, in_steps(n)});
       CHECK_ENDS_AT(run, 1);
       INFO(run.what << run.told());
-      REQUIRE(run.events.size() == 2);                          // the lid comes to it, and then it to the floor: 0.2 and 0.4 of 2
+      REQUIRE(run.events.size() == 3);                          // the lid comes to it, and then it to the floor: 0.2 and 0.4 of 2
       CHECK(run.events[0]["lambda"] == Approx(0.1).epsilon(to_events));
       CHECK(run.events[1]["lambda"] == Approx(0.2).epsilon(to_events));
       CHECK(run.located_rows.at("contact:1").text("what") == "ring 7 touches wall lid");
