@@ -40,7 +40,7 @@ class Verlet::Engine {
         kick_.at(c, p) = moves ? dt_ / 2 / m : 0;
         if (!moves) v_.at(c, p) = 0;
       }
-      if (free) turn_[p] = dt_ / 2 / (0.4 * m * r * r);
+      if (free && r > 0) turn_[p] = dt_ / 2 / (0.4 * m * r * r);
     }
     drive();
     for (const Viscosity& w : model.viscosity)

@@ -257,8 +257,8 @@ bool add_lammps(const Problem& problem, Model& model, Mistakes& mistakes) {
   model.density = std::move(data->density);
   // Mass given by type instead: the density that a sphere of that mass has.
   for (int i = 0; i < n; ++i)
-    if (const double d = model.diameter[i]; model.density[i] == 0 && d > 0 && !data->mass.empty())
-      model.density[i] = data->mass[i] / (pi / 6 * d * d * d);
+    if (const double d = model.diameter[i]; model.density[i] == 0 && !data->mass.empty())
+      model.density[i] = data->mass[i] / (d > 0 ? pi / 6 * d * d * d : 1);
   take_velocities(*data, model);
   model.bond_types = std::move(data->bond_types);
   model.angle_types = std::move(data->angle_types);

@@ -247,8 +247,8 @@ struct Model {
 
   int particles() const { return static_cast<int>(start.particles()); }
   RoundedBody body(int b, const State& state) const { return {&shapes[bodies[b].shape], state.bodies[b]}; }
-  /// Mass of particle i: density · π d³/6.
-  double mass(int i) const { return density[i] * pi / 6 * diameter[i] * diameter[i] * diameter[i]; }
+  /// Mass of particle i: density · π d³/6; of a point, without diameter, what stands for its density, as in LAMMPS.
+  double mass(int i) const { return diameter[i] > 0 ? density[i] * pi / 6 * diameter[i] * diameter[i] * diameter[i] : density[i]; }
 };
 
 }  // namespace elamin

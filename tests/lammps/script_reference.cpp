@@ -58,7 +58,8 @@ TEST_CASE("forces and energies of the first state of a script are LAMMPS's", "[s
                      {"shifted", 13, 0, 2.2266138879528174, 1.9150257885011972, 0},
                      {"hertz", 75, 0, 19.532003655294659, 0, -0.010947136603558772},
                      {"material", 100, 0, 0, 0, 0},
-                     {"hybrid", 80, 0, 0, 0, -0.0015682027050075576}};
+                     {"hybrid", 80, 0, 0, 0, -0.0015682027050075576},
+                     {"points", 12, 4, 0.021008232564294675, 0.15685050871224257, -0.041393596170558988}};
   for (const Case& c : cases) {
     INFO(c.name);
     const script::Reading reading = script::read_script(lammps_scripts + c.name + ".lmp", {});
