@@ -177,10 +177,10 @@ class Restart {
   }
 
  private:
-  /// Supports that move in time go on from where the state has what they hold.
+  /// Supports that stand, or move in time, hold on to what they hold where the state has it.
   void drive_on() {
     for (Support& s : model_.supports) {
-      if (s.velocity.isZero(0)) continue;
+      if (s.velocity.isZero(0) && !(s.displacement.isZero(0) && s.rotation.isZero(0))) continue;
       s.displacement.setZero(), s.rotation.setZero();
       s.reference.clear(), s.body_reference.clear();
       for (const int p : s.particles) s.reference.push_back(model_.restart->at(p));

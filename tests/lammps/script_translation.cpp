@@ -386,6 +386,16 @@ TEST_CASE("with --dynamics a script is a motion, run after run", "[script]") {
   CHECK(holds(all[1].toml, "steps = 30\n"));
 }
 
+TEST_CASE("in motion what nothing drives any more stays where the run before has left it", "[script]") {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("in.lmp", three_in_a_row + "group one id 1\ngroup rest subtract all one\nfix 1 rest nve\ntimestep 0.01\n"
+      "fix m one move linear 0.5 0 0\nrun 2\nunfix m\nrun 3\n");
+  REQUIRE(elamin_says("import '" + file + "' -o '" + (scratch / "p.toml") + "' --dynamics").status == 0);
+  for (const char* part : {"p-run1", "p-run2"}) REQUIRE(elamin_says("'" + (scratch / (std::string(part) + ".toml")) + "' --quiet").status == 0);
+  const LammpsData end = read_lammps_data(scratch / "p-run2/states/final.data");
+  CHECK(end.position.col(0) == Vec3(0.01, 0, 0));
+}
+
 TEST_CASE("elamin import writes files, and no other's", "[script]") {
   const ScratchDirectory scratch;
   const std::string file = scratch.file("in.lmp", three_in_a_row + "fix 1 all nve\nthermo 10\nrun 10\n"), out = scratch / "p.toml";
