@@ -56,6 +56,9 @@ class Stages {
 /// its particles where they are less its displacement so far, bodies less its rotation too.
 Model model_in(const Problem& problem, const Stage& stage, Model& all, const State& now);
 
+/// Of what stands on the wrong side of a wall where a stage begins, "wall.floor.side: particle 7 is outside of it, …"; else "".
+std::string on_wrong_side(const Model& in_stage, State start, double load_factor);
+
 /// Labels of the conditions that the load factor of a stage scales.
 std::vector<std::string> varied(const Problem& problem, const Stage& stage);
 

@@ -3,6 +3,7 @@
 #include "energy/kinematics.hpp"
 #include "input/conditions.hpp"
 #include "input/parts.hpp"
+#include "input/stages.hpp"
 #include "laws/frustum.hpp"
 #include "model/entities.hpp"
 
@@ -160,8 +161,40 @@ bool add_walls(const Problem& problem, Groups& groups, Model& model, Mistakes& m
   return whole;
 }
 
+namespace {
+
+/// Particles, and bodies, of a wall that are on its wrong side in each of these states, a sentence each.
+std::vector<std::string> on_wrong_side(const Model& model, const Wall& w, const std::vector<State>& states) {
+  std::vector<std::string> sentences;
+  if (w.region.any_open()) return sentences;
+  const auto tell = [&](const std::vector<int>& members, const auto& at, const auto& name) {
+    const auto wrong = [&](int i) {
+      return std::all_of(states.begin(), states.end(), [&](const State& state) {
+        const double part = w.scaling.at(state.load_factor);
+        return !on_side(w.region.moved(part * w.displacement, part * w.radius_change), w.inside, at(state, i));
+      });
+    };
+    const auto first = std::find_if(members.begin(), members.end(), wrong);
+    if (first == members.end()) return;
+    const auto more = std::count_if(first + 1, members.end(), wrong);
+    const Vec3 x = at(states[0], *first).hi;
+    sentences.push_back(fmt::format("{} is {} of it, at [{}, {}, {}]{}; it must be {}", name(*first), w.inside ? "outside" : "inside", x[0], x[1], x[2],
+                                    more > 0 ? fmt::format(", and {} more are", more) : "", w.inside ? "inside" : "outside"));
+  };
+  if (w.effective_modulus > 0 || w.hard)
+    tell(w.particles, [](const State& state, int i) { return state.at(i); }, [&](int i) { return called(model, i); });
+  if (w.kernel.normal > 0 && !w.lammps)
+    tell(w.bodies, [](const State& state, int b) { return state.bodies[b].position; },
+         [&](int b) { return called(model, model.particles() + b); });
+  return sentences;
+}
+
+}  // namespace
+
 void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes) {
   if (problem.study == StudyType::energy) return;
+  const bool staged = !problem.stages.empty();
+  if (staged && model.restart) return;            // which stage the state is of is known when the path goes on
   // A path starts at its own load factor. An equilibrium at 1 may be reached from what was built at 0.
   std::vector<double> factors{1};
   if (problem.follows_path())
@@ -171,31 +204,20 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
   const Kinematics kinematics(model);
   std::vector<State> states(factors.size(), model.restart ? *model.restart : model.start);
   for (std::size_t k = 0; k < factors.size(); ++k) kinematics.prescribe(states[k], factors[k]);
-  for (const Wall& w : model.walls) {
-    if (w.region.any_open()) continue;
-    const auto tell = [&](const std::vector<int>& members, const auto& at, const auto& name) {
-      const auto wrong = [&](int i) {
-        return std::all_of(states.begin(), states.end(), [&](const State& state) {
-          const double part = w.scaling.at(state.load_factor);
-          return !on_side(w.region.moved(part * w.displacement, part * w.radius_change), w.inside, at(state, i));
-        });
-      };
-      const auto first = std::find_if(members.begin(), members.end(), wrong);
-      if (first == members.end()) return;
-      const auto more = std::count_if(first + 1, members.end(), wrong);
-      const auto table = std::find_if(problem.walls.begin(), problem.walls.end(), [&](const WallTable& t) { return t.name == w.name; });
-      const Vec3 x = at(states[0], *first).hi;
-      mistakes.add(table->place, "side",
-                   fmt::format("{} is {} of it, at [{}, {}, {}]{}; it must be {}", name(*first), w.inside ? "outside" : "inside", x[0],
-                               x[1], x[2], more > 0 ? fmt::format(", and {} more are", more) : "", w.inside ? "inside" : "outside"));
-    };
-    if (w.effective_modulus > 0 || w.hard)
-      tell(w.particles, [](const State& state, int i) { return state.at(i); },
-           [&](int i) { return called(model, i); });
-    if (w.kernel.normal > 0 && !w.lammps)
-      tell(w.bodies, [](const State& state, int b) { return state.bodies[b].position; },
-           [&](int b) { return called(model, model.particles() + b); });
+  std::string unclear;
+  Model all = model;
+  const Model first = staged ? model_in(problem, Stages(problem).enter(unclear), all, model.start) : model;
+  for (const Wall& w : first.walls) {
+    const auto table = std::find_if(problem.walls.begin(), problem.walls.end(), [&](const WallTable& t) { return t.name == w.name; });
+    for (const std::string& sentence : on_wrong_side(first, w, states)) mistakes.add(table->place, "side", sentence);
   }
+}
+
+std::string on_wrong_side(const Model& in_stage, State start, double load_factor) {
+  Kinematics(in_stage).prescribe(start, load_factor);
+  for (const Wall& w : in_stage.walls)
+    for (const std::string& sentence : on_wrong_side(in_stage, w, {start})) return fmt::format("wall.{}.side: {}", w.name, sentence);
+  return "";
 }
 
 }  // namespace elamin

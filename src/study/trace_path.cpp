@@ -193,6 +193,10 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       stages.leave(starts[so_far + 1].load_factor);
       continue;
     }
+    if (const std::string what = on_wrong_side(in_stage, start, stage.path.start_lambda.value_or(stage.path.from)); !here && !what.empty()) {
+      outcome = {Status::not_converged, stage.name + ": " + what};
+      break;
+    }
     before = std::move(run);
     run = std::make_unique<Run>(problem, std::move(stage), std::move(in_stage), start, k == first ? stored : std::nullopt);
     const bool by_newton = problem.solver.by_newton() || any_hard(run->model);

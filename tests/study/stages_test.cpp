@@ -180,3 +180,14 @@ to = 1
   CHECK(below["z"] < -1.5);
   CHECK(below["z"] > -1.6);
 }
+
+TEST_CASE("a wall of a later stage finds the particles where they are as it begins", "[stages]") {
+  const std::string lifted = "[[grains]]\nname = \"a\"\npositions = [[0, 0, 1]]\ndiameter = 1\n[[support]]\ngroup = \"a\"\ndisplacement = [0, 0, 4]\n"
+                             "[[wall]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 2]\nnormal = [0, 0, 1]\nyoungs_modulus = 1\nfrom_stage = \"on\"\n"
+                             "[path]\nsteps = 2\n[[stage]]\nname = \"up\"\nto = ";
+  const ScratchDirectory scratch;
+  run(scratch, lifted + "1\n[[stage]]\nname = \"on\"\nto = 2\n");
+  const Answer below = elamin_says("'" + scratch.file("p.toml", lifted + "0.1\n[[stage]]\nname = \"on\"\nto = 2\n") + "' --quiet");
+  CHECK(below.status == 2);
+  CHECK(below.text.find("on: wall.floor.side: a 1 is outside of it, at [0, 0, 1.4]; it must be inside") != std::string::npos);
+}
