@@ -164,6 +164,8 @@ void delete_atoms(Interpreter& in) {
     w.body_file.clear();
     return;
   }
+  if (bonds && (cut(w.bonds) || cut(w.angles)) && std::any_of(w.special_lj.begin() + 1, w.special_lj.end(), [](double f) { return f == 0; }))
+    in.note("LAMMPS leaves pairs out of contacts still that were second or third neighbours over atoms that are gone; here they touch as all others");
   w.remove(gone);
   if (compress && !w.molecular && count > 0)
     in.note("LAMMPS numbers the atoms that are left anew (compress yes); here they keep their ids");

@@ -59,7 +59,7 @@ class Translation : private TableList {
                   {},
                   false});
       }
-      if (options.dynamics) friction_rotates(run);
+      if (options.dynamics) friction_rotates(run), frozen_are_heavy(run);
       put_contacts(*this, k, run);
       if (k < flat_.runs && !flat_.always && !options.dynamics) in_plane(k, run);
     }
@@ -78,6 +78,16 @@ class Translation : private TableList {
     for (const Run::Active& a : run.fixes)
       if (a.fix.style == "nve")
         refuse(a.fix.where, "fix", "nve rotates no particle, and friction does so here; nve/sphere is followed in motion (--dynamics)");
+  }
+
+  /// The damping of LAMMPS's contacts takes what is frozen for infinitely heavy.
+  void frozen_are_heavy(const Run& run) const {
+    const auto& said = run.pairs.coefficients;
+    if (std::all_of(said.begin(), said.end(), [](const PairCoefficient& c) { return c.damping.empty() || c.damping.starts_with("damping = \"velocity\""); })) return;
+    for (const Run::Active& a : run.fixes)
+      if (a.fix.style == "freeze")
+        refuse(a.fix.where, "fix", "contacts of frozen atoms are damped as if these were infinitely heavy, which a motion (--dynamics) does not follow; `setforce 0 0 0` "
+                                   "holds them with the masses that they have");
   }
 
   void supports(int k, const Run& run) {
