@@ -291,4 +291,77 @@ TEST_CASE("a wall has the surface that its region has when a run begins, velocit
   CHECK(w.atoms.at(0).v == Vec3(1.5, 2, 4));
 }
 
+TEST_CASE("sides of the box shrink around what is there where LAMMPS lets them", "[script]") {
+  const std::string made = "units lj\natom_style hybrid sphere bond\nboundary s m f\nregion box block -3 3 -2 2 -1 1\n"
+      "create_box 1 box bond/types 1\ncreate_atoms 1 random 2 4711 NULL\ncreate_atoms 1 single 1 0.5 0\ncreate_atoms 1 single 3.0004 0 0\n"
+      "create_atoms 1 single 3.0007 0 0\n";           // the last one is outside
+  const std::string displaced = made + "displace_atoms all ramp z 0 0.1 x -3 3\ndisplace_atoms all rotate 0.1 0.2 0 0 0 1 30\n";
+  const std::string changed = displaced + "change_box all boundary s s f y delta -1 2 z scale 3\n";
+  const auto after = [](const std::string& text) { return reading_of(text).passes.at(0).world; };
+  const auto close = [](double value, double expected) { return std::abs(value - expected) <= 1e-14; };
+  const script::World a = after(made);
+  REQUIRE(a.atoms.size() == 4);
+  CHECK(close(a.atoms[0].x[0], 0.128620339602986));
+  CHECK(close(a.atoms[1].x[0], 0.632070849515065));
+  CHECK(close(a.side(0, 1) - a.side(0, 0), 6.0012));
+  const script::World b = after(displaced);
+  CHECK(close(b.atoms[0].x[0], -0.205143975320331));
+  CHECK(close(b.atoms[1].x[1], 0.922459500948103));
+  CHECK(close(b.atoms[2].x[2], 0.0666666666666667));
+  CHECK(close(b.atoms[2].x[0], 0.729422863405995));
+  CHECK(close(b.side(0, 0), -0.205743975320331));
+  CHECK(close(b.side(0, 1), 2.71242008113639));
+  CHECK(b.side(1, 0) == -2);
+  const script::World c = after(changed);
+  CHECK(close(c.side(0, 0), -0.205435908464211));
+  CHECK(close(c.side(0, 1), 2.71211201428027));
+  CHECK(close(c.side(1, 0), 0.785065328068329));
+  CHECK(close(c.side(1, 1), 1.47769513925911));
+  CHECK(c.side(2, 1) == 3);
+  const script::World d = after(changed + "change_box all boundary f f f x final -4 5 y final -4 4 set x final -8 10 remap units box\n");
+  CHECK(d.side(0, 0) == -8);
+  CHECK(close(d.atoms[0].x[0], -0.410287950640662));
+  CHECK(close(d.atoms[2].x[0], 1.45884572681199));
+  CHECK(close(d.atoms[0].x[1], 0.78576554808433));
+  // Behind a run where the sides are is not known.
+  const Reading moved = reading_of(made + "set group all diameter 0.1\npair_style zero 1\npair_coeff * *\nfix 1 all nve/sphere\nrun 10\n"
+                                   "create_atoms 1 single 0 0 0\ncreate_atoms 1 single $(xhi) 0 0\nrun 10\n");
+  REQUIRE(moved.notes.size() == 2);
+  CHECK(holds(moved.notes[1].text, "needs to know where particles are behind the run"));
+  CHECK(moved.passes.at(0).world.atoms.size() == 5);
+}
+
+TEST_CASE("lengths are in the lattice's constant unless they are said to be in the box's", "[script]") {
+  const auto x = [](const std::string& lines) {
+    return reading_of("lattice none 2\n" + box + "create_atoms 1 single 0 0 0\n" + lines).passes.at(0).world.atoms.at(0).x[0];
+  };
+  CHECK(x("displace_atoms all move 0.5 0 0\n") == 1);
+  CHECK(x("displace_atoms all move 0.5 0 0 units box\n") == 0.5);
+  const std::string pushed = "lattice none 2\n" + two + soft + "timestep 0.5\nfix m all move linear 1 0 0";
+  CHECK(imported(pushed + "\nrun 2\n").model.supports.at(0).displacement == Vec3(2, 0, 0));
+  CHECK(imported(pushed + " units box\nrun 2\n").model.supports.at(0).displacement == Vec3(1, 0, 0));
+}
+
+TEST_CASE("variables of a file have the first word of each line, those of a universe count on", "[script]") {
+  const ScratchDirectory scratch;
+  scratch.file("places", "# x\n\n  0.5 and more # the first\n-1.5e0\n");
+  const Reading r = script::read_script(scratch.file("in.lmp", box + "variable x file places\nvariable x file other\nvariable i uloop 5\nlabel next\n"
+      "create_atoms 1 single $x $i 0\nnext i\nnext x\njump SELF next\nif $(is_defined(variable,x)+is_defined(group,all)==1) then 'create_atoms 1 single 4 4 4'\n"), {});
+  const auto& made = r.passes.at(0).world.atoms;
+  REQUIRE(made.size() == 3);
+  CHECK(made[0].x == Vec3(0.5, 1, 0));
+  CHECK(made[1].x == Vec3(-1.5, 2, 0));
+  CHECK(made[2].x == Vec3(4, 4, 4));
+}
+
+TEST_CASE("what is frozen is infinitely heavy to LAMMPS's damping, which no motion here follows", "[script]") {
+  const auto told = [](const std::string& damping) {
+    return refused_motion(two + "pair_style granular\npair_coeff * * hertz 1000 " + damping + " tangential linear_nohistory 0 0\ngroup g id 1\nfix 1 all nve/sphere\n"
+                          "fix h g freeze\nrun 5\n");
+  };
+  CHECK(told("1 damping velocity") == "");
+  CHECK(told("0") == "");
+  CHECK(holds(told("1 damping mass_velocity"), ":14:1: fix: contacts of frozen atoms are damped as if these were infinitely heavy"));
+}
+
 }  // namespace elamin::as_lammps

@@ -14,8 +14,6 @@
 namespace elamin::script::command {
 namespace {
 
-bool in_box(const World& w, const Vec3& x) { return (x.array() >= w.lo.array()).all() && (x.array() < w.hi.array()).all(); }
-
 /// Numbers from 0 to 1 as LAMMPS draws them here: x ← 16807 x mod (2³¹ − 1). Source: Park & Miller 1988, Comm. ACM 31, 1192.
 class Random {
  public:
@@ -64,7 +62,8 @@ void create_random(Interpreter& in, int type) {
   World& w = in.world;
   const long long n = in.integer(3, 0, static_cast<long long>(most_atoms)), seed = in.integer(4, 1, 2147483646);
   const bool region = in.word(5) != "NULL";
-  Vec3 lo = w.lo, hi = w.hi;
+  Vec3 lo, hi;
+  for (int c = 0; c < 3; ++c) lo[c] = w.side(c, 0), hi[c] = w.side(c, 1);
   if (region) {
     w.matches(in.word(5), lo, 5);
     if (const auto box = box_of(w, w.regions.at(in.word(5)))) lo = lo.cwiseMax(box->at(0)), hi = hi.cwiseMin(box->at(1));
@@ -80,14 +79,8 @@ void create_random(Interpreter& in, int type) {
       if (w.dimension == 2) x[2] = lo[2] + 0.5 * (hi[2] - lo[2]);
     } while (region && !w.matches(in.word(5), x, 5));
     if (w.atoms.size() >= most_atoms) throw Wrong(3, fmt::format("makes more than {} atoms", most_atoms));
-    if (in_box(w, x)) w.create(type, x);
+    if (w.in_box(x)) w.create(type, x);
   }
-}
-
-/// Throws unless it may be put elsewhere.
-void newborn(const World& w, const Atom& a) {
-  w.at(a);
-  if (a.born < w.run_number()) throw Wrong(0, "displaces atoms that were there in an earlier run; they go on from where they are", true);
 }
 
 /// Velocities that are given behind a run: a motion goes on with those that it has.
@@ -113,6 +106,11 @@ namespace elamin::script {
 
 void needs_box(const Interpreter& in) {
   if (!in.world.has_box) throw Wrong(0, "stands before create_box or read_data");
+}
+
+void newborn(const World& w, const Atom& a) {
+  w.at(a);
+  if (a.born < w.run_number()) throw Wrong(0, "displaces atoms that were there in an earlier run; they go on from where they are", true);
 }
 
 std::vector<int> chosen(Interpreter& in, const std::string& style, std::size_t i) {
@@ -164,7 +162,7 @@ void create_atoms(Interpreter& in) {
     if (in.word(i) == "units" && i + 1 < in.size() && (in.word(i + 1) == "box" || in.word(i + 1) == "lattice")) box = in.word(++i) == "box";
     else throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of create_atoms that is taken; units is", true);
   if (!box) x *= w.lattice;
-  if (!in_box(w, x)) {
+  if (!w.in_box(x)) {
     in.note("lies outside of the box: LAMMPS makes no atom there, and none is made here");
     return;
   }
@@ -252,6 +250,7 @@ void many(Interpreter& in) {
   for (const auto& [i, j] : wanted)
     if (!out.count({std::min(i, j), std::max(i, j)})) w.new_glue({i, j}), w.bonds.push_back({type, {i, j}, w.run_number()}), ++made;
   if (made == 0) in.note("makes no bond");
+  w.shrink_box();
 }
 
 }  // namespace
@@ -387,6 +386,7 @@ void velocity(Interpreter& in) {
   if (in.word(2) != "set") throw Wrong(2, in_quotes(in.word(2)) + " is no way of setting velocities; set is", true);
   in.wants(6, "velocity GROUP set VX VY VZ");
   moving(in);
+  const double unit = in.unit_of_length(6);
   bool sum = false;
   for (std::size_t i = 6; i + 1 < in.size(); i += 2)
     if (in.word(i) == "sum") sum = in.yes(i + 1);
@@ -395,22 +395,48 @@ void velocity(Interpreter& in) {
     if (in.word(i) == "NULL") continue;
     const Value v = each_value(in, i);
     for (std::size_t k = 0; k < w.atoms.size(); ++k)
-      if (World::there(w.atoms[k]) && w.in(w.atoms[k], g)) w.atoms[k].v[c] = v.at(k) + (sum ? w.atoms[k].v[c] : 0);
+      if (World::there(w.atoms[k]) && w.in(w.atoms[k], g)) w.atoms[k].v[c] = unit * v.at(k) + (sum ? w.atoms[k].v[c] : 0);
   }
 }
 
 void displace_atoms(Interpreter& in) {
-  in.wants(6, "displace_atoms GROUP move DX DY DZ");
+  in.wants(6, "displace_atoms GROUP move DX DY DZ, ramp C LO HI C LO HI, or rotate PX PY PZ RX RY RZ DEGREES");
   World& w = in.world;
   const int g = w.group(in.word(1), 1);
-  if (in.word(2) != "move") throw Wrong(2, in_quotes(in.word(2)) + " is no displacement that is taken; move is", true);
-  const std::array<Value, 3> d{each_value(in, 3), each_value(in, 4), each_value(in, 5)};
-  for (std::size_t k = 0; k < w.atoms.size(); ++k) {
-    Atom& a = w.atoms[k];
-    if (!World::there(a) || !w.in(a, g)) continue;
-    newborn(w, a);
-    for (int c = 0; c < 3; ++c) a.x[c] += d[static_cast<std::size_t>(c)].at(k);
+  const std::string& how = in.word(2);
+  if (how != "move" && how != "ramp" && how != "rotate")
+    throw Wrong(2, in_quotes(how) + " is no displacement that is taken; move, ramp and rotate are", true);
+  const double unit = in.unit_of_length(6);
+  const auto each = [&](const auto& to) {
+    for (std::size_t k = 0; k < w.atoms.size(); ++k) {
+      Atom& a = w.atoms[k];
+      if (World::there(a) && w.in(a, g)) newborn(w, a), a.x = to(k, a.x);
+    }
+  };
+  if (how == "move") {
+    const std::array<Value, 3> d{each_value(in, 3), each_value(in, 4), each_value(in, 5)};
+    each([&](std::size_t k, const Vec3& x) { return Vec3(x + unit * Vec3(d[0].at(k), d[1].at(k), d[2].at(k))); });
+  } else if (how == "ramp") {
+    in.wants(9, "displace_atoms GROUP ramp C LO HI C LO HI");
+    const int c = in.axis(3), along = in.axis(6);
+    const double least = unit * in.number(4), most = unit * in.number(5), lo = unit * in.number(7), hi = unit * in.number(8);
+    if (lo == hi) throw Wrong(8, "the ramp has no length");
+    each([&](std::size_t, Vec3 x) {
+      x[c] += least + std::clamp((x[along] - lo) / (hi - lo), 0.0, 1.0) * (most - least);
+      return x;
+    });
+  } else {
+    in.wants(10, "displace_atoms GROUP rotate PX PY PZ RX RY RZ DEGREES");
+    const Vec3 point = unit * Vec3(in.number(3), in.number(4), in.number(5)), axis(in.number(6), in.number(7), in.number(8));
+    if (!(axis.norm() > 0)) throw Wrong(6, "the axis has no length");
+    const Vec3 e = axis / axis.norm();
+    const double angle = pi * in.number(9) / 180;
+    each([&](std::size_t, const Vec3& x) {
+      const Vec3 d = x - point, along = d.dot(e) * e, across = d - along;
+      return Vec3(point + along + std::cos(angle) * across + std::sin(angle) * e.cross(across));
+    });
   }
+  w.shrink_box();
 }
 
 void compute(Interpreter& in) {

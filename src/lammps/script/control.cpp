@@ -42,6 +42,18 @@ std::map<long long, double> numbers_of_atoms(const Interpreter& in, const std::s
   return of_id;
 }
 
+/// The first word of each line of a file, without comments.
+std::vector<std::string> first_words(const Interpreter& in, const std::string& name, std::size_t word) {
+  const std::string text = elamin::read_data(in.path_of(name, word), "file of values");
+  std::istringstream lines{std::string(without_mark(text))};
+  std::vector<std::string> all;
+  std::string first;
+  for (std::string line; std::getline(lines, line);)
+    if (std::istringstream words(line.substr(0, line.find('#'))); words >> first) all.push_back(first);
+  if (all.empty()) throw Wrong(word, in_quotes(name) + " holds no value");
+  return all;
+}
+
 }  // namespace
 
 void include(Interpreter& in) {
@@ -139,10 +151,11 @@ void variable(Interpreter& in) {
     for (std::size_t i = 3; i < in.size(); ++i) words.push_back(in.word(i));
     return words;
   };
-  if (style == "index" || style == "loop") {
+  if (style == "index" || style == "file" || style == "loop" || style == "uloop") {
     if (variables.count(name)) return;           // as LAMMPS does: the first one stays
-    in.wants(4, "variable NAME index WORD … or loop [FIRST] LAST [pad]");
+    in.wants(4, "variable NAME index WORD …, file FILE, or loop [FIRST] LAST [pad]", style == "file" ? 4 : std::string::npos);
     if (style == "index") v.style = Variable::Style::index, v.words = rest();
+    else if (style == "file") v.style = Variable::Style::index, v.words = first_words(in, in.word(3), 3);
     else {
       v.style = Variable::Style::loop;
       std::size_t n = in.size();
@@ -163,13 +176,12 @@ void variable(Interpreter& in) {
   } else if (style == "atomfile") {
     in.wants(4, "variable NAME atomfile FILE", 4);
     v.style = Variable::Style::atomfile, v.of_id = numbers_of_atoms(in, in.word(3), 3);
-  } else if (style == "getenv" || style == "file" || style == "world" || style == "universe" || style == "uloop" ||
-             style == "python" || style == "internal" || style == "timer" || style == "vector") {
+  } else if (style == "getenv" || style == "world" || style == "universe" || style == "python" || style == "internal" || style == "timer" || style == "vector") {
     throw Wrong(
         2, fmt::format("variables of style {} come from outside of the script; write the value itself: variable {} string …", style, name),
         true);
   } else {
-    const std::vector<std::string> known{"index", "loop", "string", "equal", "atom", "atomfile", "format", "delete"};
+    const std::vector<std::string> known{"index", "file", "loop", "uloop", "string", "equal", "atom", "atomfile", "format", "delete"};
     throw Wrong(2, in_quotes(style) + " is no style of a variable; there are: " + listed(known) + did_you_mean(style, known), true);
   }
   variables[name] = std::move(v);

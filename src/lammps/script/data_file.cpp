@@ -144,9 +144,9 @@ void read_data(Interpreter& in) {
   const LammpsData data = read_lammps_data(file, how);
   const Header header = header_of(file);
   in.reading.data_files.push_back(file);
-  w.lo = w.has_box ? w.lo.cwiseMin(header.lo + shift).eval() : header.lo + shift;
-  w.hi = w.has_box ? w.hi.cwiseMax(header.hi + shift).eval() : header.hi + shift;
-  w.has_box = true;
+  std::array<Vec3, 2> sides{header.lo + shift, header.hi + shift};
+  for (int c = 0; c < 3 && w.has_box; ++c) sides[0][c] = std::min(sides[0][c], w.side(c, 0)), sides[1][c] = std::max(sides[1][c], w.side(c, 1));
+  w.set_box(sides);
   int largest = 0;
   for (const int t : data.type) largest = std::max(largest, t);
   for (const Body& b : data.bodies) largest = std::max(largest, b.type);
@@ -194,11 +194,12 @@ void read_data(Interpreter& in) {
     w.bonds.push_back({b.type + 1 + offset[1], {b.particles[0] + base, b.particles[1] + base}, w.run_number()});
   for (const Angle& a : data.angles)
     w.angles.push_back({a.type + 1 + offset[2], {a.particles[0] + base, a.particles[1] + base, a.particles[2] + base}, w.run_number()});
-  if (data.bodies.empty()) return;
+  if (data.bodies.empty()) return w.shrink_box();
   if (!w.body_file.empty()) throw Wrong(1, "bodies come from one data file", true);
   w.body_file = file, w.bodies = true;
   for (std::size_t b = 0; b < data.bodies.size(); ++b)
     put(data.bodies[b].id, data.bodies[b].type, data.body_position.col(static_cast<Eigen::Index>(b))).is_body = true;
+  w.shrink_box();
 }
 
 }  // namespace command

@@ -46,7 +46,7 @@ struct Making {
     fix.kind = Fix::Kind::move;
     if (in.word(4) != "linear") throw Wrong(4, fmt::format("move {} is not followed; linear is", in.word(4)), true);
     in.wants(8, "fix ID GROUP move linear VX VY VZ");
-    for (int c = 0; c < 3; ++c) fix.vector[c] = direction(static_cast<std::size_t>(5 + c), static_cast<std::size_t>(c));
+    for (int c = 0; c < 3; ++c) fix.vector[c] = in.unit_of_length(8) * direction(static_cast<std::size_t>(5 + c), static_cast<std::size_t>(c));
   }
 
   void setforce() {

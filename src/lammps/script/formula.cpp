@@ -286,6 +286,12 @@ class Formula {
     return true;
   }
 
+  double side(int c, int end) const {
+    if (const char kind = world_.kind_of_side(c, end); kind == 's' || kind == 'm') placed();
+    return world_.side(c, end);
+  }
+  double length(int c) const { return side(c, 1) - side(c, 0); }
+
   bool keyword(const std::string& w, double& out) const {
     const World::Moment& m = world_.moment;
     if (w == "step") out = static_cast<double>(world_.step + m.steps);
@@ -293,10 +299,10 @@ class Formula {
     else if (w == "elapsed" || w == "elaplong") out = static_cast<double>(m.steps + (w == "elaplong" ? m.before : 0));
     else if (w == "dt") out = world_.timestep;
     else if (w == "atoms") out = static_cast<double>(std::count_if(world_.atoms.begin(), world_.atoms.end(), World::there));
-    else if (w == "xlo" || w == "ylo" || w == "zlo") out = world_.lo[w[0] - 'x'];
-    else if (w == "xhi" || w == "yhi" || w == "zhi") out = world_.hi[w[0] - 'x'];
-    else if (w == "lx" || w == "ly" || w == "lz") out = (world_.hi - world_.lo)[w[1] - 'x'];
-    else if (w == "vol") out = (world_.hi - world_.lo).prod();
+    else if (w == "xlo" || w == "ylo" || w == "zlo") out = side(w[0] - 'x', 0);
+    else if (w == "xhi" || w == "yhi" || w == "zhi") out = side(w[0] - 'x', 1);
+    else if (w == "lx" || w == "ly" || w == "lz") out = length(w[1] - 'x');
+    else if (w == "vol") out = length(0) * length(1) * length(2);
     else {
       static constexpr const char* unknown[]{"temp",  "press", "pe",     "ke",   "etotal", "evdwl", "ecoul",
                                              "epair", "ebond", "eangle", "fmax", "fnorm",  "cpu"};
@@ -342,9 +348,22 @@ class Formula {
     if (w == "gmask" || w == "rmask" || w == "grmask") return mask(w, args);
     Value v;
     if (group_function(w, args, v.number)) return v;
-    if (w == "is_active" || w == "is_available" || w == "is_defined" || w == "is_file")
-      throw Wrong(word_, w + "() is not known here", true);
+    if (w == "is_defined") return defined(args);
+    if (w == "is_active" || w == "is_available" || w == "is_file") throw Wrong(word_, w + "() is not known here", true);
     wrong(in_quotes(w + "()") + " is no function that is known here");
+  }
+
+  Value defined(const std::vector<std::string>& args) const {
+    if (args.size() != 2) wrong(fmt::format("is_defined() has {} arguments, 2 wanted", args.size()));
+    const std::string &what = args[0], &name = args[1];
+    Value v;
+    if (what == "compute") v.number = names_.computes.count(name) > 0;
+    else if (what == "fix") v.number = std::any_of(world_.fixes.begin(), world_.fixes.end(), [&](const Fix& f) { return f.id == name; });
+    else if (what == "group") v.number = world_.find_group(name).has_value();
+    else if (what == "region") v.number = world_.regions.count(name) > 0;
+    else if (what == "variable") v.number = names_.variables.count(name) > 0;
+    else throw Wrong(word_, in_quotes(what) + " is nothing that is_defined() knows of here; compute, fix, group, region and variable are", true);
+    return v;
   }
 
   Value in_time(const std::string& w, const std::vector<std::string>& args) {

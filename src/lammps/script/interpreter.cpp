@@ -247,6 +247,21 @@ double Interpreter::value(std::size_t i, Dependence* on) const {
   return number(i);
 }
 
+int Interpreter::axis(std::size_t i) const {
+  const std::string& w = word(std::min(i, size() - 1));
+  if (w == "x" || w == "y" || w == "z") return w[0] - 'x';
+  throw Wrong(std::min(i, size() - 1), in_quotes(w) + " is no axis; x, y and z are");
+}
+
+double Interpreter::unit_of_length(std::size_t i) const {
+  for (; i + 1 < size(); ++i) {
+    if (word(i) != "units") continue;
+    if (word(i + 1) == "box") return 1;
+    if (word(i + 1) != "lattice") throw Wrong(i + 1, in_quotes(word(i + 1)) + " are no units of length; box and lattice are");
+  }
+  return world.lattice;
+}
+
 bool Interpreter::yes(std::size_t i) const {
   if (i >= size()) throw Wrong(size() - 1, "yes or no is missing behind this");
   const std::string& w = word(i);

@@ -79,6 +79,9 @@ struct Interpreter {
   /// A number, or v_name of an equal-style variable.
   double value(std::size_t i, Dependence* on = nullptr) const;
   bool yes(std::size_t i) const;
+  int axis(std::size_t i) const;
+  /// What a length is in, as `units box` or `units lattice` from word i on say; by default the lattice's.
+  double unit_of_length(std::size_t i) const;
   /// `n`, `*`, `n*`, `*n` or `m*n` within 1 … most.
   std::array<int, 2> range(std::size_t i, int most) const;
   void note(const std::string& text);

@@ -188,6 +188,7 @@ Run in_force(Interpreter& in, const Span& span) {
 /// The record of a run; then what is known of where things are.
 void record(Interpreter& in, const Span& span) {
   World& w = in.world;
+  w.shrink_box();
   if (span.steps == 0 && !span.minimize && !w.runs.empty()) return in.ignore("a run of no steps moves nothing");
   Run r = in_force(in, span);
   for (const int k : r.atoms)
@@ -214,6 +215,7 @@ void record(Interpreter& in, const Span& span) {
   w.last_run = in.where;
   w.step += r.steps, w.time += r.minimize ? 0 : r.time();
   w.runs.push_back(std::move(r));
+  w.shrink_box();
   if (in.after >= in.options.after.size()) return;
   take_positions(in, in.options.after[in.after++]);
   // From here on it is a problem by itself: what was run is behind it.
@@ -223,6 +225,7 @@ void record(Interpreter& in, const Span& span) {
   for (auto& b : w.bonds) b.born = 0;
   for (auto& b : w.angles) b.born = 0;
   w.runs.clear(), w.still.reset(), w.removals.clear();
+  w.shrink_box();
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Commands that set up the box, regions and coefficients.
-#include "lammps/script/interpreter.hpp"
+#include "lammps/script/building.hpp"
 
 #include "core/suggest.hpp"
 #include "laws/section.hpp"
@@ -25,15 +25,9 @@ double coordinate(const Interpreter& in, std::size_t i, int axis, bool high) {
   if (i < in.size() && in.word(i) == "INF") return high ? nowhere : -nowhere;
   if (i < in.size() && in.word(i) == "EDGE") {
     if (!in.world.has_box) throw Wrong(i, "EDGE is of the box, which there is not yet");
-    return high ? in.world.hi[axis] : in.world.lo[axis];
+    return in.world.side(axis, high);
   }
   return in.value(i);
-}
-
-int axis_of(const Interpreter& in, std::size_t i) {
-  const std::string& w = i < in.size() ? in.word(i) : in.word(0);
-  if (w == "x" || w == "y" || w == "z") return w[0] - 'x';
-  throw Wrong(i, in_quotes(w) + " is no axis; x, y and z are");
 }
 
 }  // namespace
@@ -141,7 +135,7 @@ void region(Interpreter& in) {
     if (s.axial_lo > s.axial_hi) throw Wrong(lo_at, "the region ends before it begins");
   };
   const auto on_axis = [&] {
-    s.axis = axis_of(in, 3);
+    s.axis = in.axis(3);
     const int a = s.axis == 0 ? 1 : 0, b = s.axis == 2 ? 1 : 2;
     s.center[a] = fixed(4), s.center[b] = fixed(5);
   };
@@ -240,7 +234,7 @@ void create_box(Interpreter& in) {
       throw Wrong(i, in_quotes(k) + " is no keyword of create_box");
   }
   w.atom_types = types, w.bond_types = bonds, w.angle_types = angles;
-  w.lo = r.lo, w.hi = r.hi, w.has_box = true;
+  w.set_box({r.lo, r.hi});
   w.mass.resize(static_cast<std::size_t>(types));
   w.bond_coefficients.resize(static_cast<std::size_t>(bonds)), w.angle_coefficients.resize(static_cast<std::size_t>(angles));
 }
@@ -249,11 +243,17 @@ void change_box(Interpreter& in) {
   in.wants(3, "change_box GROUP KEYWORD …");
   after_box(in);
   World& w = in.world;
-  w.group(in.word(1), 1);
+  const int g = w.group(in.word(1), 1);
+  const double unit = in.unit_of_length(2);
+  w.shrink_box();
+  std::array<Vec3, 2> before = w.box;            // that `remap` goes out from
   for (std::size_t i = 2; i < in.size();) {
     const std::string& k = in.word(i);
+    const auto takes = [&](std::size_t words) {
+      if (i + words >= in.size()) throw Wrong(i, fmt::format("is followed by {} words", words));
+    };
     if (k == "boundary") {
-      if (i + 3 >= in.size()) throw Wrong(i, "is followed by three words");
+      takes(3);
       for (std::size_t c = 0; c < 3; ++c) {
         const std::string& b = in.word(i + 1 + c);
         if (b.empty() || b.size() > 2 || b.find_first_not_of("pfsm") != std::string::npos)
@@ -261,13 +261,38 @@ void change_box(Interpreter& in) {
         w.boundary[c] = b;
       }
       w.boundary_where = in.where;
+      w.set_box(w.box);
       i += 4;
-    } else if ((k == "x" || k == "y" || k == "z") && i + 3 < in.size() && in.word(i + 1) == "final") {
-      w.lo[k[0] - 'x'] = in.number(i + 2), w.hi[k[0] - 'x'] = in.number(i + 3);
-      i += 4;
-    } else if (k == "units" && i + 1 < in.size()) i += 2;
-    else throw Wrong(i, in_quotes(k) + " is no keyword of change_box that is taken; boundary and x final LO HI are", true);
+    } else if (k == "x" || k == "y" || k == "z") {
+      takes(2);
+      const int c = k[0] - 'x';
+      const std::string& how = in.word(i + 1);
+      std::array<Vec3, 2> now = w.box;
+      if (how == "final" || how == "delta") {
+        takes(3);
+        for (std::size_t end = 0; end < 2; ++end)
+          now[end][c] = unit * in.number(i + 2 + end) + (how == "delta" ? w.side(c, static_cast<int>(end)) : 0), w.lost[end][static_cast<std::size_t>(c)] = false;
+        i += 4;
+      } else if (how == "scale") {
+        const double lo = w.side(c, 0), hi = w.side(c, 1), middle = 0.5 * (lo + hi), factor = in.positive(i + 2);
+        now[0][c] = middle + factor * (lo - middle), now[1][c] = middle + factor * (hi - middle), i += 3;
+      } else throw Wrong(i + 1, in_quotes(how) + " is no change of a side that is taken; final, delta and scale are", true);
+      if (!(now[0][c] < now[1][c])) throw Wrong(i - 1, "the box ends before it begins");
+      w.set_box(now);
+    } else if (k == "remap" || k == "set") {
+      const std::array<Vec3, 2> now = w.box;
+      for (int c = 0; c < 6; ++c) w.side(c / 2, c % 2);          // has to be known
+      for (Atom& a : w.atoms) {
+        if (k == "set" || now == before || !World::there(a) || !w.in(a, g)) continue;
+        newborn(w, a);
+        a.x = now[0].array() + (a.x - before[0]).array() / (before[1] - before[0]).array() * (now[1] - now[0]).array();
+      }
+      before = now;
+      ++i;
+    } else if (k == "units") i += 2;
+    else throw Wrong(i, in_quotes(k) + " is no keyword of change_box that is taken; boundary, x, y, z, remap, set and units are", true);
   }
+  w.shrink_box();
 }
 
 void timestep(Interpreter& in) {

@@ -21,6 +21,50 @@ int World::group(const std::string& name, std::size_t word) const {
   throw Wrong(word, in_quotes(name) + " is no group; there are: " + listed(names) + did_you_mean(name, names));
 }
 
+char World::kind_of_side(int c, int end) const {
+  const std::string& b = boundary[static_cast<std::size_t>(c)];
+  return end == 1 ? b.back() : b.front();
+}
+
+void World::set_box(const std::array<Vec3, 2>& sides) {
+  has_box = true;
+  box = least_box = sides, room = 1e-4 * (box[1] - box[0]);
+  for (int c = 0; c < 3; ++c)
+    for (int end = 0; end < 2; ++end)
+      if (kind_of_side(c, end) == 's') box[static_cast<std::size_t>(end)][c] += end == 1 ? room[c] : -room[c];
+}
+
+void World::shrink_box() {
+  std::vector<const Atom*> here;
+  for (const Atom& a : atoms)
+    if (there(a)) here.push_back(&a);
+  if (here.empty()) return;
+  const bool known = std::none_of(here.begin(), here.end(), [](const Atom* a) { return a->moved; });
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const char kind = kind_of_side(c, static_cast<int>(end));
+      if (kind != 's' && kind != 'm') continue;
+      lost[end][static_cast<std::size_t>(c)] = !known;
+      const double sign = end == 1 ? 1 : -1;
+      double most = sign * here.front()->x[c];
+      for (const Atom* a : here) most = std::max(most, sign * a->x[c]);
+      most += room[c];
+      if (kind == 'm') most = std::max(most, sign * least_box[end][c]);
+      box[end][c] = sign * most;
+    }
+}
+
+double World::side(int c, int end) const {
+  if (lost[static_cast<std::size_t>(end)][static_cast<std::size_t>(c)]) throw NeedsPositions{last_run};
+  return box[static_cast<std::size_t>(end)][c];
+}
+
+bool World::in_box(const Vec3& x) const {
+  for (int c = 0; c < 3; ++c)
+    if ((!lost[0][static_cast<std::size_t>(c)] && x[c] < box[0][c]) || (!lost[1][static_cast<std::size_t>(c)] && x[c] >= box[1][c])) return false;
+  return true;
+}
+
 double World::mass_of(const Atom& a) const {
   if (sphere) return a.diameter > 0 ? a.density * pi / 6 * a.diameter * a.diameter * a.diameter : a.density;
   return a.type <= static_cast<int>(mass.size()) ? mass[a.type - 1] : 0;

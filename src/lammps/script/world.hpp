@@ -198,7 +198,10 @@ struct World {
   struct Moment { long long steps = 0, before = 0, total = 0; } moment;
   // The box.
   bool has_box = false;
-  Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
+  std::array<Vec3, 2> box{Vec3::Zero(), Vec3::Zero()};              // its low and high sides
+  std::array<Vec3, 2> least_box = box;           // that sides of kind m keep
+  Vec3 room = Vec3::Zero();                      // of shrunk sides from what is there
+  std::array<std::array<bool, 3>, 2> lost{};     // shrunk sides around what a run has moved
   int atom_types = 0, bond_types = 0, angle_types = 0;
   // What there is.
   std::map<std::string, ScriptRegion> regions;
@@ -224,6 +227,16 @@ struct World {
   std::map<std::string, std::vector<int>> sheets;   // by files of atoms that are called sheet_N: their indices
 
   int run_number() const { return static_cast<int>(runs.size()); }
+  /// Of a side of the box f (fixed), s (shrunk around what there is), m (shrunk, but no smaller than it was) or p.
+  char kind_of_side(int c, int end) const;
+  /// Makes the box, or changes it: sides of kind s move outward by 10⁻⁴ of it.
+  void set_box(const std::array<Vec3, 2>& sides);
+  /// Shrinks sides around what there is, where LAMMPS does so.
+  void shrink_box();
+  /// A low (end 0) or high side. Throws NeedsPositions if it is around what a run has moved.
+  double side(int c, int end) const;
+  /// Whether x is in the box; what shrinks around what a run has moved does not count.
+  bool in_box(const Vec3& x) const;
   static bool there(const Atom& a) { return a.gone == always; }
   /// The bit of a group; throws Wrong at `word` if there is none.
   int group(const std::string& name, std::size_t word) const;
