@@ -161,6 +161,10 @@ TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {
   CHECK(holds(report_of(held + "fix s a setforce 0 0 0\nfix f a addforce 1 0 0\nrun 1\n"), "LAMMPS lets the fix f, which comes behind the fix s, move"));
   CHECK(holds(report_of(held + "fix s a freeze\nfix g all gravity 1 vector 0 0 -1\nrun 1\n"), "LAMMPS lets the fix g, which comes behind the fix s, move"));
   CHECK_FALSE(holds(report_of(held + "fix f a addforce 1 0 0\nfix s a setforce 0 0 0\nrun 1\n"), "which comes behind"));
+  CHECK_FALSE(holds(report_of(held + "fix s a setforce 0 0 0\nfix v all viscous 1\nrun 1\n"), "which comes behind"));
+  CHECK(holds(report_of(held + "velocity all set 1 0 0\nfix s a setforce 0 0 0\nfix v all viscous 1\nrun 1\n"), "LAMMPS lets the fix v, which comes behind the fix s, move"));
+  CHECK(holds(refused_motion(held + "run 1\nfix s a setforce 0 0 0\nrun 1\n"),
+              "in.lmp:15:1: fix: s, which lets what moved freely go on at the velocity that it has by then, is not followed in motion"));
   CHECK_FALSE(holds(report_of(held + "fix s a setforce NULL 0 0\nfix f a addforce 1 0 0\nrun 1\n"), "which comes behind"));
   CHECK(holds(report_of(held + "fix g all gravity 1 vector 0 0 -1\nminimize 0 1e-8 9 9\n"), "LAMMPS's minimize leaves out fixes of style gravity"));
   CHECK(holds(report_of(held + "reset_atom_ids\nrun 1\n"), "LAMMPS numbers the atoms anew"));
@@ -195,6 +199,10 @@ TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {
     CHECK(holds(refused_motion(held + line + "\nrun 1\n"), "in.lmp:14:1: " + line.substr(0, line.find(' ')) + ": "));
     CHECK(script_mistakes(held + line + "\nrun 1\n").empty());
   }
+  const Reading bouncing = reading_of(held + "fix w all wall/gran granular hertz 9 0.5 damping tsuji tangential linear_nohistory 0 0 zplane -2 NULL\nrun 1\nrun 1\n");
+  const auto motions = script::in_time(bouncing, bouncing.passes.at(0), {true, false, false}, {"a.data", "b.data"}, {"a"});
+  CHECK_FALSE(holds(script::report(bouncing, motions.at(0).notes), "tsuji"));
+  CHECK(holds(script::report(bouncing, motions.at(1).notes), "the damping of a tsuji wall anew from itself in each run"));
   for (const auto& [line, what] : {std::pair("fix a-b all nve", "\"a-b\" is no name of a fix"), {"fix n all nve/sphere foo", "\"foo\" is no keyword"},
                                    {"pair_style granular abc", "\"abc\" is not a number"}, {"bond_style zero zero", "\"zero\" is no word"},
                                    {"include nope.in", "there is no such file"}})

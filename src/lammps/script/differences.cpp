@@ -69,8 +69,9 @@ void pushed(const Run& run, std::vector<Difference>& all) {
     for (std::size_t f = static_cast<std::size_t>(h.fix) + 1; f < run.fixes.size(); ++f) {
       const Run::Active& a = run.fixes[f];
       const bool wall = a.fix.kind == Fix::Kind::wall, load = a.fix.kind == Fix::Kind::force || a.fix.kind == Fix::Kind::gravity;
+      const bool drags = a.fix.kind == Fix::Kind::viscous && !h.velocity.isZero(0);
       if (run.minimize && a.fix.kind != Fix::Kind::force) continue;
-      if (!(wall || (load && pushes(a, h.directions))) || !meet(members, a.members)) continue;
+      if (!(wall || drags || (load && pushes(a, h.directions))) || !meet(members, a.members)) continue;
       all.push_back({a.fix.where, "",
                      fmt::format("LAMMPS lets {}, which comes behind the fix {}, move what that holds; here it stays held", wall ? "this wall" : "the fix " + a.fix.id,
                                  hold.id)});

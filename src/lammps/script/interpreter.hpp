@@ -87,7 +87,7 @@ struct Interpreter {
   void note(const std::string& text);
   void ignore(const std::string& why) { why_ignored = why; }
   /// The command matters in motion, which is refused with it.
-  void not_in_motion() { world.not_in_motion.push_back({where, word(0)}); }
+  void not_in_motion() { world.not_in_motion.push_back({where, word(0), ""}); }
 
   void execute(const std::string& line_text, const Where& at);
   void run_command();

@@ -164,7 +164,7 @@ Run in_force(Interpreter& in, const Span& span) {
     if (h.fix < 0 || r.fixes[static_cast<std::size_t>(h.fix)].fix.kind != Fix::Kind::hold || r.minimize) continue;
     const Fix& f = r.fixes[static_cast<std::size_t>(h.fix)].fix;
     if (std::any_of(members.begin(), members.end(), [&](int k) { return w.atoms[static_cast<std::size_t>(k)].drifts; }))
-      w.not_in_motion.emplace_back(f.where, "fix");          // at a velocity that only the motion knows
+      w.not_in_motion.push_back({f.where, "fix", f.id + ", which lets what moved freely go on at the velocity that it has by then, "});
     if (!h.velocity.isZero(0) && !w.runs.empty() &&
         std::none_of(w.runs.back().fixes.begin(), w.runs.back().fixes.end(), [&](const Run::Active& a) { return a.fix.serial == f.serial; }))
       in.note(fmt::format("fix {} lets what it holds go on at the velocity that it had, as LAMMPS does; `velocity {} set 0 0 0` before stops it", f.id, f.group));

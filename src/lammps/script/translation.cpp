@@ -41,8 +41,8 @@ class Translation : private TableList {
 
   void collect() {
     if (options.dynamics && !world.not_in_motion.empty())
-      refuse(world.not_in_motion[0].first, world.not_in_motion[0].second,
-             "is not followed in motion (--dynamics); equilibria do not need it");
+      refuse(world.not_in_motion[0].where, world.not_in_motion[0].command,
+             world.not_in_motion[0].what + "is not followed in motion (--dynamics); equilibria do not need it");
     for (int k = 0; k < world.run_number(); ++k) {
       const Run& run = world.runs[static_cast<std::size_t>(k)];
       supports(k, run);
@@ -246,6 +246,8 @@ class Translation : private TableList {
       const std::size_t ends = w.region.shape == Shape::cone && w.region.axis == 1 ? 2 : 0;      // that LAMMPS pushes along z at
       if (ends > 0 && !(w.region.open[0] && w.region.open[1]) && (w.region.axial_lo > -1e20 || w.region.axial_hi < 1e20))
         note(a.fix.where, "at the ends of a cone along y LAMMPS (29 Sep 2021) pushes along z; here it is along y");
+      if (!protocol_.start_from.empty() && a.fix.damping.find("\"tsuji\"") != std::string::npos)
+        note(a.fix.where, "LAMMPS (29 Sep 2021) makes the damping of a tsuji wall anew from itself in each run; here it stays that of its restitution");
       if (a.fix.trap_modulus)
         note(
             a.fix.where,

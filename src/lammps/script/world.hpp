@@ -221,7 +221,8 @@ struct World {
   std::optional<Run> still;                      // the last `run 0` before them …
   std::vector<Atom> atoms_of_still;              // … and what was there
   std::vector<Removal> removals;
-  std::vector<std::pair<Where, std::string>> not_in_motion;   // commands that matter in motion, and are not followed there
+  struct Unfollowed { Where where; std::string command, what; };
+  std::vector<Unfollowed> not_in_motion;         // commands that matter in motion, and are not followed there
   Where last_run;                                // that has moved particles
   bool unspecial = false;                        // some bonds were made with `special no`
   std::map<std::string, std::vector<int>> sheets;   // by files of atoms that are called sheet_N: their indices
