@@ -87,6 +87,12 @@ TEST_CASE("atoms are set, deleted and numbered as LAMMPS does", "[script]") {
   CHECK_THROWS_AS(w.with_id(4, 0), script::Wrong);
 }
 
+TEST_CASE("of no atoms there are none to set", "[script]") {
+  const Reading r = reading_of(small_script_head + "set atom * density 2\nset group all type 2\ncreate_atoms 1 single 0 0 0\nset atom *9 type 3\n"
+                               "set atom 2*9 type 2\n");
+  CHECK(r.passes.at(0).world.atoms.at(0).type == 3);
+}
+
 TEST_CASE("bonds are made between all that are near, but for those that are neighbours already", "[script]") {
   std::string text = small_script_head;
   for (int k = 0; k < 6; ++k) text += "create_atoms 1 single " + std::to_string(0.1 * k) + " 0 0\n";

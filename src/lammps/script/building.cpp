@@ -122,8 +122,8 @@ std::vector<int> chosen(Interpreter& in, const std::string& style, std::size_t i
   };
   if (style == "atom") {
     if (i < in.size() && in.word(i).find('*') == std::string::npos) return {w.with_id(in.integer(i, 1, largest_id), i)};
-    const auto r = in.range(i, static_cast<int>(std::max<std::size_t>(w.of_id.size(), 2)) - 1);
-    for (int id = r[0]; id <= r[1]; ++id)
+    const auto r = in.range(i, largest_id);
+    for (int id = r[0]; id <= r[1] && id < static_cast<int>(w.of_id.size()); ++id)
       if (const int k = w.of_id[static_cast<std::size_t>(id)]; k >= 0) list.push_back(k);
   } else if (style == "type") {
     const auto r = in.range(i, w.atom_types);
