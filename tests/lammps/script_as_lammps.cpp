@@ -372,4 +372,15 @@ TEST_CASE("what is frozen is infinitely heavy to LAMMPS's damping, which no moti
   CHECK(holds(told("1 damping mass_velocity"), ":14:1: fix: contacts of frozen atoms are damped as if these were infinitely heavy"));
 }
 
+TEST_CASE("bonds are made as far as LAMMPS's neighbour lists reach, where it makes some", "[script]") {
+  const std::string four = "units lj\natom_style hybrid sphere bond\nboundary f f f\nregion box block -5 5 -5 5 -5 5\ncreate_box 2 box bond/types 1\n"
+                           "create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0.75 0 0\ncreate_atoms 2 single 0 0.75 0\ncreate_atoms 2 single 0 1.5 0\n"
+                           "set type 1 diameter 0.4\nset type 2 diameter 0.8\nbond_style harmonic\nbond_coeff 1 1 1\n" + stiff;
+  const auto bonds = [&](const std::string& lines) { return reading_of(four + lines).passes.at(0).world.bonds.size(); };
+  CHECK(bonds("create_bonds many all all 1 0 0.8\n") == 2);                 // not between those of type 1: 0.4 + 0.3 apart at most
+  CHECK(bonds("neighbor 0.4 bin\ncreate_bonds many all all 1 0 0.8\n") == 3);
+  CHECK(bonds("create_bonds many all all 1 0 1.2\n") == 4);                 // farther than any list reaches, where LAMMPS stops
+  CHECK(holds(report_of(four + "create_bonds many all all 1 0 0.8\n"), "makes no bond between 1 pairs that are farther apart"));
+}
+
 }  // namespace elamin::as_lammps

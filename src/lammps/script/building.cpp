@@ -206,6 +206,20 @@ std::set<std::pair<int, int>> left_out(const World& w, const std::vector<int>& a
   return pairs;
 }
 
+/// Parts of two atoms, by their types from 1, in how far apart LAMMPS's neighbour lists hold them; none where that is not known.
+std::vector<double> reach(const World& w) {
+  const auto& styles = w.pairs.styles;
+  const auto& said = w.pairs.coefficients;
+  const bool grains = styles.size() == 1 && (styles[0].name == "granular" || styles[0].name == "gran/hertz/history") && styles[0].cutoff == 0 &&
+                      std::none_of(said.begin(), said.end(), [](const PairCoefficient& c) { return c.text.find(" cutoff ") != std::string::npos; }) &&
+                      std::none_of(w.fixes.begin(), w.fixes.end(), [](const Fix& f) { return f.style == "freeze"; });
+  if (!grains) return {};
+  std::vector<double> part(static_cast<std::size_t>(w.atom_types) + 1, w.skin / 2);
+  for (const Atom& a : w.atoms)
+    if (World::there(a)) part[static_cast<std::size_t>(a.type)] = std::max(part[static_cast<std::size_t>(a.type)], (a.diameter + w.skin) / 2);
+  return part;
+}
+
 void many(Interpreter& in) {
   in.wants(7, "create_bonds many GROUP GROUP TYPE RMIN RMAX");
   World& w = in.world;
@@ -215,10 +229,15 @@ void many(Interpreter& in) {
   if (least < 0 || !(most > least)) throw Wrong(5, "two rising distances are wanted, from 0 on");
   std::vector<int> touched;
   std::vector<std::pair<int, int>> wanted;
+  std::vector<double> parts = reach(w);
+  if (!parts.empty() && most > 2 * *std::max_element(parts.begin(), parts.end())) parts.clear();       // where LAMMPS stops
+  int beyond = 0;
   const auto near = [&](int i, int j) {
-    const Vec3 d = w.at(w.atoms[static_cast<std::size_t>(i)]) - w.at(w.atoms[static_cast<std::size_t>(j)]);
+    const Atom &a = w.atoms[static_cast<std::size_t>(i)], &b = w.atoms[static_cast<std::size_t>(j)];
+    const Vec3 d = w.at(a) - w.at(b);
     const double rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (rsq < least * least || rsq > most * most) return;
+    if (!parts.empty() && rsq > std::pow(parts[static_cast<std::size_t>(a.type)] + parts[static_cast<std::size_t>(b.type)], 2)) return void(++beyond);
     wanted.push_back({i, j}), touched.push_back(i);
   };
   std::vector<int> among, of_first, of_second;
@@ -249,6 +268,9 @@ void many(Interpreter& in) {
   int made = 0;
   for (const auto& [i, j] : wanted)
     if (!out.count({std::min(i, j), std::max(i, j)})) w.new_glue({i, j}), w.bonds.push_back({type, {i, j}, w.run_number()}), ++made;
+  if (beyond > 0)
+    in.note(fmt::format("makes no bond between {} pairs that are farther apart than LAMMPS's neighbour lists reach, the largest radii of their types and the skin {}; "
+                        "`neighbor` widens that", beyond, w.skin));
   if (made == 0) in.note("makes no bond");
   w.shrink_box();
 }

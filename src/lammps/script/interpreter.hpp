@@ -117,7 +117,7 @@ void units(Interpreter&), dimension(Interpreter&), boundary(Interpreter&), atom_
     region(Interpreter&), create_box(Interpreter&), change_box(Interpreter&), timestep(Interpreter&), reset_timestep(Interpreter&),
     special_bonds(Interpreter&), bond_style(Interpreter&), bond_coeff(Interpreter&), angle_style(Interpreter&), angle_coeff(Interpreter&),
     mass(Interpreter&), pair_style(Interpreter&), pair_coeff(Interpreter&), pair_modify(Interpreter&),
-    neigh_modify(Interpreter&);
+    neigh_modify(Interpreter&), neighbor(Interpreter&);
 // building.cpp
 void create_atoms(Interpreter&), create_bonds(Interpreter&), set(Interpreter&), group(Interpreter&), delete_atoms(Interpreter&),
     delete_bonds(Interpreter&), reset_atom_ids(Interpreter&), read_data(Interpreter&), velocity(Interpreter&), displace_atoms(Interpreter&),

@@ -28,7 +28,7 @@ PairStyle style_from(Interpreter& in, std::size_t from, std::size_t to) {
   };
   if (s.name == "granular") {
     wants(0, 1, "a cutoff, if anything");
-    if (n == 1) in.number(from + 1);
+    if (n == 1) s.cutoff = in.number(from + 1);
   } else if (s.name == "lj/cut") {
     wants(1, 1, "its cutoff");
     s.cutoff = in.number(from + 1);
@@ -283,6 +283,12 @@ void pair_coeff(Interpreter& in) {
     return o.law == c.law && o.style == c.style && o.first == c.first && o.second == c.second;
   });
   w.pairs.coefficients.push_back(std::move(c));
+}
+
+void neighbor(Interpreter& in) {
+  in.wants(3, "neighbor SKIN STYLE", 3);
+  in.world.skin = in.number(1);
+  in.ignore("neighbour lists: elamin finds all pairs that touch");
 }
 
 void neigh_modify(Interpreter& in) {

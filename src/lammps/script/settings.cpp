@@ -38,6 +38,7 @@ void units(Interpreter& in) {
   static const std::map<std::string, double> timesteps{{"lj", 0.005},      {"real", 1},  {"metal", 0.001}, {"si", 1e-8}, {"cgs", 1e-8},
                                                        {"electron", 0.001}, {"micro", 2}, {"nano", 0.00045}};
   if (const auto known = timesteps.find(in.word(1)); known != timesteps.end()) in.world.timestep = known->second;
+  in.world.skin = in.word(1) == "lj" ? 0.3 : in.word(1) == "si" ? 0.001 : 0.1;
   in.ignore("numbers are taken as they are; elamin's units are any that go together");
   if (in.word(1) != "lj" && in.word(1) != "si" && in.word(1) != "cgs" && in.word(1) != "micro" && in.word(1) != "nano")
     throw Wrong(1,

@@ -83,7 +83,7 @@ struct PairCoefficient {
 
 struct PairStyle {
   std::string name;                              // "granular"
-  double cutoff = 0, inner_cutoff = 0;           // of lj/cut and lj/smooth: global
+  double cutoff = 0, inner_cutoff = 0;           // of lj/cut and lj/smooth: global; of granular 0: where particles touch
   bool shift = false;                            // pair_modify shift yes
   enum class Mix { geometric, arithmetic, sixthpower } mix = Mix::geometric;
   double c_n = 0, c_t = 0, mu = 0, delta_ua = 1, cut_inner = 0;   // body/rounded/polyhedron
@@ -189,7 +189,7 @@ struct World {
   int dimension = 3;
   std::array<std::string, 3> boundary{"p", "p", "p"};
   Where boundary_where;
-  double timestep = 0.005;
+  double timestep = 0.005, skin = 0.3;           // skin: how much farther than a pair's cutoff neighbour lists reach
   std::array<double, 3> special_lj{}, special_coul{};
   double lattice = 1;
   long long step = 0;
