@@ -269,8 +269,8 @@ void many(Interpreter& in) {
   for (const auto& [i, j] : wanted)
     if (!out.count({std::min(i, j), std::max(i, j)})) w.new_glue({i, j}), w.bonds.push_back({type, {i, j}, w.run_number()}), ++made;
   if (beyond > 0)
-    in.note(fmt::format("makes no bond between {} pairs that are farther apart than LAMMPS's neighbour lists reach, the largest radii of their types and the skin {}; "
-                        "`neighbor` widens that", beyond, w.skin));
+    in.note(fmt::format("makes no bond between {} pairs that are farther apart than LAMMPS's neighbour lists reach, the largest radii of "
+                        "their types and the skin {}; `neighbor` widens that", beyond, w.skin));
   if (made == 0) in.note("makes no bond");
   w.shrink_box();
 }

@@ -164,8 +164,10 @@ void delete_atoms(Interpreter& in) {
     w.body_file.clear();
     return;
   }
-  if (bonds && (cut(w.bonds) || cut(w.angles)) && std::any_of(w.special_lj.begin() + 1, w.special_lj.end(), [](double f) { return f == 0; }))
-    in.note("LAMMPS leaves pairs out of contacts still that were second or third neighbours over atoms that are gone; here they touch as all others");
+  const bool leaves_out = w.special_lj[1] == 0 || w.special_lj[2] == 0;
+  if (bonds && leaves_out && (cut(w.bonds) || cut(w.angles)))
+    in.note("LAMMPS leaves pairs out of contacts still that were second or third neighbours over atoms that are gone; here they touch as "
+            "all others");
   w.remove(gone);
   if (compress && !w.molecular && count > 0)
     in.note("LAMMPS numbers the atoms that are left anew (compress yes); here they keep their ids");

@@ -271,8 +271,10 @@ void change_box(Interpreter& in) {
       std::array<Vec3, 2> now = w.box;
       if (how == "final" || how == "delta") {
         takes(3);
-        for (std::size_t end = 0; end < 2; ++end)
-          now[end][c] = unit * in.number(i + 2 + end) + (how == "delta" ? w.side(c, static_cast<int>(end)) : 0), w.lost[end][static_cast<std::size_t>(c)] = false;
+        for (std::size_t end = 0; end < 2; ++end) {
+          now[end][c] = unit * in.number(i + 2 + end) + (how == "delta" ? w.side(c, static_cast<int>(end)) : 0);
+          w.lost[end][static_cast<std::size_t>(c)] = false;
+        }
         i += 4;
       } else if (how == "scale") {
         const double lo = w.side(c, 0), hi = w.side(c, 1), middle = 0.5 * (lo + hi), factor = in.positive(i + 2);

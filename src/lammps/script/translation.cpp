@@ -83,11 +83,12 @@ class Translation : private TableList {
   /// The damping of LAMMPS's contacts takes what is frozen for infinitely heavy.
   void frozen_are_heavy(const Run& run) const {
     const auto& said = run.pairs.coefficients;
-    if (std::all_of(said.begin(), said.end(), [](const PairCoefficient& c) { return c.damping.empty() || c.damping.starts_with("damping = \"velocity\""); })) return;
+    const auto knows_no_mass = [](const PairCoefficient& c) { return c.damping.empty() || c.damping.starts_with("damping = \"velocity\""); };
+    if (std::all_of(said.begin(), said.end(), knows_no_mass)) return;
     for (const Run::Active& a : run.fixes)
       if (a.fix.style == "freeze")
-        refuse(a.fix.where, "fix", "contacts of frozen atoms are damped as if these were infinitely heavy, which a motion (--dynamics) does not follow; `setforce 0 0 0` "
-                                   "holds them with the masses that they have");
+        refuse(a.fix.where, "fix", "contacts of frozen atoms are damped as if these were infinitely heavy, which a motion (--dynamics) does "
+                                   "not follow; `setforce 0 0 0` holds them with the masses that they have");
   }
 
   void supports(int k, const Run& run) {
@@ -247,7 +248,8 @@ class Translation : private TableList {
       if (ends > 0 && !(w.region.open[0] && w.region.open[1]) && (w.region.axial_lo > -1e20 || w.region.axial_hi < 1e20))
         note(a.fix.where, "at the ends of a cone along y LAMMPS (29 Sep 2021) pushes along z; here it is along y");
       if (!protocol_.start_from.empty() && a.fix.damping.find("\"tsuji\"") != std::string::npos)
-        note(a.fix.where, "LAMMPS (29 Sep 2021) makes the damping of a tsuji wall anew from itself in each run; here it stays that of its restitution");
+        note(a.fix.where, "LAMMPS (29 Sep 2021) makes the damping of a tsuji wall anew from itself in each run; here it stays that of its "
+                          "restitution");
       if (a.fix.trap_modulus)
         note(
             a.fix.where,
