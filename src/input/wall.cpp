@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace elamin {
 
@@ -204,12 +205,15 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
   const Kinematics kinematics(model);
   std::vector<State> states(factors.size(), model.restart ? *model.restart : model.start);
   for (std::size_t k = 0; k < factors.size(); ++k) kinematics.prescribe(states[k], factors[k]);
-  std::string unclear;
-  Model all = model;
-  const Model first = staged ? model_in(problem, Stages(problem).enter(unclear), all, model.start) : model;
-  for (const Wall& w : first.walls) {
+  std::optional<Model> first;
+  if (staged) {
+    std::string unclear;
+    Model all = model;
+    first = model_in(problem, Stages(problem).enter(unclear), all, model.start);
+  }
+  for (const Wall& w : (first ? *first : model).walls) {
     const auto table = std::find_if(problem.walls.begin(), problem.walls.end(), [&](const WallTable& t) { return t.name == w.name; });
-    for (const std::string& sentence : on_wrong_side(first, w, states)) mistakes.add(table->place, "side", sentence);
+    for (const std::string& sentence : on_wrong_side(model, w, states)) mistakes.add(table->place, "side", sentence);
   }
 }
 

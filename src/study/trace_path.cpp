@@ -193,8 +193,10 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
       stages.leave(starts[so_far + 1].load_factor);
       continue;
     }
-    if (const std::string what = on_wrong_side(in_stage, start, stage.path.start_lambda.value_or(stage.path.from)); !here && !what.empty()) {
-      outcome = {Status::not_converged, stage.name + ": " + what};
+    if (problem.stages.size() > 0 && !here && (k > first || model.restart))        // the first one is checked as the problem is read
+      broken = on_wrong_side(in_stage, start, stage.path.start_lambda.value_or(stage.path.from));
+    if (!broken.empty()) {
+      outcome = {Status::not_converged, stage.name + ": " + broken};
       break;
     }
     before = std::move(run);
