@@ -151,14 +151,14 @@ Event finish(Newton& newton, const Equilibrium& from, double value, Equilibrium 
 
 namespace {
 
-// A branch point with one mode φ to the digits that its equations have; none where it has them. The force along φ vanishes there to second order in the load
+// A branch point with one mode φ to the digits that its equations have; none where they do not tell more. The force along φ vanishes there to second order in the load
 // factor λ and the amplitude α of φ, so that a search along the branch, which holds α where it is interpolated, finds it to the root of a residual. Its
 // derivatives vanish to first order,
 //   μ = 0,   w = φᵀ∂g/∂λ = 0     (Moore 1980, SIAM J. Numer. Anal. 17),
 // and Newton's method solves that for (λ, α), with differences of equilibria that hold α, as long as w becomes smaller. `range`: of the load factor, `scale`: of μ.
 std::optional<Equilibrium> settle_branch_point(Newton& newton, const Event& event, const Eigen::MatrixXd& known, double range, double scale) {
   Energy& energy = newton.energy();
-  struct Place { Equilibrium e; Eigen::MatrixXd mode; double value, work, load; };
+  struct Place { Equilibrium e; Eigen::MatrixXd mode; double value, work; };
   const auto beside = [&](const Place& from, double load_change, double amplitude) -> std::optional<Place> {
     Place there = from;
     State& state = there.e.point.state;
@@ -174,22 +174,21 @@ std::optional<Equilibrium> settle_branch_point(Newton& newton, const Event& even
     newton.factors().refine(nearest);
     there.value = nearest.values[0];
     there.mode = nearest.vectors * (nearest.vectors.col(0).dot(from.mode.col(0)) < 0 ? -1 : 1);
-    const Vector load = energy.load_derivative();
-    there.work = there.mode.col(0).dot(load), there.load = load.norm();
+    there.work = there.mode.col(0).dot(energy.load_derivative());
     return there;
   };
   const double turned = distortion(energy, event.at.point.state, event.modes.col(0)), unit = turned > 0 ? turned : movement(energy, event.modes.col(0));
   const double load_step = event_error::step * range, step = event_error::step / unit;
-  std::optional<Place> here = beside({event.at, event.modes, 0, 0, 0}, 0, 0);
+  std::optional<Place> here = beside({event.at, event.modes, 0, 0}, 0, 0);
   bool moved = false;
-  for (int k = 0; k < locate::most_settling && here && (moved || std::abs(here->work) > locate::settled * here->load); ++k) {
+  for (int k = 0; k < locate::most_settling && here; ++k) {
     const std::optional<Place> loaded = beside(*here, load_step, 0), bent = beside(*here, 0, step);
     if (!loaded || !bent) break;
     Eigen::Matrix2d slopes;
     slopes << (loaded->value - here->value) / load_step, (bent->value - here->value) / step, (loaded->work - here->work) / load_step, (bent->work - here->work) / step;
     const Eigen::Vector2d change = -slopes.inverse() * Eigen::Vector2d(here->value, here->work);
-    const bool small = change.cwiseQuotient(Eigen::Vector2d(load_step, step)).cwiseAbs().maxCoeff() <= locate::farthest_settling;           // and numbers
-    if (!small || std::abs(change[0]) <= locate::load_rounding * std::abs(here->e.point.state.load_factor)) break;
+    const bool near = change.allFinite() && change.cwiseQuotient(Eigen::Vector2d(load_step, step)).cwiseAbs().maxCoeff() <= locate::farthest_settling;
+    if (!near || std::abs(change[0]) <= locate::load_rounding * std::abs(here->e.point.state.load_factor)) break;
     std::optional<Place> next = beside(*here, change[0], change[1]);
     if (!next || !(std::abs(next->work) <= std::abs(here->work) / 2)) break;
     here = std::move(next), moved = true;
@@ -290,13 +289,15 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   // Of a limit point what was held has kept a force that a branch point does not have.
   if (event.kind == EventKind::limit && !told)
     if (std::optional<Sample> free = search(true)) event = finished(*free, true), zero = std::move(free);
-  if (event.kind == EventKind::branch && event.modes.cols() == 1)
-    if (std::optional<Equilibrium> e = settle_branch_point(newton, event, known, std::abs(second.point.state.load_factor - first.point.state.load_factor), scale)) {
+  if (event.kind == EventKind::branch && event.modes.cols() == 1 && work_along(event.modes, newton.energy().load_derivative()) > locate::settled) {
+    const double range = std::abs(second.point.state.load_factor - first.point.state.load_factor);
+    if (std::optional<Equilibrium> e = settle_branch_point(newton, event, known, range, scale)) {
       e->zero_modes = known, e->lowest = zero->e.lowest;
       const double value = critical_value(newton, *e, index);
       zero = Sample{zero->t, value, std::move(*e)};
-      event = finished(*zero, told);
     }
+    event = finished(*zero, told);                              // anew: the factors are those of other places
+  }
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   else event.passing = event.modes * (event.modes.transpose() * newton.energy().kinematics().difference(just_before, zero->e.point.state));
   // As many eigenvalues are negative there as on the side that has fewer; more, and it is on another branch.

@@ -9,6 +9,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <thread>
@@ -58,6 +60,28 @@ TEST_CASE("a CSV file has every row as soon as it is added", "[table]") {
   CHECK_THROWS_AS(csv.add({1}), std::logic_error);
   CHECK_THROWS_AS(CsvFile(scratch / "none/a.csv", {"x"}), OutputError);
   if (std::ifstream("/dev/full")) CHECK_THROWS_AS(CsvFile("/dev/full", {"x"}), OutputError);
+}
+
+TEST_CASE("a CSV file that is written whole is there when it is kept, and nothing of it before", "[table]") {
+  ScratchDirectory scratch;
+  const std::string file = scratch / "a.csv", beside = file + ".new";
+  std::ofstream(file) << "before\n";
+  const std::string text(1 << 21, 'x');                           // more than is written at once
+  {
+    WholeCsv csv(file, {"t"});
+    csv.add({text});
+    CHECK(text_of(file) == "before\n");
+    CHECK(std::filesystem::exists(beside));
+  }
+  CHECK(text_of(file) == "before\n");
+  CHECK(!std::filesystem::exists(beside));
+  WholeCsv csv(file, {"t"});
+  for (int k = 0; k < 2; ++k) csv.add({text});
+  CHECK_THROWS_AS(csv.add({1, 2}), std::logic_error);
+  csv.keep();
+  CHECK(text_of(file) == "t\n" + text + "\n" + text + "\n");
+  CHECK(!std::filesystem::exists(beside));
+  if (std::ifstream("/dev/full")) CHECK_THROWS_AS(WholeCsv("/dev/full", {"t"}).add({text}), OutputError);
 }
 
 TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[table]") {
