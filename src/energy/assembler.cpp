@@ -164,13 +164,14 @@ void Assembler::build_pattern() {
 
 // They feed ∂g/∂λ.
 void Assembler::find_driven() {
+  driven_.resize(groups_.size());
   for (std::size_t k = 0; k < groups_.size(); ++k)
     for (int e = 0; e < groups_[k]->elements(); ++e) {
       bool free = false, driven = false;
       for (const int site : groups_[k]->stencil(e))
         for (int c = 0; c < 3 && site >= 0; ++c)
           free = free || kinematics_.dof(site, c) >= 0, driven = driven || kinematics_.drive(site)[c] != 0;
-      if (free && driven) driven_.push_back({k, e});
+      if (free && driven) driven_[k].push_back(e);
     }
 }
 
@@ -269,26 +270,40 @@ void packed_product(const double* __restrict h, const double* __restrict v, [[ma
 // Bonds and contacts, angles, hinges of four sites, relative to their first.
 auto packed_product_of(int n) { return n == 3 ? packed_product<3> : n == 6 ? packed_product<6> : n == 9 ? packed_product<9> : packed_product<0>; }
 
+// What one group's elements have in common, asked for once.
+struct Elements {
+  std::span<const int> stencils;
+  const double* hessians;
+  int sites, first, size;                            // first: of the coordinates that the Hessians have
+
+  Elements(const ElementGroup& group, const double* at)
+      : stencils(group.stencils()), hessians(at), sites(group.sites()), first(group.hessian_first()), size(group.hessian_size()) {}
+
+  // H_e v of one element, 3·sites.
+  void multiply(std::int64_t e, const Field& v, double* out) const {
+    const int n = 3 * sites;
+    double local[most_local];
+    relative_motion(v, stencils.subspan(e * sites, sites), first == 0, local);
+    packed_product_of(n - first)(hessians + e * size, local + first, n - first, out + first);
+    if (first == 0) return;
+    out[0] = out[1] = out[2] = 0;
+    for (int i = 3; i < n; ++i) out[i % 3] -= out[i];
+  }
+};
+
 }  // namespace
 
-// H_e v of one element, 3·sites.
-void Assembler::product(std::size_t k, std::int64_t e, const Field& v, double* out) const {
-  const ElementGroup& group = *groups_[k];
-  const int n = group.gradient_size(), first = group.hessian_first();
-  double local[most_local];
-  relative_motion(v, group.stencil(static_cast<int>(e)), first == 0, local);
-  packed_product_of(n - first)(hessians_.data() + hessian_offset_[k] + e * group.hessian_size(), local + first, n - first, out + first);
-  if (first == 0) return;
-  out[0] = out[1] = out[2] = 0;
-  for (int i = 3; i < n; ++i) out[i % 3] -= out[i];
-}
-
 void Assembler::add_drive(const State& state, Vector& out) const {
-  for (const auto& [k, e] : driven_) {
-    double rate[most_local];
-    product(k, e, kinematics_.drive(), rate);
-    for (int i = 0; i < groups_[k]->gradient_size(); ++i)
-      if (const int dof = dof_of(kinematics_, *groups_[k], e, i); dof >= 0) out[dof] += rate[i];
+  for (std::size_t k = 0; k < driven_.size(); ++k) {
+    const Elements elements(*groups_[k], hessians_.data() + hessian_offset_[k]);
+    for (const int e : driven_[k]) {
+      double rate[most_local];
+      elements.multiply(e, kinematics_.drive(), rate);
+      for (int i = 0; i < 3 * elements.sites; ++i) {
+        const int site = elements.stencils[std::size_t(e) * elements.sites + i / 3], dof = site < 0 ? -1 : kinematics_.dof(site, i % 3);
+        if (dof >= 0) out[dof] += rate[i];
+      }
+    }
   }
   for (const auto& group : groups_) add_load_derivative(*group, state, out);
 }
@@ -306,8 +321,9 @@ void Assembler::add_load_derivative(const ElementGroup& group, const State& stat
 void Assembler::multiply(const Field& v, Field& out) {
   products_.resize(gradients_.size());
   for (std::size_t k = 0; k < groups_.size(); ++k) {
-    const int n = groups_[k]->gradient_size();
-    parallel_for(groups_[k]->elements(), grain, [&](std::int64_t e) { product(k, e, v, products_.data() + gradient_offset_[k] + e * n); });
+    const Elements elements(*groups_[k], hessians_.data() + hessian_offset_[k]);
+    double* const products = products_.data() + gradient_offset_[k];
+    parallel_for(groups_[k]->elements(), grain, [&](std::int64_t e) { elements.multiply(e, v, products + e * 3 * elements.sites); });
   }
   gather(products_, out);
 }
@@ -334,14 +350,15 @@ BilinearForm Assembler::form(const Field& u, const Field& v, const State* state)
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const ElementGroup& group = *groups_[k];
     if (state && group.forms(*state, u, v, sum, size)) continue;
+    const double* entry = hessians_.data() + hessian_offset_[k];
+    const int first = group.hessian_first(), n = group.gradient_size();
     for (int e = 0; e < group.elements(); ++e) {
       double left[most_local], right[most_local];
-      relative_motion(u, group.stencil(e), group.anchored(), left);
-      relative_motion(v, group.stencil(e), group.anchored(), right);
-      const double* entry = hessians_.data() + hessian_offset_[k] + std::int64_t(e) * group.hessian_size();
+      relative_motion(u, group.stencil(e), first == 0, left);
+      relative_motion(v, group.stencil(e), first == 0, right);
       double q = 0;
-      for (int r = group.hessian_first(); r < group.gradient_size(); ++r) {
-        for (int c = group.hessian_first(); c < r; ++c, ++entry) {
+      for (int r = first; r < n; ++r) {
+        for (int c = first; c < r; ++c, ++entry) {
           q += *entry * (left[r] * right[c] + left[c] * right[r]);
           size += std::abs(*entry) * (std::abs(left[r] * right[c]) + std::abs(left[c] * right[r]));
         }

@@ -66,7 +66,6 @@ class Assembler {
   void build_blocks();
   void build_pattern();
   void find_driven();
-  void product(std::size_t group, std::int64_t e, const Field& v, double* out) const;
 
   const Kinematics& kinematics_;
   const Groups& groups_;
@@ -74,8 +73,7 @@ class Assembler {
   std::vector<double> values_, sums_, gradients_, hessians_, products_;
   GatherList site_gather_;              // per site: places of its 3 components in gradients_
   BlockGather blocks_;
-  struct Driven { std::size_t group; int element; };
-  std::vector<Driven> driven_;          // have sites that are free and sites that are driven
+  std::vector<std::vector<int>> driven_;        // of each group: elements between what is free and what is driven
   SparseMatrix hessian_;
 };
 
