@@ -151,11 +151,11 @@ Event finish(Newton& newton, const Equilibrium& from, double value, Equilibrium 
 
 namespace {
 
-// A branch point with one mode φ to the digits that its equations have; none where they do not tell more. The force along φ vanishes there to second order in the load
-// factor λ and the amplitude α of φ, so that a search along the branch, which holds α where it is interpolated, finds it to the root of a residual. Its
-// derivatives vanish to first order,
-//   μ = 0,   w = φᵀ∂g/∂λ = 0     (Moore 1980, SIAM J. Numer. Anal. 17),
-// and Newton's method solves that for (λ, α), with differences of equilibria that hold α, as long as w becomes smaller. `range`: of the load factor, `scale`: of μ.
+// A branch point with one mode φ, by its equations; none where they do not make it more exact. The force along φ vanishes there to second order in the load
+// factor λ and the amplitude α of φ: a search along the branch, which holds α at its interpolated value, finds the point to the square root of a residual.
+// The derivatives of that force vanish to first order,
+//   μ = 0,   w = φᵀ∂g/∂λ = 0     (Moore 1980, SIAM J. Numer. Anal. 17).
+// Newton's method solves this for (λ, α), by differences of equilibria with α held, as long as w becomes smaller. `range`: of the load factor, `scale`: of μ.
 std::optional<Equilibrium> settle_branch_point(Newton& newton, const Event& event, const Eigen::MatrixXd& known, double range, double scale) {
   Energy& energy = newton.energy();
   struct Place { Equilibrium e; Eigen::MatrixXd mode; double value, work; };

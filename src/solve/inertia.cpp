@@ -13,8 +13,8 @@
 // known well; X ← X − H⊥⁻¹R makes it vanish, but for the rounding of HX. An eigenvalue of T is zero if it is within the error of its own
 // form (BilinearForm::size, ε) plus the second-order term plus what forces out of balance, g, leave of a motion that costs nothing: it goes
 // on a curve, a rotation at the rate φ on one of curvature φ, and vᵀHv = −g·x'' then, |x''| ≤ φ. So X spans the eigenvectors to
-// eigenvalues up to 2|g|φ too. A body that is all but a straight line spins about it at a huge φ. What leaves doubt only for such free
-// rotations, orthonormal as columns of U, is decided by T as it were if they cost nothing, which g does not change elsewhere:
+// eigenvalues up to 2|g|φ too. A body that is nearly a straight line rotates about it with a huge φ. Where free rotations alone leave a sign in doubt, it is told
+// with them taken out of H; the columns of U, orthonormal, span them:
 //   T' of (I − UUᵀ) H (I − UUᵀ),   T' = T − ABᵀ − BAᵀ + ACAᵀ,   A = XᵀU,   B = XᵀHU,   C = UᵀHU.
 // An eigenvalue has a sign where those of T and T' have it.
 #include "core/interrupt.hpp"
@@ -48,12 +48,13 @@ class Curvature {
     touching_ = may_touch(model);
   }
 
-  /// But for free rotations.
+  /// φ along v of what is bent or touches.
   double of(const Vector& v) const {
     const double bent = distortion(energy_, energy_.evaluated(), v);
     return touching_ ? std::max(bent, movement(energy_, v)) : bent;
   }
 
+  /// φ along v of free rotations.
   double of_rotations(const Vector& v) const {
     double most = 0;
     for (const auto& [u, rate] : rotations_) most = std::max(most, std::abs(u.dot(v)) * rate);
