@@ -194,11 +194,16 @@ std::string describe_grains(const Model& model, const Structure& s) {
   return fmt::format("  diameters {}, {}\n", diameters.text(), known ? fmt::format("mass {:.10g}", mass) : "no density");
 }
 
+std::string stiffness_of(const std::optional<double>& bond, const std::optional<double>& axial) {
+  return bond ? fmt::format("K = {:.10g}", *bond) : fmt::format("EA = {:.10g}", *axial);
+}
+
 // Bonds between two groups that are no structure's own.
 std::string describe_connection(const ConnectTable& t, const Model& model) {
-  std::vector<int> structure(model.particles(), -1);
+  std::vector<int> structure(model.particles(), -1);                       // that has bonds of its own
   for (std::size_t s = 0; s < model.structures.size(); ++s)
-    std::fill_n(structure.begin() + model.structures[s].first, model.structures[s].count, static_cast<int>(s));
+    if (model.structures[s].bond_type >= 0)
+      std::fill_n(structure.begin() + model.structures[s].first, model.structures[s].count, static_cast<int>(s));
   std::array<std::vector<bool>, 2> member;
   for (int side = 0; side < 2; ++side) {
     member[side].resize(model.particles());
@@ -214,14 +219,15 @@ std::string describe_connection(const ConnectTable& t, const Model& model) {
     const BondType& type = model.bond_types[b.type];
     const bool stiff = t.bond_stiffness ? type.stiffness == *t.bond_stiffness
                                         : std::abs(2 * type.stiffness * type.rest_length / *t.axial_stiffness - 1) < 1e-12;
-    if (!joins || structure[i] == structure[j] || !stiff) continue;
+    if (!joins || (structure[i] >= 0 && structure[i] == structure[j]) || !stiff) continue;
     lengths.add(model.bond_types[b.type].rest_length);
     ++bonds;
   }
-  const std::string reach = t.within ? fmt::format(" within {:.10g}", *t.within) : "";
-  std::string text = fmt::format("connection of '{}' and '{}'{}: {} = {:.10g}", t.between[0], t.between[1], reach, t.bond_stiffness ? "K" : "EA",
-                                 t.bond_stiffness ? *t.bond_stiffness : *t.axial_stiffness);
-  if (bonds > 0) text += fmt::format(", {} bond{} between structures, rest length {}", bonds, bonds == 1 ? "" : "s", lengths.text());
+  std::string text = fmt::format("connection of '{}' and '{}'", t.between[0], t.between[1]);
+  if (t.within) text += fmt::format(" within {:.10g}", *t.within);
+  if (t.bonds_per_particle) text += fmt::format(", each with its nearest {}", *t.bonds_per_particle);
+  text += ": " + stiffness_of(t.bond_stiffness, t.axial_stiffness);
+  if (bonds > 0) text += fmt::format(", {} bond{}, rest length {}", bonds, bonds == 1 ? "" : "s", lengths.text());
   if (t.angle_stiffness) text += fmt::format(", angles with B = {:.10g}", *t.angle_stiffness);
   return text + "\n";
 }
@@ -244,12 +250,14 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
   for (const ConnectTable& t : problem.connections) text += describe_connection(t, model);
   for (const BondsTable& t : problem.bonds)
     if (t.rule) text += describe_connection(by_rule(t), model);
-    else text += fmt::format("bonds: {}\n", t.pairs ? fmt::format("{} of a list", t.pairs->size()) : "those of " + t.file);
+    else
+      text += fmt::format("bonds: {}{}\n", t.pairs ? fmt::format("{} of a list", t.pairs->size()) : "those of " + t.file,
+                          t.bond_stiffness || t.axial_stiffness ? ", " + stiffness_of(t.bond_stiffness, t.axial_stiffness) : "");
   for (const AnglesTable& t : problem.angles)
     text += fmt::format("angles: {}{}\n",
                         t.triples ? fmt::format("{} of a list", t.triples->size())
                         : !t.over ? "those of " + t.file
-                                         : "over the bonds that meet in '" + *t.over + "'",
+                         : fmt::format("over the bonds that meet in '{}' at {:.10g} degrees or more", *t.over, t.least.value_or(0)),
                         t.angle_stiffness ? fmt::format(", B = {:.10g}", *t.angle_stiffness) : "");
   for (const GlueTable& t : problem.glue)
     for (const Group& g : model.groups)

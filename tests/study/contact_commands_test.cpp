@@ -255,6 +255,19 @@ density = 6
 between = ["ring", "plate"]
 within = 16.001
 bond_stiffness = 5
+[[bonds]]
+rule = "nearest"
+between = ["sand", "sand"]
+bonds_per_particle = 1
+bond_stiffness = 7
+[[bonds]]
+pairs = [[1, 3]]
+between = ["sand", "sand"]
+axial_stiffness = 4
+[[angles]]
+over = "sand"
+least = 150
+angle_stiffness = 8
 [study]
 type = "energy"
 )") + "'");
@@ -264,7 +277,9 @@ type = "energy"
   for (const char* words : {"loop 'ring': 6 particles", "radius 2, chord 2\n", "bond stiffness K = 3, rest length q0 = 2, EA = 2 K q0 = 12",
                             "angle stiffness B = 2, at rest 120 degrees, EI = B q0 = 4", "sheet 'plate': 14 particles", "rectangle, 4 by 2; lattice at 0 degrees, spacing 1; 27 bonds of length 1 as built",
                             "Y = 4 K/sqrt(3) = 6, nu = 1/3", "straight at rest, D = 3 sqrt(3)/4 B = 2.25", "cylinder, radius 2, height 3", "where it closes, (13, 0) steps around",
-                            "mass 9.424777961", "connection of 'ring' and 'plate' within 16.001: K = 5, 1 bond between structures, rest length 16", "\nand "})
+                            "mass 9.424777961", "connection of 'ring' and 'plate' within 16.001: K = 5, 1 bond, rest length 16",
+                            "connection of 'sand' and 'sand', each with its nearest 1: K = 7, 2 bonds, rest length 10", "bonds: 1 of a list, EA = 4",
+                            "angles: over the bonds that meet in 'sand' at 150 degrees or more, B = 8", "\nand "})
     CHECK(answer.text.find(words) != std::string::npos);
   std::size_t named = 0;
   for (std::size_t at = 0; (at = answer.text.find("free rigid motion:", at)) != std::string::npos; ++at) ++named;
