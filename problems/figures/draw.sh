@@ -31,6 +31,9 @@ greenhill_mast 1 --no-diagram --shapes initial,branch:1+mode
 column_self_contact . --x deflection --y force --shapes initial,final
 column_between_walls . --y force --shapes initial,final
 column_imperfect 1 --x deflection --y lambda --shapes final
+column_random . --x deflection --y lambda --shapes initial,final
+column_measured . --no-diagram --shapes final
+column_tapered . --no-diagram --shapes branch:1+mode,branch:2+mode,branch:3+mode,branch:4+mode
 beam_in_tube . --y tube_force --shapes initial,final
 truss_low . --x height --y lambda --shapes initial,limit:1,final
 truss_tall . --x height --y lambda --shapes initial,branch:1+mode,final
@@ -41,6 +44,7 @@ truss_three_bars . --no-diagram --shapes final
 chain_hanging . --no-diagram --shapes final
 helix_spring 1 --no-diagram --shapes final
 spiral_spring . --no-diagram --shapes final
+meander_spring . --x stretch --y lambda --shapes initial,final
 lee_frame 1 --x v --y lambda --shapes initial,limit:1,limit:2,final
 williams_toggle 1 --x w --y lambda --shapes initial,limit:1,final
 arch_low . --x w --y lambda --shapes initial,limit:1,final
@@ -72,6 +76,7 @@ two_beams_gaps .
 two_beams_law . --y second
 two_beams_winner . --y thin_x
 hertz_pair . --x driven_gap --y driven_force --shapes initial,final
+ball_on_rods . --no-diagram --shapes final
 grain_column .
 grain_corner .
 boxes_stacked .
