@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -67,6 +68,18 @@ void take_mesh(Numbers& numbers, const std::array<int, 3>& counts, int lists, Co
   if (counts[0] <= 2) core.edges.clear(), core.faces.clear();    // of a sphere or rod they say nothing
 }
 
+/// LAMMPS takes the vertices of a face in either sense: those are turned over that look towards the middle.
+void turn_outward(CoreMesh& core) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& x : core.vertices) middle += x / static_cast<double>(core.vertices.size());
+  for (std::vector<int>& face : core.faces) {
+    Vec3 area = Vec3::Zero();
+    for (std::size_t k = 0; k < face.size(); ++k)
+      area += (core.vertices[face[k]] - middle).cross(core.vertices[face[(k + 1) % face.size()]] - middle);
+    if (area.dot(core.vertices[face.front()] - middle) < 0) std::reverse(face.begin(), face.end());
+  }
+}
+
 }  // namespace
 
 std::string wrong_inertia(const Mat3& inertia) {
@@ -98,8 +111,10 @@ std::optional<BodyForm> body_form(const std::array<int, 3>& counts, const std::v
   take_mesh(rest, counts, lists, form.core);
   form.diameter = rest.next();
   if (!(form.diameter > 0)) wrong.push_back(fmt::format("the rounding diameter is {}; it must be positive", form.diameter));
-  if (wrong.size() == before)                                    // else what stands for the wrong numbers is wrong besides
+  if (wrong.size() == before) {                                  // else what stands for the wrong numbers is wrong besides
+    turn_outward(form.core);
     for (std::string& sentence : mistakes(form.core, form.diameter / 2)) wrong.push_back(std::move(sentence));
+  }
   if (std::string sentence = wrong_inertia(form.inertia); !sentence.empty()) wrong.push_back(std::move(sentence));
   return wrong.size() == before ? std::optional(std::move(form)) : std::nullopt;
 }
@@ -109,6 +124,10 @@ bool LammpsBodiesSection::begin(const DataLine& line) {
   line_ = line.number;
   if (!lines_.has_size(line, {3}, "Bodies", "id, how many integers (3) and how many numbers follow")) return false;
   const auto id = lines_.integer(line, 0, "Bodies: id", 1, largest_integer);
+  if (line[1] == "1") {
+    lines_.mistake(line, 1, "Bodies", "a body with one integer is of style nparticle or rounded/polygon, which are not available; rounded/polyhedron is");
+    return false;
+  }
   const auto integers = lines_.integer(line, 1, "Bodies: integers of a body rounded/polyhedron", 3, 3);
   const auto expected = lines_.integer(line, 2, "Bodies: numbers of a body", 10, largest_integer);
   if (!integers || !expected) return false;

@@ -171,6 +171,7 @@ TEST_CASE("one mistake in a body gives its place and its sentence", "[lammps_dat
       {"7 3 47\n", "7 3 46\n", "24:1: Bodies: body 7: 46 numbers are announced, but 4 vertices, 6 edges and 4 faces take 47"},
       {"7 3 47\n", "7 3 48\n", "32:3: Bodies: more than the 48 numbers that line 24 announces; a body begins on a line of its own"},
       {"7 3 47\n", "7 2 47\n", "24:3: Bodies: integers of a body rounded/polyhedron: \"2\" is out of range; 3 is allowed"},
+      {"7 3 47\n", "7 1 47\n", "24:3: Bodies: a body with one integer is of style nparticle or rounded/polygon, which are not available"},
       {"7 3 47\n", "7 3 4700\n", "24:1: Bodies: the body ends after 3 integers and"},
       {"7 3 47\n", "7 47\n", "24:1: Bodies: 2 columns, expected 3: id, how many integers (3)"},
       {"7 3 47\n", "8 3 47\n", "24:1: Bodies: id: there is no atom 8\n"},
@@ -188,7 +189,7 @@ TEST_CASE("one mistake in a body gives its place and its sentence", "[lammps_dat
       {"0 1 0 2", "0 0.5 0 2", "24:1: Bodies: body 7: edge 0 names vertex 0.5; allowed: 0 to 3"},
       {"0 1 0 2", "0 1 0 1", "24:1: Bodies: body 7: the edge 0 to 1 is given 2 times"},
       {"0 2 1 -1", "0 2 7 -1", "24:1: Bodies: body 7: face 0 names vertex 7; allowed: 0 to 3"},
-      {"0 2 1 -1", "0 1 2 -1", "24:1: Bodies: body 7: face 0 looks inward"},
+      {"0 2 1 -1", "0 1 2 -1", nullptr},                          // either sense, as LAMMPS
       {"0 2 1 -1", "0 -1 1 -1", "24:1: Bodies: body 7: face 0 names vertex -1; allowed: 0 to 3"},
       {"0 2 1 -1", "0 2 1 3", "24:1: Bodies: body 7: face 0 is not planar"},
       {"1 2 3 -1\n0.5\n", "1 2 3 -1\n-0.5\n", "24:1: Bodies: body 7: the rounding diameter is -0.5; it must be positive"},
@@ -210,12 +211,20 @@ TEST_CASE("one mistake in a body gives its place and its sentence", "[lammps_dat
   CHECK(said(replaced(replaced(body_file, rod_numbers, ""), "3 bodies", "2 bodies")).find("13:1: Atoms: id: body 2 is missing") != std::string::npos);
 }
 
+TEST_CASE("faces of bodies are taken in either sense", "[lammps_data][bodies]") {
+  const LammpsData as_meant = data_of(body_file), turned = data_of(replaced(body_file, "0 2 1 -1", "0 1 2 -1"));
+  REQUIRE(turned.shapes.size() == as_meant.shapes.size());
+  for (std::size_t k = 0; k < turned.shapes.size(); ++k) CHECK(turned.shapes[k].faces.size() == as_meant.shapes[k].faces.size());
+  for (std::size_t f = 0; f < as_meant.shapes[0].faces.size(); ++f)
+    CHECK((turned.shapes[0].faces[f].normal - as_meant.shapes[0].faces[f].normal).norm() < 1e-15);
+}
+
 TEST_CASE("mistakes of all bodies are told at once", "[lammps_data][bodies]") {
-  std::string text = replaced(body_file, "0 2 1 -1", "0 1 2 -1");
+  std::string text = replaced(body_file, "0 2 1 -1", "0 2 2 -1");
   text = replaced(text, "0 0 0\n2\n", "0 0 0\n0\n"), text = replaced(text, "0 1 1 0 0 0  -1", "0 1 3 0 0 0  -1");
   text = replaced(text, "9 1 1 1", "9 1 1 -1");
   const std::string all = said(text);
-  for (const char* one : {"face 0 looks inward", "the rounding diameter is 0", "body 2: the inertia", "14:7: Atoms: mass"}) {
+  for (const char* one : {"face 0 names vertex 2 twice", "the rounding diameter is 0", "body 2: the inertia", "14:7: Atoms: mass"}) {
     INFO(one);
     CHECK(all.find(one) != std::string::npos);
   }

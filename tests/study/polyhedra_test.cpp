@@ -100,11 +100,11 @@ TEST_CASE("the files name every mistake of bodies with its line", "[study][round
     REQUIRE(at != std::string::npos);
     data.replace(at, what.size(), by);
   };
-  change("3 2 1 0   4 5 6 7", "0 1 2 3   4 5 6 7"), change("1 0 0\n0.064", "1 0 0\n-0.064");
+  change("3 2 1 0   4 5 6 7", "3 2 0 1   4 5 6 7"), change("1 0 0\n0.064", "1 0 0\n-0.064");
   const std::string file = scratch.file("x.data", data);
   const Answer answer = elamin_says("check '" + scratch.file("p.toml", "[lammps]\ndata = \"x.data\"\n\n[study]\ntype = \"energy\"\n") + "'");
   CHECK(answer.status == 1);
   INFO(answer.text);
   CHECK(answer.text.find("x.data:23:1: Bodies: body 2: the inertia") != std::string::npos);
-  CHECK(answer.text.find("x.data:28:1: Bodies: body 3: face 0 looks inward") != std::string::npos);
+  CHECK(answer.text.find("x.data:28:1: Bodies: body 3: face 0 has no area") != std::string::npos);
 }
