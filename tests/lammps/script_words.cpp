@@ -56,7 +56,7 @@ TEST_CASE("variables are put into lines outside of quotes", "[script]") {
   const script::World w = world();
   const script::Names n = names();
   const script::Substitution by{[&](const std::string& v) { return script::text_of(v, w, n); }, [&](const std::string& f) { return script::immediate(f, w, n); }};
-  CHECK(script::substituted("$i ${w}$s ${q} $(v_q) $(v_q:%.3f) \"$i\" '${nothing}'", by) == "02 2.5abc 0.3 0.30000000000000004441 0.300 \"$i\" '${nothing}'");
+  CHECK(script::substituted("$i ${w}$s ${q} $(v_q) $(v_q:%.3f) \"$i\" '${nothing}'", by) == "02 2.5abc 0.3 0.2999999999999999889 0.300 \"$i\" '${nothing}'");
   CHECK_THROWS_WITH(script::substituted("${nothing}", by), "there is no variable \"nothing\"");
   CHECK_THROWS_AS(script::substituted("$", by), script::Wrong);
   CHECK_THROWS_AS(script::substituted("${q", by), script::Wrong);
@@ -90,6 +90,47 @@ TEST_CASE("formulas have LAMMPS's values", "[script]") {
   CHECK(each.each[2] == (-0.5 * -0.7 + 3) + 10);
 }
 
+TEST_CASE("variables have 15 digits in formulas, and all of them alone", "[script]") {
+  // LAMMPS 29 Sep 2021: variable third equal 1/3; print $(v_third*3-1:%.17g)
+  script::Names n;
+  n.variables["third"] = {script::Variable::Style::equal, {"1/3"}, 1, 1, false, 0};
+  CHECK(script::number_of("v_third*3-1", {}, n, 0) == -1.1102230246251565e-15);
+  CHECK(script::number_of("v_third", {}, n, 0) == 1. / 3);
+  CHECK(script::immediate("v_third:%.17g", {}, n) == "0.33333333333333298");
+}
+
+TEST_CASE("random numbers are LAMMPS's", "[script]") {
+  // LAMMPS 29 Sep 2021. All formulas draw from one generator, which has the seed of the first; displacements draw by place.
+  const script::Reading r = reading_of(R"lmp(atom_style sphere
+region box block -10 10 -10 10 -10 10
+create_box 1 box
+change_box all boundary f f f
+create_atoms 1 single 0 0 0
+create_atoms 1 single 6 -0.3 1.7
+displace_atoms all random 0.1 0.2 0.3 12345
+variable r equal random(-1,3,4711)
+variable g equal normal(1,0.5,99)
+print "$r"
+variable a equal $r
+create_atoms 1 single $(v_a) $(v_g) $(v_g)
+create_atoms 1 single $(v_g) $(v_r) 0
+variable s equal v_r+v_r
+create_atoms 1 single $(v_s) 0 0
+if "$r > 0" then "create_atoms 1 single 9 9 $(v_r)"
+displace_atoms all move 0 0 0
+)lmp");
+  const std::vector<script::Atom>& atoms = r.passes.at(0).world.atoms;
+  REQUIRE(atoms.size() == 6);
+  CHECK(atoms[0].x == Vec3(0.076389951434168005, 0.17182750812351122, -0.14260645222040194));
+  CHECK(atoms[1].x == Vec3(6.0544449293773832, -0.1881439086460247, 1.64799107939377));
+  CHECK(atoms[2].x == Vec3(-0.031625747680664097, 0.44704757778385801, 0.62525797859535803));
+  CHECK(atoms[3].x == Vec3(0.50035371999885203, 1.2727210521698, 0));
+  CHECK(atoms[4].x == Vec3(0.386173725128171, 0, 0));
+  CHECK(atoms[5].x == Vec3(9, 9, 0.46766328811645502));
+  CHECK(script_mistakes("variable r atom random(0,1,7)\n" + small_script_head +
+                        "create_atoms 1 single 0 0 0\ndisplace_atoms all move v_r 0 0\n").find("random() of every atom") != std::string::npos);
+}
+
 TEST_CASE("formulas that are none are told", "[script]") {
   const script::World w = world();
   script::Names n = names();
@@ -102,7 +143,7 @@ TEST_CASE("formulas that are none are told", "[script]") {
     before = name;
   }
   for (const char* formula : {"", "1+", "(1", "1)", "2**3", "1 2", "x", "x[4]", "x[1e30]", "v_nothing", "v_s+1", "c_nothing", "f_1", "fx[1]", "sqrt(-1)", "ln(0)", "1/0",
-                              "mass(nobody)", "count(all,nowhere)", "xcm(all,w)", "atan2(1)", "foo(1)", "foo", "v_round", "temp", "random(0,1,7)", "v_a", "1e", "@",
+                              "mass(nobody)", "count(all,nowhere)", "xcm(all,w)", "atan2(1)", "foo(1)", "foo", "v_round", "temp", "random(0,1)", "random(0,1,0)", "normal(0,1,1e9)", "v_a", "1e", "@",
                               "((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((1"}) {
     INFO(formula);
     CHECK_THROWS_AS(script::number_of(formula, w, n, 0), script::Wrong);

@@ -3,6 +3,7 @@
 
 #include "core/near_pairs.hpp"
 #include "core/suggest.hpp"
+#include "lammps/script/random.hpp"
 
 #include <fmt/format.h>
 
@@ -13,21 +14,6 @@
 
 namespace elamin::script::command {
 namespace {
-
-/// Numbers from 0 to 1 as LAMMPS draws them here: x ← 16807 x mod (2³¹ − 1). Source: Park & Miller 1988, Comm. ACM 31, 1192.
-class Random {
- public:
-  explicit Random(long long seed) : seed_(seed) {
-    for (int k = 0; k < 30; ++k) next();         // that LAMMPS throws away
-  }
-  double next() {
-    seed_ = 16807 * seed_ % 2147483647;
-    return static_cast<double>(seed_) * (1.0 / 2147483647);
-  }
-
- private:
-  long long seed_;
-};
 
 /// The box around a region that LAMMPS has: of a union if all of its parts have one, of an intersection if one of them has.
 std::optional<std::array<Vec3, 2>> box_of(const World& w, const ScriptRegion& r) {
@@ -69,7 +55,8 @@ void create_random(Interpreter& in, int type) {
     if (const auto box = box_of(w, w.regions.at(in.word(5)))) lo = lo.cwiseMax(box->at(0)), hi = hi.cwiseMin(box->at(1));
   }
   if (in.size() > 6) throw Wrong(6, in_quotes(in.word(6)) + " is no keyword of create_atoms that is taken", true);
-  Random random(seed);
+  ParkMiller random(seed);
+  random.throw_away(30);
   long long tries = 100 * n + 100000;
   for (long long k = 0; k < n; ++k) {
     Vec3 x;
@@ -422,12 +409,12 @@ void velocity(Interpreter& in) {
 }
 
 void displace_atoms(Interpreter& in) {
-  in.wants(6, "displace_atoms GROUP move DX DY DZ, ramp C LO HI C LO HI, or rotate PX PY PZ RX RY RZ DEGREES");
+  in.wants(6, "displace_atoms GROUP move DX DY DZ, ramp C LO HI C LO HI, rotate PX PY PZ RX RY RZ DEGREES, or random DX DY DZ SEED");
   World& w = in.world;
   const int g = w.group(in.word(1), 1);
   const std::string& how = in.word(2);
-  if (how != "move" && how != "ramp" && how != "rotate")
-    throw Wrong(2, in_quotes(how) + " is no displacement that is taken; move, ramp and rotate are", true);
+  if (how != "move" && how != "ramp" && how != "rotate" && how != "random")
+    throw Wrong(2, in_quotes(how) + " is no displacement; move, ramp, rotate and random are");
   const double unit = in.unit_of_length(6);
   const auto each = [&](const auto& to) {
     for (std::size_t k = 0; k < w.atoms.size(); ++k) {
@@ -445,6 +432,15 @@ void displace_atoms(Interpreter& in) {
     if (lo == hi) throw Wrong(8, "the ramp has no length");
     each([&](std::size_t, Vec3 x) {
       x[c] += least + std::clamp((x[along] - lo) / (hi - lo), 0.0, 1.0) * (most - least);
+      return x;
+    });
+  } else if (how == "random") {
+    in.wants(7, "displace_atoms GROUP random DX DY DZ SEED");
+    const Vec3 most = unit * Vec3(in.number(3), in.number(4), in.number(5));
+    const auto seed = static_cast<int>(in.integer(6, 1, 2147483646));
+    each([&](std::size_t, Vec3 x) {
+      ParkMiller random(seed, x);
+      for (int c = 0; c < 3; ++c) x[c] += most[c] * 2 * (random.next() - 0.5);
       return x;
     });
   } else {

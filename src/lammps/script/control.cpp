@@ -77,7 +77,15 @@ void label(Interpreter& in) { in.wants(2, "label ID", 2); }
 
 void quit(Interpreter& in) { in.ended = true; }
 
-void print(Interpreter& in) { in.ignore("output: a run of elamin writes its own"); }
+void print(Interpreter& in) {
+  in.ignore("output: a run of elamin writes its own");
+  if (in.size() < 2) return;
+  try {
+    substituted(in.word(1), in.substitution());   // which may draw random numbers
+  } catch (const Wrong&) {
+  } catch (const NeedsPositions&) {
+  }
+}
 
 void clear(Interpreter& in) {
   in.end_pass();

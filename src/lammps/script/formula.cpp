@@ -9,6 +9,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 namespace elamin::script {
@@ -196,7 +197,10 @@ class Formula {
       for (const Atom& a : world_.atoms) value.each.push_back(from_file(v, a));
       return value;
     }
-    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return sub(v.words.front());
+    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) value = sub(v.words.front());
+    // LAMMPS reads what it has printed; what changes in time is held against a line, and keeps its digits.
+    if (v.style == Variable::Style::equal && value.each.empty() && !on_) value.number = std::strtod(fmt::format("{:.15g}", value.number).c_str(), nullptr);
+    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return value;
     const std::string text = text_of(n, world_, names_);
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);
     if (error != std::errc{} || last != text.data() + text.size())
@@ -342,8 +346,7 @@ class Formula {
         for (std::size_t k = 0; k < world_.atoms.size(); ++k) r.each.push_back(std::atan2(y.at(k), x.at(k)));
       return r;
     }
-    if (w == "random" || w == "normal")
-      throw Wrong(word_, w + "() draws LAMMPS's own random numbers, which are not followed; write the numbers it gave", true);
+    if (w == "random" || w == "normal") return drawn(w, args);
     if (w == "ramp" || w == "vdisplace" || w == "swiggle" || w == "cwiggle") return in_time(w, args);
     if (w == "gmask" || w == "rmask" || w == "grmask") return mask(w, args);
     Value v;
@@ -351,6 +354,18 @@ class Formula {
     if (w == "is_defined") return defined(args);
     if (w == "is_active" || w == "is_available" || w == "is_file") throw Wrong(word_, w + "() is not known here", true);
     wrong(in_quotes(w + "()") + " is no function that is known here");
+  }
+
+  Value drawn(const std::string& w, const std::vector<std::string>& args) {
+    if (args.size() != 3) wrong(fmt::format("{}() has {} arguments, 3 wanted", w, args.size()));
+    if (each_ || on_)
+      throw Wrong(word_, w + "() of every atom, or in a run, draws as LAMMPS has sorted its atoms; that is not followed; write the numbers it gave", true);
+    const double a = sub_number(args[0]), b = sub_number(args[1]), seed = sub_number(args[2]);
+    if (!(seed >= 1 && seed <= 900000000)) wrong(fmt::format("{}() has the seed {}; 1 to 900000000 is allowed", w, seed));
+    if (!names_.random) names_.random.emplace(static_cast<int>(seed));
+    Value v;
+    v.number = w == "random" ? names_.random->next() * (b - a) + a : a + b * names_.random->normal();
+    return v;
   }
 
   Value defined(const std::vector<std::string>& args) const {
@@ -449,17 +464,23 @@ class Formula {
   int depth_, nested_ = 0;
 };
 
+double finite(double v, const std::string& formula, std::size_t word) {
+  if (!std::isfinite(v)) throw Wrong(word, "the formula " + in_quotes(formula) + " is not finite");
+  return v;
+}
+
 }  // namespace
 
 Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each, Dependence* on) {
   int operands = 0;
+  if (formula.starts_with("v_"))
+    if (const auto v = names.variables.find(formula.substr(2)); v != names.variables.end() && v->second.style == Variable::Style::equal)
+      return Formula(v->second.words.front(), world, names, word, each, on, operands, 1).whole();
   return Formula(formula, world, names, word, each, on, operands).whole();
 }
 
 double number_of(const std::string& formula, const World& world, const Names& names, std::size_t word, Dependence* on) {
-  const double v = evaluate(formula, world, names, word, false, on).number;
-  if (!std::isfinite(v)) throw Wrong(word, "the formula " + in_quotes(formula) + " is not finite");
-  return v;
+  return finite(evaluate(formula, world, names, word, false, on).number, formula, word);
 }
 
 std::string formatted(const std::string& format, double value, std::size_t word) {
@@ -508,7 +529,9 @@ std::string text_of(const std::string& name, const World& world, const Names& na
 std::string immediate(const std::string& formula, const World& world, const Names& names) {
   const std::size_t colon = formula.rfind(":%");
   const std::string format = colon == std::string::npos ? "%.20g" : formula.substr(colon + 1);
-  return formatted(format, number_of(formula.substr(0, colon), world, names, 0), 0);
+  const std::string itself = formula.substr(0, colon);
+  int operands = 0;
+  return formatted(format, finite(Formula(itself, world, names, 0, false, nullptr, operands).whole().number, itself, 0), 0);
 }
 
 }  // namespace elamin::script

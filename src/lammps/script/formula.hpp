@@ -1,8 +1,10 @@
 #pragma once
 // LAMMPS's formulas: variables of style equal and atom, $(…), and the conditions of `if`.
+#include "lammps/script/random.hpp"
 #include "lammps/script/world.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ struct Compute {
 struct Names {
   std::map<std::string, Variable> variables;
   std::map<std::string, Compute> computes;
+  mutable std::optional<Marsaglia> random;      // one for all formulas, with the seed of that which draws first
   /// Whether v_NAME is of style atom or atomfile.
   bool of_atoms(const std::string& formula) const {
     const auto found = variables.find(formula.substr(2));
@@ -49,7 +52,8 @@ constexpr int most_nested = 60;                 // formulas, brackets or signs i
 
 /// What a formula says now. With LAMMPS's operators by rising precedence || |^, &&, == !=, < <= > >=, + −, * / %, ^ (from the left), and
 /// before all of these − and ! of one operand. `each`: an atom-style formula, with x, y, z, id, type, … of every particle. `on`, if
-/// given, tells what it depends on. Throws Wrong at `word`, or NeedsPositions.
+/// given, tells what it depends on. In a formula v_NAME of style equal has 15 digits; v_NAME alone has all. Throws Wrong at `word`, or
+/// NeedsPositions.
 Value evaluate(const std::string& formula, const World& world, const Names& names, std::size_t word, bool each = false,
                Dependence* on = nullptr);
 

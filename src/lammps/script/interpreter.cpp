@@ -321,10 +321,17 @@ void Interpreter::run_command() {
     return;
   }
   if (const std::string why = ignored_command(command); !why.empty()) return tell(Told::Fate::ignored, why);
-  if (const std::string why = refused_command(command); !why.empty()) throw Wrong(0, why, true);
+  if (const std::string why = refused_command(command); !why.empty()) {
+    if (size() == 2 && word(1) == "none") return tell(Told::Fate::ignored, why);       // dihedral_style none
+    throw Wrong(0, why, true);
+  }
   throw Wrong(0,
               in_quotes(command) + " is no command that is known here" + did_you_mean(command, known_commands()) + "; --skip leaves it out",
               true);
+}
+
+Substitution Interpreter::substitution() const {
+  return {[this](const std::string& n) { return text_of(n, world, names); }, [this](const std::string& f) { return immediate(f, world, names); }};
 }
 
 void Interpreter::execute(const std::string& line_text, const Where& at) {
@@ -341,10 +348,8 @@ void Interpreter::execute(const std::string& line_text, const Where& at) {
   } back{*this, outer};
   ++depth;
   where = at;
-  const Substitution by{[&](const std::string& n) { return text_of(n, world, names); },
-                        [&](const std::string& f) { return immediate(f, world, names); }};
   try {
-    words = split(substituted(without_comment(line_text), by));
+    words = split(substituted(without_comment(line_text), substitution()));
     if (!words.empty()) run_command();
   } catch (const Wrong& wrong) {
     throw Wrong(0, fmt::format("in {}: {}", in_quotes(line_text), wrong.what()), wrong.unknown);

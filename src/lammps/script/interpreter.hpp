@@ -89,6 +89,7 @@ struct Interpreter {
   /// The command matters in motion, which is refused with it.
   void not_in_motion() { world.not_in_motion.push_back({where, word(0), ""}); }
 
+  Substitution substitution() const;
   void execute(const std::string& line_text, const Where& at);
   void run_command();
   /// The path of a file that the script names; throws Wrong if it lies where nothing may be read.
