@@ -49,7 +49,7 @@ TEST_CASE("a mistake about the name that a command makes is told", "[script]") {
   CHECK(script_mistakes("units lj\nregion box box 0 1\ncreate_box 1 box\n").starts_with("2:12: region: \"box\" is no style of a region"));
   script::ReadingOptions skip;                   // what follows from what is left out is left out, and told
   skip.skip = true;
-  const Reading r = reading_of(two + stiff + "region r prism 0 1 0 1 0 1 0 0 0\ngroup g region r\nvariable a python f\n"
+  const Reading r = reading_of(two + stiff + "region r ellipsoid 0 0 0 1 1 1\ngroup g region r\nvariable a python f\n"
                                "create_atoms 1 single ${a} 0 0\n" + end, skip);
   const std::string left_out = script::report(r, {});
   for (const char* line : {"in.lmp:12: region", "in.lmp:13: group", "in.lmp:14: variable", "in.lmp:15: create_atoms"}) CHECK(holds(left_out, line));
@@ -150,6 +150,29 @@ TEST_CASE("atoms of a union are drawn within the box around its parts", "[script
         Vec3(0.52143243677980844, 0.42992991648145473, -0.16789369618887717)};
   REQUIRE(w.atoms.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) CHECK((w.atoms[k].x - expected[k]).norm() < 1e-15);
+}
+
+TEST_CASE("atoms of a prism are drawn within the box around it", "[script]") {
+  const std::string prism = " prism -0.8 0.4 -0.5 0.5 -0.6 0.5 0.3 -0.2 0.4";
+  const script::World w = reading_of("units lj\natom_style sphere\nregion box block -1 1 -1 1 -1 1\nregion p" + prism + "\nregion q" + prism +
+                                     " side out\ncreate_box 1 box\nchange_box all boundary f f f\ncreate_atoms 1 random 40 4711 p\n"
+                                     "create_atoms 1 random 3 11 q\n").passes.at(0).world;
+  REQUIRE(w.atoms.size() == 43);
+  CHECK((w.atoms[0].x - Vec3(-0.11356485747432565, 0.50095094153701836, -0.14234153290388241)).norm() < 1e-15);
+  CHECK((w.atoms[39].x - Vec3(-0.39035034165268312, -0.10321707017869552, -0.18302024476370776)).norm() < 1e-15);
+  CHECK((w.atoms[42].x - Vec3(0.91804849352596718, -0.35896930906873625, 0.80282248174903104)).norm() < 1e-15);
+}
+
+TEST_CASE("forces along a line or in a plane hold what is across it", "[script]") {
+  const std::string head = small_script_head + "create_atoms 1 single 0 0 0\nset type 1 diameter 0.1\nset type 1 density 1\nfix i all nve/sphere\n";
+  const auto tables = [&](const std::string& fix) {
+    const Reading r = reading_of(head + "fix h all " + fix + "\nrun 10\n");
+    const std::string toml = script::translated(r, r.passes.at(0), {}, "p.data").toml;
+    return toml.substr(toml.find("[[support]]"));
+  };
+  CHECK(tables("lineforce 0 2 0") == tables("setforce 0 NULL 0"));
+  CHECK(tables("planeforce 0 2 0") == tables("setforce NULL 0 NULL"));
+  CHECK(holds(script_mistakes(head + "fix h all planeforce 1 1 0\n"), "planeforce along x, y or z is taken"));
 }
 
 TEST_CASE("what LAMMPS does otherwise is told or refused", "[script]") {

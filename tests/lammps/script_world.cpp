@@ -204,8 +204,8 @@ TEST_CASE("every mistake of a script is told at its place, all at once", "[scrip
         "13:14: create_atoms: 4 is out of range; 1 to 3 is allowed\n14:21: set: \"x\" is not a number\n15:8: mass: must be above 0, is -1\n"
         "16:9: group: \"foo\" is no style of a group; there are: type, id, molecule, region, variable, union, subtract, intersect, include, empty, clear, delete\n"
         "17:7: fix: \"nobody\" is no group; there are: all");
-  CHECK(lines("region r prism 0 1 0 1 0 1 0 0 0\nfix w all wall/gran/region granular hertz 1 0 tangential linear_nohistory 0 0 region r\n") ==
-        "13:10: region: \"prism\" is no style of a region that is known here; block, cylinder, cone, sphere, plane, union and intersect are");   // and what follows is not told
+  CHECK(lines("region r ellipsoid 0 0 0 1 1 1\nfix w all wall/gran/region granular hertz 1 0 tangential linear_nohistory 0 0 region r\n") ==
+        "13:10: region: \"ellipsoid\" is no style of a region that is known here; block, prism, cylinder, cone, sphere, plane, union and intersect are");   // and what follows is not told
   CHECK(lines("variable a equal 1+\ncreate_atoms 1 single ${a} 0 0\n").starts_with("14:1: create_atoms: the formula \"1+\""));
   CHECK(lines("create_atoms 1 single 0 0 &\n  z\n") == "14:3: create_atoms: \"z\" is not a number");
   CHECK(lines("jump SELF nowhere\n").find("there is no label \"nowhere\"") != std::string::npos);

@@ -57,6 +57,19 @@ struct Making {
         throw Wrong(i, "a force that replaces all others is not taken; 0 holds, and addforce adds", true);
   }
 
+  /// lineforce leaves the force along an axis, planeforce that across it.
+  void along_axis() {
+    in.wants(7, "fix ID GROUP " + fix.style + " X Y Z");
+    fix.kind = Fix::Kind::hold;
+    int zeros = 0;
+    for (int c = 0; c < 3; ++c) {
+      const bool zero = constant(static_cast<std::size_t>(4 + c)) == 0;
+      zeros += zero;
+      fix.directions[static_cast<std::size_t>(c)] = zero == (fix.style == "lineforce");
+    }
+    if (zeros != 2) throw Wrong(4, fix.style + " along x, y or z is taken", true);
+  }
+
   void gravity() {
     in.wants(5, "fix ID GROUP gravity MAGNITUDE vector X Y Z");
     fix.kind = Fix::Kind::gravity;
@@ -129,7 +142,7 @@ struct Making {
     const auto found = in.world.regions.find(in.word(i + 1));
     if (found == in.world.regions.end()) throw Wrong(i + 1, in_quotes(in.word(i + 1)) + " is no region");
     if (found->second.kind != ScriptRegion::Kind::shape)
-      throw Wrong(i + 1, "a wall of several regions together is not taken; give each its own fix", true);
+      throw Wrong(i + 1, "a wall of several regions together, or of a prism, is not taken; give each its own fix, or each face", true);
     no_more(i + 2);
     fix.region = in.word(i + 1);
     add_wall(found->second.shape, found->second.inside, modulus, "");
@@ -192,6 +205,8 @@ struct Making {
 struct Style { const char* name; void (Making::*make)(); };
 constexpr Style styles[]{{"move", &Making::move},
                          {"setforce", &Making::setforce},
+                         {"lineforce", &Making::along_axis},
+                         {"planeforce", &Making::along_axis},
                          {"gravity", &Making::gravity},
                          {"addforce", &Making::addforce},
                          {"wall/gran/region", &Making::wall_region},

@@ -101,6 +101,20 @@ void lattice(Interpreter& in) {
   in.world.lattice = in.positive(2);
 }
 
+/// The faces of a prism as planes, with the block around it: a prism is inside of all of them.
+std::vector<Region> prism(const Vec3& lo, const Vec3& hi, double xy, double xz, double yz) {
+  const Vec3 size = hi - lo, a(size[0], 0, 0), b(xy, size[1], 0), c(xz, yz, size[2]);
+  std::vector<Region> all(7);
+  all[0].shape = Shape::block;
+  all[0].lo = lo + Vec3(std::min({0., xy, xz, xy + xz}), std::min(0., yz), 0), all[0].hi = hi + Vec3(std::max({0., xy, xz, xy + xz}), std::max(0., yz), 0);
+  const std::array<Vec3, 3> edges{a, b, c}, inward{b.cross(c).normalized(), c.cross(a).normalized(), a.cross(b).normalized()};
+  for (std::size_t k = 0; k < 3; ++k) {
+    all[1 + k].center = lo, all[1 + k].normal = inward[k];
+    all[4 + k].center = lo + edges[k], all[4 + k].normal = -inward[k];
+  }
+  return all;
+}
+
 void region(Interpreter& in) {
   in.wants(3, "region ID STYLE …");
   World& w = in.world;
@@ -171,6 +185,23 @@ void region(Interpreter& in) {
     s.center = Vec3(in.value(3), in.value(4), in.value(5)), s.normal = Vec3(in.value(6), in.value(7), in.value(8));
     if (!(s.normal.norm() > 0)) throw Wrong(6, "the normal has no length");
     s.normal /= s.normal.norm();
+  } else if (style == "prism") {
+    numbers(9);
+    r.kind = ScriptRegion::Kind::intersect;
+    const double unit = in.unit_of_length(12);
+    Vec3 lo, hi;
+    for (int c = 0; c < 3; ++c) {
+      const auto i = static_cast<std::size_t>(3 + 2 * c);
+      lo[c] = unit * in.number(i), hi[c] = unit * in.number(i + 1);
+      if (!(lo[c] < hi[c])) throw Wrong(i, "the region ends before it begins");
+    }
+    const std::vector<Region> faces = prism(lo, hi, unit * in.number(9), unit * in.number(10), unit * in.number(11));
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      ScriptRegion part = r;
+      part.kind = ScriptRegion::Kind::shape, part.shape = faces[k];
+      r.parts.push_back(fmt::format("{} ({})", id, k));
+      w.regions[r.parts.back()] = part;
+    }
   } else if (style == "union" || style == "intersect") {
     r.kind = style == "union" ? ScriptRegion::Kind::unite : ScriptRegion::Kind::intersect;
     const auto n = static_cast<std::size_t>(in.integer(3, 2, 1000));
@@ -181,7 +212,7 @@ void region(Interpreter& in) {
     }
   } else
     throw Wrong(
-        2, in_quotes(style) + " is no style of a region that is known here; block, cylinder, cone, sphere, plane, union and intersect are",
+        2, in_quotes(style) + " is no style of a region that is known here; block, prism, cylinder, cone, sphere, plane, union and intersect are",
         true);
   if ((style == "cylinder" || style == "sphere") && !(s.radius > 0)) throw Wrong(6, "the radius is not above 0");
   bool box_units = false;
