@@ -18,7 +18,7 @@ void describe(Keys& keys, ImperfectionTable& t) {
   keys.may_file("state", t.state, "a stored state, DIR/states/LABEL.data: its difference from the perfect shape …");
   keys.may("scale", t.scale, "… times this; by default 1");
   keys.may("random", t.random, "every coordinate by a random number of this size, the bound or the standard deviation [length]", range::positive);
-  keys.may("seed", t.seed, "of the random numbers: the same ones for the same seed", Range{0, range::id.hi});
+  keys.may("seed", t.seed, "of the random numbers: the same ones for the same seed; by default 0", Range{0, range::id.hi});
   keys.word("distribution", t.distribution, distribution_words, "of the random numbers; by default uniform");
   keys.may("group", t.group, "what is moved");
   keys.may("stress_free", t.stress_free, "the structure was made so: rest lengths and rest angles follow the shape; else they stay those of the perfect one, "
@@ -32,6 +32,7 @@ void describe(Keys& keys, ImperfectionTable& t) {
 }
 
 void check(ImperfectionTable& t, Mistakes& mistakes) {
+  if (t.random && !t.seed) t.seed = 0;           // so that it is recorded
   if (t.place.broken || !t.place.written("modes")) return;
   if (!t.place.written("amplitudes")) return mistakes.add(t.place, "amplitudes", "is missing; it must be a list of numbers, one a mode");
   const std::size_t given = t.amplitudes->size(), wanted = t.modes->size();

@@ -36,6 +36,14 @@ std::string describe_stages(const Problem& problem) {
   return text;
 }
 
+std::string describe_imperfection(const ImperfectionTable& t, double most) {
+  std::string from;
+  if (t.modes) from = fmt::format("modes {}{}{}", fmt::join(*t.modes, ", "), t.run.empty() ? "" : " of ", t.run);
+  else if (t.random) from = fmt::format("random, seed {}", t.seed.value_or(0));
+  else from = fmt::format("{:.10g} times what {} has beside the perfect shape", t.scale.value_or(1), t.state);
+  return fmt::format("imperfection: {}; particles are moved by {:.10g} at most, {}\n", from, most, t.stress_free ? "and at rest so" : "and strained so");
+}
+
 constexpr int told_from = 100'000;               // free dofs from which on memory may matter
 
 }  // namespace
@@ -58,9 +66,7 @@ std::string describe(const Problem& problem, const Model& model) {
   text += describe_structures(problem, model, energy.kinematics());
   for (const std::string& note : problem.notes) text += "note: " + note + "\n";
   for (const std::string& note : lammps_remarks(problem).notes) text += "note: " + note + "\n";
-  if (problem.imperfection)
-    text += fmt::format("imperfection: particles are moved by {:.10g} at most, {}\n", model.imperfection,
-                        problem.imperfection->stress_free ? "and at rest so" : "and strained so");
+  if (problem.imperfection) text += describe_imperfection(*problem.imperfection, model.imperfection);
   text += describe_conditions(problem, model);
   // An equilibrium is sought from the state as built; supports and walls move from there.
   const bool built = problem.study == StudyType::equilibrium && !model.restart;

@@ -97,6 +97,16 @@ TEST_CASE("An imperfection from a stored run: its modes, null vectors of an even
   std::ifstream resolved(scratch / "run/resolved.toml");
   const std::string text{std::istreambuf_iterator<char>(resolved), {}};
   CHECK(text.find("[imperfection]\nmodes = [1]\namplitudes = [0.001]\n") != std::string::npos);
+
+  const std::pair<const char*, const char*> kinds[]{
+      {"modes = [1]\namplitudes = [1e-3]\n", "imperfection: modes 1; particles are moved by 0.001 at most, and at rest so\n"},
+      {"random = 1e-3\n", "imperfection: random, seed 0; particles are moved by 0.00"},
+      {"state = \"path/states/final.data\"\nscale = 0.5\n", "final.data has beside the perfect shape; particles are moved by 0."}};
+  for (const auto& [keys, sentence] : kinds) {
+    const std::string said = elamin_says("check " + scratch.file("check.toml", hinged + "[study]\ntype = \"equilibrium\"\n[imperfection]\n" + keys)).text;
+    INFO(said);
+    CHECK(said.find(sentence) != std::string::npos);
+  }
 }
 
 TEST_CASE("Imperfections that cannot be made are told", "[study]") {
