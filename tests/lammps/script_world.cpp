@@ -102,6 +102,8 @@ TEST_CASE("bonds are made between all that are near, but for those that are neig
   CHECK(reading_of(text + "create_bonds many g g 2 0.05 0.21\n").passes.at(0).world.bonds.size() == 9);
   CHECK(reading_of(text + "create_bonds many h g 2 0.15 0.21\n").passes.at(0).world.bonds.size() == 8);
   CHECK(reading_of(text + "special_bonds lj/coul 0 0 1\ncreate_bonds many g g 2 0.05 0.21\n").passes.at(0).world.bonds.size() == 5);
+  CHECK(reading_of(text + "special_bonds dreiding\ncreate_bonds many g g 2 0.05 0.21\n").passes.at(0).world.bonds.size() == 5);
+  CHECK(reading_of(text + "special_bonds fene\n").passes.at(0).world.special_lj == std::array<double, 3>{0, 1, 1});
   CHECK(reading_of(text + "special_bonds lj/coul 1 1 1\ncreate_bonds many g g 2 0.05 0.11\n").passes.at(0).world.bonds.size() == 10);
 }
 

@@ -345,7 +345,10 @@ void special_bonds(Interpreter& in) {
   std::array<double, 3> lj{}, coul{};
   for (std::size_t i = 1; i < in.size();) {
     const std::string& k = in.word(i);
-    if (k == "lj" || k == "coul" || k == "lj/coul") {
+    if (k == "fene") lj = coul = {0, 1, 1}, ++i;
+    else if (k == "charmm") lj = coul = {0, 0, 0}, ++i;
+    else if (k == "dreiding") lj = coul = {0, 0, 1}, ++i;
+    else if (k == "lj" || k == "coul" || k == "lj/coul") {
       for (std::size_t c = 0; c < 3; ++c) {
         const double f = in.number(i + 1 + c);
         if (f < 0 || f > 1) throw Wrong(i + 1 + c, "must be from 0 to 1");
@@ -357,7 +360,7 @@ void special_bonds(Interpreter& in) {
       if (in.yes(i + 1)) throw Wrong(i, "that only atoms of an angle count as second neighbours is not followed", true);
       i += 2;
     } else if (k == "extra") i += 2;
-    else throw Wrong(i, in_quotes(k) + " is no keyword of special_bonds that is taken; lj, coul, lj/coul, angle no and extra are", true);
+    else throw Wrong(i, in_quotes(k) + " is no keyword of special_bonds that is taken; lj, coul, lj/coul, fene, charmm, dreiding, angle no and extra are", true);
   }
   w.special_lj = lj, w.special_coul = coul;
 }
