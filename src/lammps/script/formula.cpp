@@ -197,10 +197,12 @@ class Formula {
       for (const Atom& a : world_.atoms) value.each.push_back(from_file(v, a));
       return value;
     }
-    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) value = sub(v.words.front());
-    // LAMMPS reads what it has printed; what changes in time is held against a line, and keeps its digits.
-    if (v.style == Variable::Style::equal && value.each.empty() && !on_) value.number = std::strtod(fmt::format("{:.15g}", value.number).c_str(), nullptr);
-    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) return value;
+    if (v.style == Variable::Style::equal || v.style == Variable::Style::atom) {
+      value = sub(v.words.front());
+      // LAMMPS reads what it has printed; what changes in time is held against a line, and keeps its digits.
+      if (v.style == Variable::Style::equal && !on_) value.number = std::strtod(fmt::format("{:.15g}", value.number).c_str(), nullptr);
+      return value;
+    }
     const std::string text = text_of(n, world_, names_);
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);
     if (error != std::errc{} || last != text.data() + text.size())
