@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace elamin {
 
@@ -89,6 +90,7 @@ double ArcSteps::longest() const {
 
 std::optional<Waypoint> ArcSteps::next() {
   std::string why = "the corrector does not converge";
+  kink_refused_ = false;
   const bool meets = may_touch(newton_.energy().model());
   int refused = 0, shifts = 0;
   const bool loose = current_.slack || current_.pushed;         // where no contact bears a force there is no arc to measure
@@ -153,7 +155,9 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
   const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
   std::optional<Segment> fading;
-  const bool kink = !c && !along_contact && (c = reach_kink(arc, s, fading)).has_value() && !c->events.empty();
+  const bool looks = !c && !along_contact && !std::exchange(kink_refused_, true);
+  if (looks) c = reach_kink(arc, s, fading);
+  const bool kink = looks && c && !c->events.empty();
   if (!c) return {};
   if (along_contact && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
   if (!kink) {
@@ -241,7 +245,10 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, 
     Candidate c{.parameter = fading->b, .e = lost};
     const auto bears = [&](const ContactKey& key) { return !change->after.count(key) && borne(newton_.energy(), key, c.e.point.state) > contact_event::unloaded; };
     // Where what is lost bears nothing any more the limit point cannot be told from it: then they are one event.
-    if (std::string why; find_critical(*fading, c, why) && c.events.front().kind == EventKind::limit && std::any_of(closed_.begin(), closed_.end(), bears)) return c;
+    std::string why;
+    const bool found = find_critical(*fading, c, why);
+    if (found && c.events.front().kind == EventKind::limit && std::any_of(closed_.begin(), closed_.end(), bears)) return c;
+    if (!found && change->at.point.stability.negative == lost.point.stability.negative) return {};      // the same search would fail again
     fading.reset();
   }
   if (!contacts_ && lost.point.stability.negative == negative_) return {};

@@ -28,7 +28,7 @@ Branch::Branch(Newton& newton, Departure from, bool contacts, bool event_errors,
 }
 
 void Branch::carry(Archive& archive) {
-  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, searches_, soft_before_, status_, why_);
+  archive(current_, negative_, sign_, neutral_, singular_, at_contact_, closed_, changed_, side_, searches_, soft_before_, load_before_, status_, why_);
 }
 
 const Event* Branch::deciding(const Candidate& c) {
@@ -171,6 +171,14 @@ bool Branch::goes_on(const Candidate& c) const {
 bool Branch::softens() const {
   const Vector &before = soft_before_, &here = current_.soft_values;
   return before.size() == 0 || here.size() != before.size() || (here.array() * branch::softened < before.array()).any();
+}
+
+// How far ahead a limit point is, if the softest eigenvalue goes on as on the last step:  μ² ∝ λ_c − λ. Infinite where nothing has softened.
+double Branch::way_to_limit() const {
+  const Vector &before = soft_before_, &here = current_.soft_values;
+  if (before.size() == 0 || here.size() != before.size() || !(here.minCoeff() < before.minCoeff())) return infinity;
+  const double left = here.minCoeff() * here.minCoeff(), lost = before.minCoeff() * before.minCoeff() - left;
+  return left / lost * std::abs(current_.point.state.load_factor - load_before_);
 }
 
 // Behind an event, or where the branch begins, or where nothing has softened yet.
@@ -428,7 +436,7 @@ void Branch::take(const Candidate& c) {
   if (current_.slack && c.e.slack) closed.merge(closed_);        // what has touched is not told again before something bears a force
   closed_ = std::move(closed);
   pass_user_events(user_events_, c.events, c.e.point.state, side_);
-  soft_before_ = c.events.empty() ? current_.soft_values : Vector();
+  soft_before_ = c.events.empty() ? current_.soft_values : Vector(), load_before_ = current_.point.state.load_factor;
   const int family = current_.family;
   current_ = event && event->beyond ? *event->beyond : c.e;
   current_.family = family;                                     // once one, always one

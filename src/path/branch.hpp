@@ -89,6 +89,7 @@ class Branch {
   bool goes_back(const Candidate& c) const;
   bool goes_on(const Candidate& c) const;
   [[nodiscard]] bool stop_where_index_goes_back(const Segment& segment, Candidate& c);
+  double way_to_limit() const;
   bool softens() const;
   /// Tells the softest eigenpairs where the step begins, if they are told at its end alone; `change`: the load factor over which their change is taken.
   void see_softest_here(const Candidate& c, double change);
@@ -116,6 +117,7 @@ class Branch {
   std::vector<double> side_;
   bool searches_ = true;               // for what happens on a step, but for user events
   Vector soft_before_;                 // Equilibrium::soft_values a step before; empty: not known
+  double load_before_ = 0;             // … and the load factor there
 
  private:
   Status status_ = Status::converged;

@@ -60,10 +60,18 @@ std::optional<Waypoint> LoadSteps::next() {
   const double here = current_.point.state.load_factor;
   std::string why;
   if (current_.family == 1) std::ignore = rest_in_family(newton_, current_);
+  bool explored = false;
   while (!grid_.done() && patient() && !interrupted() && status() == Status::converged) {
     if (detour_) {
       if (std::optional<Waypoint> w = on_detour()) return w;
+      explored = true;
     } else {
+      // Where something may touch, a step beyond a limit point is refused after many iterations only: it is not tried.
+      const double limit = way_to_limit();
+      if (!explored && searches() && limit < std::abs(grid_.next() - here) && may_touch(newton_.energy().model())) {
+        set_out_on_detour(limit);
+        continue;
+      }
       if (std::optional<Candidate> c = reach(grid_.next(), why)) return accept(std::move(*c));
       if (std::optional<Candidate> c = meet(grid_.next())) return accept(std::move(*c));
       const bool caught = (current_.pushed || current_.point.state.load_factor == met_) && way_is_free(grid_.next());
@@ -174,7 +182,8 @@ void LoadSteps::arrived(const Candidate& c) {
 }
 
 // What stops the steps, told by arc length: an event that load steps cannot meet themselves, or an equilibrium beyond.
-void LoadSteps::set_out_on_detour() {
+// `limit`: how far ahead a limit point may be, which the first step is not to go beyond.
+void LoadSteps::set_out_on_detour(double limit) {
   const double here = current_.point.state.load_factor, way = grid_.next() - here;
   goal_ = grid_.next(), taken_ = 0;
   ArcOptions a{.load_step = std::abs(way), .rotation = 0.1, .contacts = contacts_, .event_errors = event_errors_, .stops = {goal_, here - 100 * way}, .user_events = user_events_,
@@ -183,7 +192,9 @@ void LoadSteps::set_out_on_detour() {
   const Metric metric = metric_for(newton_.energy(), current_, way);
   const Direction towards{Vector::Zero(current_.tangent.size()), sign_ * metric.load};
   const Departure from{current_, negative_, closed_, singular_, at_contact_, side_, changed_};
-  detour_.emplace(newton_, from, direction_of(current_, metric, towards), metric, std::move(a));
+  Direction direction = direction_of(current_, metric, towards);
+  if (std::isfinite(limit)) a.step = limit / std::abs(direction.load);
+  detour_.emplace(newton_, from, std::move(direction), metric, std::move(a));
 }
 
 // It ends at its goal, at the first event, or where it leads nowhere: nothing is told then, and the next step is shorter.

@@ -32,7 +32,7 @@ class LoadSteps final : public Branch {
   bool ends_on_event(const Candidate& c) const;
   bool may_hide_limits(const Candidate& c);
   Waypoint accept(Candidate c);
-  void set_out_on_detour();
+  void set_out_on_detour(double limit = infinity);
   [[nodiscard]] std::optional<Waypoint> on_detour();
   void arrived(const Candidate& c);
   bool patient() const { return patience_.most == 0 || patience_.refused < patience_.most; }

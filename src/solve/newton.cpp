@@ -139,7 +139,7 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   if (settled && (is_minimum(state, descent) || stays))
     return Halt{Status::converged, below(options_.tolerance) + (stays ? "" : " and the Hessian has no negative eigenvalue")};
   if (const auto halt = must_halt(state, descent.report, descent.most)) return halt;
-  if (stays && !contracts(descent.report.history))
+  if (stays && (descent.rises >= limits::most_rises || !contracts(descent.report.history)))
     return Halt{Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", descent.report.residual)};
 
   const Vector g = energy_.gradient();
@@ -160,9 +160,11 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
 }
 
 void Newton::look(const State& state, Descent& descent) {
+  const double before = descent.report.residual;
   energy_.evaluate(state, true, {.from = descent.from()});
   ++descent.report.evaluations;
   record(descent.report, descent.moved, descent.shift);
+  descent.rises = descent.eased && descent.report.residual > before ? descent.rises + 1 : 0;
 }
 
 // Whether a state with a small residual is a minimum; then its residual is taken down to rounding.

@@ -103,6 +103,7 @@ class Newton {
     bool eased = false;          // the last step was one without compression; …
     bool refused = false;        // … and none of it could be taken: the next one takes a shift
     double moved = 0;            // by the last step [length]
+    int rises = 0;               // eased steps in a row that made the residual larger
     int unseen = 0;              // steps whose change of energy rounding hid
     bool left = false;           // a saddle, in the last iteration
     bool linearised = false;     // previous holds where the last step came from
