@@ -56,20 +56,6 @@ class Signals {
   std::function<bool()> question_ = [this] { return arrived(); };
 };
 
-/// While it lives, work on this thread asks this.
-class Stopping {
- public:
-  explicit Stopping(const std::function<bool()>& question) : before_(stop_asked) { stop_asked = &question; }
-  ~Stopping() { stop_asked = before_; }
-  Stopping(const Stopping&) = delete;
-  Stopping& operator=(const Stopping&) = delete;
-
- private:
-  const std::function<bool()>* before_;
-};
-
-namespace py = pybind11;
-
 void add_documents(py::module_& module);
 void add_states(py::module_& module);
 void add_laws(py::module_& module);
@@ -98,7 +84,7 @@ template <class Work> auto without_lock(const Work& work) {
   Signals signals;
   auto result = [&] {
     const py::gil_scoped_release release;
-    const Stopping stopping(signals.question());
+    const StopAsked stopping(signals.question());
     take_default_threads();
     return work();
   }();

@@ -87,7 +87,7 @@ class PathIterator {
 
   void work() {
     const std::function<bool()> question = [this] { return stop_.load(); };
-    const Stopping stopping(question);
+    const StopAsked stopping(question);
     take_default_threads();
     try {
       await();

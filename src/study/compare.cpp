@@ -19,48 +19,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
 namespace elamin {
 
 namespace {
-
-/// While it lives: asks the solvers to stop when the time is up, by the flag that Ctrl-C sets; takes that back at its end.
-class Deadline {
- public:
-  explicit Deadline(double seconds)
-      : thread_([this, seconds] {
-          std::unique_lock lock(mutex_);
-          if (done_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return over_; })) return;
-          if (!interrupt_requested.exchange(true)) passed_ = true;
-        }) {}
-  ~Deadline() { finish(); }
-  Deadline(const Deadline&) = delete;
-  Deadline& operator=(const Deadline&) = delete;
-
-  /// Whether it was this that stopped the solver.
-  bool finish() {
-    if (!thread_.joinable()) return passed_;
-    {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
-    }
-    done_.notify_one();
-    thread_.join();
-    if (passed_) interrupt_requested = false;
-    return passed_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable done_;
-  bool over_ = false, passed_ = false;
-  std::thread thread_;               // last: it looks at the others
-};
 
 std::string refusal_of(const Problem& problem, const Model& model) {
   Energy energy(model);
@@ -102,9 +65,11 @@ Ran run(const Problem& problem, const Model& model, const std::optional<StateSup
   const Heartbeat at_work(1, [&](const std::vector<std::string>& doing) {
     progress.show(fmt::format("{}: {:.0f} s  {}", row.method, watch.seconds(), fmt::join(doing, "  ")), watch.seconds());
   });
-  Deadline deadline(limit);
+  bool passed = false;
+  const std::function<bool()> time_is_up = [&] { return passed = passed || watch.seconds() > limit; };
+  const StopAsked deadline(time_is_up);
   const Outcome outcome = trace(problem, model, stored, sink);
-  row.out_of_time = deadline.finish() && outcome.status != Status::converged;
+  row.out_of_time = passed && outcome.status != Status::converged;
   row.seconds = watch.seconds();
   row.status = row.out_of_time ? Status::not_converged : outcome.status;
   row.why = row.out_of_time ? fmt::format("stopped after {:g} s", limit) : outcome.why;
