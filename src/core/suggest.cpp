@@ -27,25 +27,18 @@ int edit_distance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
-// The parts between '.', '_' and '-'.
-std::vector<std::string> parts_of(const std::string& word) {
-  std::vector<std::string> parts(1);
-  for (const char c : word)
-    if (c == '.' || c == '_' || c == '-') parts.emplace_back();
-    else parts.back() += c;
-  return parts;
-}
+constexpr std::string_view between_parts = "._-";
 
 /// "disp.x" for "displacement.x", "tol" for "tolerance": each part begins one of the other word's, in their order.
 bool abbreviates(const std::string& word, const std::string& candidate) {
-  const std::vector<std::string> parts = parts_of(word), whole = parts_of(candidate);
+  const std::vector<std::string> parts = parts_of(word, between_parts), whole = parts_of(candidate, between_parts);
   if (word.size() < 3 || parts.size() > whole.size()) return false;
   return std::equal(parts.begin(), parts.end(), whole.begin(), [](const std::string& p, const std::string& w) { return w.starts_with(p); });
 }
 
 /// "modulus" for "youngs_modulus".
 bool is_part(const std::string& word, const std::string& candidate) {
-  const std::vector<std::string> whole = parts_of(candidate);
+  const std::vector<std::string> whole = parts_of(candidate, between_parts);
   return word.size() >= 3 && std::find(whole.begin(), whole.end(), word) != whole.end();
 }
 
@@ -90,6 +83,14 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return best ? "; did you mean \"" + *best + "\"?" : "";
 }
 
+std::vector<std::string> parts_of(const std::string& word, std::string_view separators) {
+  std::vector<std::string> parts(1);
+  for (const char c : word)
+    if (separators.find(c) != separators.npos) parts.emplace_back();
+    else parts.back() += c;
+  return parts;
+}
+
 std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t most = 32;
   std::string text;
@@ -98,11 +99,16 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string quoted_choice(const std::vector<std::string>& words) {
+std::string enumerated(const std::vector<std::string>& words, const char* last) {
   std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + ('"' + words[i] + '"');
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? std::string(" ") + last + " " : ", ") + words[i];
   return text;
+}
+
+std::string quoted_choice(const std::vector<std::string>& words) {
+  std::vector<std::string> quoted;
+  for (const std::string& word : words) quoted.push_back('"' + word + '"');
+  return enumerated(quoted, "or");
 }
 
 std::string in_quotes(const std::string& word) {

@@ -1,6 +1,7 @@
 #pragma once
 // Help with a word that is not known: the nearest one, and all that are.
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace elamin {
@@ -9,11 +10,17 @@ namespace elamin {
 /// as a part; "" if there is none.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
+/// The parts between these characters.
+std::vector<std::string> parts_of(const std::string& word, std::string_view separators);
+
 /// `a, b, c`; a long list is cut short.
 std::string listed(const std::vector<std::string>& words);
 
 /// `there are: a, b; did you mean "a"?` of the words that `word` might have been; `there is none`.
 std::string there_are(const std::vector<std::string>& words, const std::string& word);
+
+/// `a, b and c`, with another word for "and".
+std::string enumerated(const std::vector<std::string>& words, const char* last);
 
 /// `"a", "b" or "c"`.
 std::string quoted_choice(const std::vector<std::string>& words);

@@ -118,8 +118,7 @@ void Reader::either(const char*, const std::vector<Choice>& choices) {
   const char* what = "";
   for (const Choice& c : choices)
     if (c.chosen) what = c.what, c.keys();
-  std::string own;
-  for (std::size_t i = before; i < known_.size(); ++i) own += (i == before ? "" : i + 1 == known_.size() ? " and " : ", ") + known_[i];
+  const std::string own = enumerated({known_.begin() + static_cast<std::ptrdiff_t>(before), known_.end()}, "and");
   others_ = &others;
   for (const Choice& c : choices)
     if (!c.chosen) c.keys();
@@ -143,9 +142,7 @@ void Reader::at_most_one(const Names& keys) {
 
 void Reader::one_at_least(const Names& keys, const char* what) {
   if (others_ || std::any_of(keys.begin(), keys.end(), [&](const char* key) { return has(key); })) return;
-  std::string names;
-  for (std::size_t i = 0; i < keys.size(); ++i) names += (i == 0 ? "" : i + 1 == keys.size() ? " or " : ", ") + std::string(keys[i]);
-  mistake(place_, key_, names + " is missing; " + what);
+  mistake(place_, key_, enumerated({keys.begin(), keys.end()}, "or") + " is missing; " + what);
 }
 
 void Reader::with(const Names& keys, const Names& needed, const char* what) {

@@ -10,17 +10,6 @@
 namespace elamin {
 namespace {
 
-std::vector<std::string> split(const std::string& key) {
-  std::vector<std::string> parts(1);
-  for (const char c : key) {
-    if (c == '.')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
-
 /// A number from 1, or 0.
 std::size_t index_of(const std::string& part) {
   std::size_t number = 0;
@@ -36,7 +25,7 @@ std::string name_of(const Node& element) {
 /// Walks a dotted key through document and schema; tables and keys that are missing are made.
 class Walk {
  public:
-  Walk(const std::string& key, Entries& root) : parts_(split(key)), entries_(&root) {}
+  Walk(const std::string& key, Entries& root) : parts_(parts_of(key, ".")), entries_(&root) {}
 
   /// The place for the value; null if the key addresses nothing, and then why() says so.
   Node* end() {
