@@ -6,6 +6,9 @@
 
 namespace elamin {
 
+/// Where something stands in a file, line and column from 1; line 0: it came from the command line.
+struct Place { int line = 0, column = 0; };
+
 /// One mistake: `file:line:column: key: what is wrong; what is allowed`. Line 0: no place in a file.
 struct Mistake {
   std::string file;

@@ -1,6 +1,6 @@
 #pragma once
 // The bytes of a file, before anything is known of them.
-#include "core/place.hpp"
+#include "core/error.hpp"
 
 #include <charconv>
 #include <optional>

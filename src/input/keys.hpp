@@ -3,7 +3,6 @@
 // together. Four things go through that: the Reader (TOML → structs, every mistake), the Writer (structs → resolved.toml),
 // the KeyTree (--set, key reference, JSON schema).
 #include "core/error.hpp"
-#include "core/place.hpp"
 #include "core/types.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 // The text of a LAMMPS input script as lines of words, as LAMMPS's own parser takes them.
-#include "core/place.hpp"
+#include "core/error.hpp"
 
 #include <functional>
 #include <stdexcept>
