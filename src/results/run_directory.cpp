@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <ctime>
 #include <filesystem>
 
@@ -214,29 +213,30 @@ void RunDirectory::add_fields_as(const std::string& name, const Model& model, co
 }
 
 void RunDirectory::add_null_vectors(const std::string& label, const std::vector<Field>& vectors) {
-  const auto columns = [&](const char* of) {
-    std::vector<std::string> all;
-    for (std::size_t k = 1; k <= vectors.size(); ++k)
-      for (const char c : {'x', 'y', 'z'}) all.push_back(fmt::format("{}{}{}", of, c, k));
-    return all;
+  add_displacements(state_name(label), ".modes.csv", vectors, true);
+}
+
+void RunDirectory::add_displacements(const std::string& stem, const std::string& end, const std::vector<Field>& all, bool numbered) {
+  std::vector<std::string> columns{"id"};
+  const auto add_columns = [&](char of) {
+    for (std::size_t k = 1; k <= all.size(); ++k)
+      for (const char c : {'x', 'y', 'z'}) columns.push_back(fmt::format("{}{}{}", of, c, numbered ? std::to_string(k) : ""));
   };
-  std::vector<std::string> names{"id"};
-  for (const std::string& c : columns("u")) names.push_back(c);
-  WholeCsv particles(results_.file(state_name(label) + ".modes.csv"), names);
+  add_columns('u');
+  WholeCsv particles(results_.file(stem + end), columns);
   for (int i = 0; i < model_.particles(); ++i) {
     Row row{model_.id[i]};
-    for (const Field& v : vectors)
-      for (int c = 0; c < 3; ++c) row.emplace_back(v(c, i));
+    for (const Field& v : all) append(row, v.col(i));
     particles.add(row);
   }
   particles.keep();
   if (model_.bodies.empty()) return;
-  for (const std::string& c : columns("t")) names.push_back(c);
-  WholeCsv bodies(results_.file(state_name(label) + ".bodies.modes.csv"), names);
+  add_columns('t');
+  WholeCsv bodies(results_.file(stem + ".bodies" + end), columns);
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     Row row{model_.bodies[b].id};
-    for (const Field& v : vectors) append(row, body_motion(model_, v, b).head<3>());
-    for (const Field& v : vectors) append(row, body_motion(model_, v, b).tail<3>());
+    for (const Field& v : all) append(row, body_motion(model_, v, b).head<3>());
+    for (const Field& v : all) append(row, body_motion(model_, v, b).tail<3>());
     bodies.add(row);
   }
   bodies.keep();
@@ -246,28 +246,14 @@ void RunDirectory::add_mode(const Mode& mode, const State& state) {
   const std::string name = fmt::format("mode-{}", ++mode_);
   if (!modes_) modes_.emplace(results_.file("modes.csv"), std::vector<std::string>{"mode", "eigenvalue", "zero_mode"});
   modes_->add({mode_, mode.eigenvalue, mode.zero_mode.empty() ? Cell{} : Cell(mode.zero_mode)});
-  WholeCsv particles(results_.file("modes/" + name + ".csv"), {"id", "ux", "uy", "uz"});
-  for (int i = 0; i < model_.particles(); ++i) particles.add({model_.id[i], mode.shape(0, i), mode.shape(1, i), mode.shape(2, i)});
-  particles.keep();
+  add_displacements("modes/" + name, ".csv", {mode.shape}, false);
   const State moved = moved_along(mode, model_, state);
-  if (!model_.bodies.empty()) {
-    WholeCsv bodies(results_.file("modes/" + name + ".bodies.csv"), {"id", "ux", "uy", "uz", "tx", "ty", "tz"});
-    for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
-      Row row{model_.bodies[b].id};
-      append(row, body_motion(model_, mode.shape, b));
-      bodies.add(row);
-    }
-    bodies.keep();
-  }
   add_picture(state_name(name), moved, name);
   add_state_file(state_name(name), model_, moved, fmt::format("{}, eigenvalue {:.17g}; load factor {:.17g}", name, mode.eigenvalue, state.load_factor));
 }
 
 void RunDirectory::log(const std::string& line) {
-  std::tm local{};
-  const std::time_t now = std::time(nullptr);
-  localtime_r(&now, &local);
-  log_.add(fmt::format("{:%Y-%m-%d %H:%M:%S} {}\n", local, line));
+  log_.add(fmt::format("{:%Y-%m-%d %H:%M:%S} {}\n", fmt::localtime(std::time(nullptr)), line));
 }
 
 void RunDirectory::add_curve(const Row& row) {
@@ -294,12 +280,7 @@ bool RunDirectory::finish(const Summary& summary) {
   return true;
 }
 
-std::string RunDirectory::state_name(const std::string& label) const {
-  std::string name = label;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
-  return results_.free_name("states/" + name);
-}
+std::string RunDirectory::state_name(const std::string& label) const { return results_.free_name("states/" + file_name_of(label)); }
 
 std::string RunDirectory::frame_name(int step) const { return results_.free_name(fmt::format("frames/{}", step)); }
 

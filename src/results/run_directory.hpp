@@ -120,6 +120,8 @@ class RunDirectory {
   void add_point(const std::string& name, const std::string& called, const PathPoint& point);
   void add_fields_as(const std::string& name, const Model& model, const State& state, const Fields& fields);
   std::vector<Row> contact_rows(const std::string& label, const State& state, const std::vector<Touch>& touches) const;
+  /// STEM+END of the particles, STEM.bodies+END of the bodies: id, ux, uy, uz, and of bodies tx, ty, tz, of several numbered.
+  void add_displacements(const std::string& stem, const std::string& end, const std::vector<Field>& all, bool numbered);
   void drop_files(const std::set<std::int64_t>& steps);
 
   ResultsDirectory::Files inputs_;                    // that lie in the directory

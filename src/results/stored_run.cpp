@@ -83,13 +83,6 @@ void read_summary(const std::string& file, StoredRun& run) {
   }
 }
 
-/// The name of a label's file; see RunDirectory::state_file.
-std::string file_name(std::string label) {
-  for (char& c : label)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
-  return label;
-}
-
 struct Columns {
   Table table;
   int at(const std::string& name) const { return column_index(table.columns, name); }
@@ -105,7 +98,7 @@ void find_states(StoredRun& run) {
     const std::string* name = label >= 0 ? std::get_if<std::string>(&row[label]) : nullptr;
     const bool labelled = name && !name->empty();
     if (!labelled && step < 0) continue;
-    const std::string stem = labelled ? "states/" + file_name(*name) : "frames/" + csv_text(row[static_cast<std::size_t>(step)]);
+    const std::string stem = labelled ? "states/" + file_name_of(*name) : "frames/" + csv_text(row[static_cast<std::size_t>(step)]);
     for (const char* end : {"-again.data", ".data", ".csv"})
       if (const std::string file = in(run.directory, stem + end); fs::exists(file)) {
         run.states.push_back({labelled ? *name : "", k, file});
@@ -118,7 +111,7 @@ void find_states(StoredRun& run) {
     for (int image = 1; image <= nodes.number(k, nodes.at("multiplicity")); ++image)
       for (const std::string& at : {std::string(), "@" + load}) {
         const std::string name = node + (image > 1 ? fmt::format("-image-{}", image) : "") + at;
-        if (const std::string file = in(run.directory, "states/" + file_name(name) + ".data"); fs::exists(file)) run.states.push_back({name, -1, file});
+        if (const std::string file = in(run.directory, "states/" + file_name_of(name) + ".data"); fs::exists(file)) run.states.push_back({name, -1, file});
       }
   }
 }
@@ -238,6 +231,12 @@ std::vector<Field> read_displacements(const std::string& file, const Model& mode
       all[k].col(n + 2 * b + 1) = bodies.vector(b, bodies.at(name("tx", k)));
     }
   return all;
+}
+
+std::string file_name_of(std::string label) {
+  for (char& c : label)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '-';
+  return label;
 }
 
 std::string null_vectors_file(const std::string& data_file) {

@@ -48,6 +48,9 @@ State read_state(const StoredState& stored, const Model& model);
 /// turn [rad], each. `file` is states/LABEL.modes.csv or modes/mode-K.csv; nothing if it is not there.
 std::vector<Field> read_displacements(const std::string& file, const Model& model);
 
+/// The name of the file of a label's state, without folder and end: "branch:1" → "branch-1".
+std::string file_name_of(std::string label);
+
 /// states/LABEL.modes.csv of states/LABEL.data.
 std::string null_vectors_file(const std::string& data_file);
 

@@ -22,15 +22,12 @@ Json object(const Table& table, const Row& row) {
 std::string text_of(const Json& all) { return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }     // replace: text that is not UTF-8
 
 std::string unfinished(const std::string& title, const std::string& status, const std::string& message) {
-  std::tm utc{};
-  const std::time_t now = std::time(nullptr);
-  gmtime_r(&now, &utc);
   Json all;
   all["status"] = status;
   all["message"] = message;
   all["title"] = title;
   all["process"] = getpid();
-  all["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
+  all["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   all["version"] = version();
   return text_of(all);
 }

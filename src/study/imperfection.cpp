@@ -34,9 +34,7 @@ std::vector<Field> stored_modes(const ImperfectionTable& t, const Model& model, 
   const std::filesystem::path run(t.run);
   std::vector<Field> shapes;
   if (t.at) {
-    std::string label = *t.at;
-    std::replace(label.begin(), label.end(), ':', '-');
-    shapes = read_displacements((run / "states" / (label + ".modes.csv")).string(), model);
+    shapes = read_displacements((run / "states" / (file_name_of(*t.at) + ".modes.csv")).string(), model);
   } else {
     for (int k = 1; k <= count; ++k)
       for (Field& f : read_displacements((run / "modes" / fmt::format("mode-{}.csv", k)).string(), model)) shapes.push_back(std::move(f));
