@@ -96,6 +96,8 @@ Entries parse(const std::string& text, const std::string& file) {
   return {};
 }
 
+}  // namespace
+
 void set_place(Node& node, Place place) {
   node.place = place;
   if (auto* list = std::get_if<List>(&node.value))
@@ -103,8 +105,6 @@ void set_place(Node& node, Place place) {
   if (auto* entries = std::get_if<Entries>(&node.value))
     for (Entry& e : *entries) e.place = place, set_place(e.node, place);
 }
-
-}  // namespace
 
 Document parse_document(const std::string& text, const std::string& file) {
   Document document{file, sha256(text), parse(std::string(without_mark(text)), file), {}};

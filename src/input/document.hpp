@@ -41,6 +41,9 @@ Document parse_document(const std::string& text, const std::string& file);
 /// The entries of a text in TOML, which is told of as `file`. Throws InputError if it is not TOML.
 Entries parse_entries(const std::string& text, const std::string& file);
 
+/// Puts the node, and all that is in it, at a place.
+void set_place(Node& node, Place place);
+
 /// One TOML value, such as `[0, 0, 1e-3]`; what is no TOML value is taken as a string of these letters.
 Node parse_value(const std::string& text, Place place);
 

@@ -289,15 +289,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Everything of the script stands where the file names it.
-void put_at(Node& node, Place place) {
-  node.place = place;
-  if (auto* list = std::get_if<List>(&node.value))
-    for (Node& n : *list) put_at(n, place);
-  if (auto* entries = std::get_if<Entries>(&node.value))
-    for (Entry& e : *entries) e.place = place, put_at(e.node, place);
-}
-
 void merge(Entries& own, Entries&& script) {
   for (Entry& e : script) {
     Node* const there = find(own, e.key);
@@ -342,7 +333,7 @@ void take_lammps_input(Document& document) {
   for (const auto& files : {reading.files, reading.data_files})
     for (const std::string& f : files) document.script->files.push_back(fs::absolute(f).lexically_normal().string());
   Entries entries = parse_entries(made.toml, reading.files.front());
-  for (Entry& e : entries) e.place = place, put_at(e.node, place);
+  for (Entry& e : entries) e.place = place, set_place(e.node, place);
   std::erase_if(std::get<Entries>(find(entries, "lammps")->value), [](const Entry& e) { return e.key == "data"; });
   if (!tables) std::erase_if(entries, [](const Entry& e) { return e.key != "lammps"; });
   else if (only) only->value = true;
