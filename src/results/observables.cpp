@@ -176,12 +176,6 @@ void Observables::hold_supports() {
   }
 }
 
-std::vector<std::string> Observables::names() const {
-  std::vector<std::string> all;
-  for (const ObserveTable& o : problem_.observe) all.push_back(o.name);
-  return all;
-}
-
 bool Observables::sufficient(const std::vector<Touch>& touches) const {
   for (std::size_t k = 0; k < subjects_.size(); ++k) {
     const ObserveTable& o = problem_.observe[k];

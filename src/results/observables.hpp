@@ -67,8 +67,6 @@ class Observables {
   Observables(const Problem& problem, const Model& model);
   ~Observables();
 
-  std::vector<std::string> names() const;
-
   /// Whether these contacts, all those with gaps up to some reach, tell every gap that is asked for: a minimum needs one
   /// of its particles in the list, the other reductions all of them. True where no gap is observed.
   bool sufficient(const std::vector<Touch>& touches) const;

@@ -235,10 +235,6 @@ void check_together(const std::vector<ExpectTable>& together, std::size_t runs, 
 
 }  // namespace
 
-std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std::vector<Setting>& settings) {
-  return whole_sweeps(read_document(file), settings).runs();
-}
-
 PreparedRun prepare_run(const Document& document, const std::vector<Setting>& settings, const std::vector<Setting>& swept,
                         const std::vector<OwnLaw>& own) {
   std::vector<Setting> all = settings;

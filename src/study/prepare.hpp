@@ -12,11 +12,6 @@
 
 namespace elamin {
 
-/// The settings of every run that the [[sweep]] tables of a file ask for, after `settings` have changed it: all
-/// combinations, the last sweep fastest; those with the same `zip` go in step. One empty list if there is no sweep; of a
-/// bisection its two ends. Throws InputError with all mistakes of the sweeps, and those of the problem beside them.
-std::vector<std::vector<Setting>> read_sweep(const std::string& file, const std::vector<Setting>& settings = {});
-
 /// One run, ready to go.
 struct PreparedRun {
   std::vector<Setting> swept;          // what the sweeps set
@@ -37,7 +32,8 @@ struct PreparedRuns {
   std::optional<Bisection> bisection;  // then `runs` are its two ends
 };
 
-/// Every run of a file read and built, so that nothing runs before everything is right: one if there is no sweep.
+/// Every run of a file read and built, so that nothing runs before everything is right: one if there is no sweep; else all combinations of
+/// what the sweeps set, the last sweep fastest, those with the same `zip` in step; of a bisection its two ends.
 /// Throws InputError: a mistake of all runs is told once, one of some names the first of them.
 PreparedRuns prepare_runs(const std::string& file, const std::vector<Setting>& settings = {});
 PreparedRuns prepare_runs(const Document& document, const std::vector<Setting>& settings, const std::vector<OwnLaw>& own = {});

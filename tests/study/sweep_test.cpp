@@ -24,9 +24,9 @@ group = "column"
 std::vector<std::string> runs_of(const std::string& sweeps, const std::vector<Setting>& settings = {}) {
   const ScratchDirectory scratch;
   std::vector<std::string> texts;
-  for (const auto& run : read_sweep(scratch.file("p.toml", swept + sweeps), settings)) {
+  for (const PreparedRun& run : prepare_runs(scratch.file("p.toml", swept + sweeps), settings).runs) {
     texts.emplace_back();
-    for (const Setting& s : run) texts.back() += (texts.back().empty() ? "" : ", ") + s.key + " = " + s.value;
+    for (const Setting& s : run.swept) texts.back() += (texts.back().empty() ? "" : ", ") + s.key + " = " + s.value;
   }
   return texts;
 }

@@ -19,8 +19,6 @@ struct GranularLaw {
   std::size_t read_older(Interpreter& in, std::size_t i);
   /// Tells what is left out of it; it is no law of a motion where its damping is limited, or its friction damps what has no damping along the normal.
   void tell(Interpreter& in) const;
-  /// E_eff of two like spheres: E/(2 (1 − ν²)).
-  double modulus() const;
   /// As keys of [[contact]] and [[wall]], a line each.
   std::string damping() const;
 };

@@ -121,10 +121,6 @@ void GranularLaw::tell(Interpreter& in) const {
         "history)");
 }
 
-double GranularLaw::modulus() const {
-  return material ? youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio)) : effective_modulus;
-}
-
 std::string GranularLaw::damping() const {
   std::string keys = model == "tsuji" ? fmt::format("damping = \"tsuji\"\nrestitution = {}\n", gamma)
                      : gamma > 0      ? fmt::format("damping = \"{}\"\ndamping_coefficient = {}\n", model, gamma)

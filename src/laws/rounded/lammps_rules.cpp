@@ -2,8 +2,6 @@
 
 #include "laws/rounded/lammps_hits.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace elamin {
@@ -129,14 +127,6 @@ LammpsPair LammpsRules::pair(const RoundedBody& i, const RoundedBody& j, const B
   Sum sum(*this, a, b, vi, vj, i.pose.position.hi, contacts);
   lammps_hits(a, b, kernel.cutoff, [&sum](const LammpsHit& hit) { sum.add(hit); });
   return sum.finish();
-}
-
-std::vector<std::string> LammpsRules::no_potential() const {
-  std::vector<std::string> why;
-  if (friction != 0) why.push_back(fmt::format("friction {} has no energy; allowed in a minimisation: 0", friction));
-  if (unit_area == 0) why.emplace_back("unit_area 0 makes the area factor infinite; allowed: > 0, or negative for 1");
-  if (kernel.form != RoundedKernel::Form::coded) why.emplace_back("the rules of LAMMPS know only the coded kernel");
-  return why;
 }
 
 Wrench LammpsWall::on(const RoundedBody& body, const BodyMotion& motion, Wrench* damping) const {

@@ -58,10 +58,6 @@ struct LammpsRules {
   /// Body i before j, as in the file. Contacts, if wanted, are appended.
   LammpsPair pair(const RoundedBody& i, const RoundedBody& j, const BodyMotion& vi = {}, const BodyMotion& vj = {},
                   std::vector<LammpsContact>* contacts = nullptr) const;
-
-  /// Why no energy can be minimised by these rules, whatever the contacts; empty if it can while each pair is
-  /// `conservative`.
-  std::vector<std::string> no_potential() const;
 };
 
 /// fix wall/body/polyhedron between two planes across an axis. Of the side nearer to the centre every vertex with
