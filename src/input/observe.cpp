@@ -235,7 +235,7 @@ std::string lacking(const ObserveTable& o, const Members& of, const Model& model
       std::none_of(model.angles.begin(), model.angles.end(), [&](const Angle& a) { return has(a.particles[1]); }))
     return group + " has no particle in the middle of an angle; moment and curvature are of angles";
   const auto is_within = [&](const Structure& s) {
-    return s.kind == "sheet" && std::any_of(of.particles.begin(), of.particles.end(), [&](int i) { return i >= s.first && i < s.first + s.count; });
+    return s.kind == "sheet" && std::any_of(of.particles.begin(), of.particles.end(), [&](int i) { return s.has(i); });
   };
   if (of_sheets(o.quantity) && std::none_of(model.structures.begin(), model.structures.end(), is_within))
     return group + " has no particle of a [[sheet]]; N and M are of sheets";

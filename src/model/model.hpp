@@ -204,6 +204,7 @@ struct Structure {
   int bond_type = -1, angle_type = -1;          // its first ones, or none
   int first_body = 0, bodies = 0;
   Vec3 up = Vec3::Zero();                       // of a sheet the second of its axes, of length 1: see Sheet
+  bool has(int particle) const { return particle >= first && particle < first + count; }
 };
 
 /// A law that a program brings along: every Energy of the model adds its elements, as Energy::add does.

@@ -27,9 +27,8 @@ struct Edge {
 /// two that follow each other, and the bond between their ends, are a triangle.
 std::vector<Triangle> triangles_of(const Model& model, const Structure& sheet) {
   std::vector<std::vector<Edge>> from(sheet.count);
-  const auto inside = [&](int i) { return i >= sheet.first && i < sheet.first + sheet.count; };
   for (std::size_t b = 0; b < model.bonds.size(); ++b)
-    if (const auto [i, j] = model.bonds[b].particles; inside(i) && inside(j)) from[i - sheet.first].push_back({j, static_cast<int>(b)});
+    if (const auto [i, j] = model.bonds[b].particles; sheet.has(i) && sheet.has(j)) from[i - sheet.first].push_back({j, static_cast<int>(b)});
   const auto between = [&](int i, int j) {
     for (const auto& [begin, end] : {std::pair(i, j), std::pair(j, i)})
       for (const Edge& e : from[begin - sheet.first])

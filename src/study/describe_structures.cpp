@@ -56,9 +56,8 @@ double euler_factor(const End& a, const End& b) {
 // Rest angles of the structure's own angles.
 std::string rest_of(const Model& model, const Structure& s) {
   Range rest;
-  const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
   for (const Angle& a : model.angles)
-    if (own(a.particles[0]) && own(a.particles[1]) && own(a.particles[2])) rest.add(model.angle_types[a.type].rest);
+    if (s.has(a.particles[0]) && s.has(a.particles[1]) && s.has(a.particles[2])) rest.add(model.angle_types[a.type].rest);
   if (rest.empty() || (rest.least == pi && rest.most == pi)) return "straight at rest";
   rest.least *= 180 / pi, rest.most *= 180 / pi;
   return "at rest " + rest.text() + " degrees";
@@ -67,9 +66,7 @@ std::string rest_of(const Model& model, const Structure& s) {
 // What the file of a structure's own values makes of its particles, bonds and angles.
 std::string own_values(const Model& model, const Structure& s, const std::string& file) {
   Range diameter, density, K, q0, B;
-  const auto own = [&](const auto& particles) {
-    return std::all_of(particles.begin(), particles.end(), [&](int p) { return p >= s.first && p < s.first + s.count; });
-  };
+  const auto own = [&](const auto& particles) { return std::all_of(particles.begin(), particles.end(), [&](int p) { return s.has(p); }); };
   for (int p = s.first; p < s.first + s.count; ++p) diameter.add(model.diameter[p]), density.add(model.density[p]);
   for (const Bond& b : model.bonds)
     if (own(b.particles)) K.add(model.bond_types[b.type].stiffness), q0.add(model.bond_types[b.type].rest_length);
@@ -168,9 +165,8 @@ std::string describe_sheet(const Problem& problem, const Model& model, const Str
   }
   Range lengths, rest;                                 // bonds of a cylinder are chords
   std::size_t bonds = 0;
-  const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
   for (const Bond& b : model.bonds)
-    if (own(b.particles[0]) && own(b.particles[1])) {
+    if (s.has(b.particles[0]) && s.has(b.particles[1])) {
       lengths.add((model.start.at(b.particles[1]) - model.start.at(b.particles[0])).hi.norm());
       rest.add(model.bond_types[b.type].rest_length);
       ++bonds;

@@ -74,11 +74,10 @@ std::vector<std::string> doubts(const Problem& problem, const Model& model) {
     return std::string();
   };
   for (const Structure& s : model.structures) {
-    const auto own = [&](int p) { return p >= s.first && p < s.first + s.count; };
     const auto bent = [&](const Angle& a) {
-      return own(a.particles[1]) && model.angle_types[a.type].rest != pi && model.angle_types[a.type].stiffness != 0;
+      return s.has(a.particles[1]) && model.angle_types[a.type].rest != pi && model.angle_types[a.type].stiffness != 0;
     };
-    const auto slack = [&](const Bond& b) { return own(b.particles[0]) && model.bond_types[b.type].stiffness == 0; };
+    const auto slack = [&](const Bond& b) { return s.has(b.particles[0]) && model.bond_types[b.type].stiffness == 0; };
     if (!model.plane_normal && std::any_of(model.angles.begin(), model.angles.end(), bent))
       lines.push_back(fmt::format("{} '{}' has rest angles that are not straight; in space an angle has no sign and is at rest on either "
                                   "side: a path may end where the structure becomes flat{}", s.kind, s.name, remedy(s)));
