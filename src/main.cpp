@@ -91,19 +91,8 @@ extern "C" void* wait_for_signals(void*) {
 const char* const description =
     "elamin: static equilibria of elastic structures made of glued particles.\n"
     "\n"
-    "  elamin problem.toml            run the study; results go to a directory named like the file\n"
-    "  elamin energy problem.toml     energies and forces of the starting state, nothing solved\n"
-    "  elamin check problem.toml      every mistake in the file, or what was understood of it\n"
-    "  elamin verify problem.toml...  run, and hold the results against the file's [[expect]]\n"
-    "  elamin compare problem.toml    run it by every method that can, side by side; nothing is written\n"
-    "  elamin export problem.toml     the model and its stages as a LAMMPS script and data file\n"
-    "  elamin import in.lmp           a LAMMPS input script as a problem file; what was taken, ignored, not understood\n"
-    "  elamin report DIR...           one page of the results, to look at in a browser; also --report after a run\n"
-    "  elamin plot DIR                a figure of what a run has left in its directory\n"
-    "  elamin prove DIR --at LABEL    that a state is near an equilibrium, and a minimum or not, as a theorem\n"
-    "  elamin resume DIR              a run or sweep that was stopped goes on where it was, with the same bits\n"
-    "  elamin collect DIR             sweep.csv of a sweep that was run in parts (--part K/N), each on a machine of its own\n"
-    "  elamin schema                  what a problem file may hold, as a JSON schema for editors\n";
+    "  elamin problem.toml        runs the study; results go to a directory named like the file\n"
+    "  elamin SUBCOMMAND …        does one of what stands below; elamin SUBCOMMAND --help tells what it takes\n";
 const char* const footer =
     "\nExit status: 0 done; 1 wrong input; 2 not converged, or no room for the results (what was\n"
     "reached is written); 3 an expectation is not met;\n"
@@ -245,7 +234,7 @@ int answer(int argc, char** argv) {
   energy_app->add_option("--forces", energy.forces_file, "write id,fx,fy,fz of all particles to this CSV file");
   energy_app->add_option("--lambda", energy.load_factor, "load factor (default: where the study starts; 1 without a path)");
   common(energy_app);
-  CLI::App* check_app = app.add_subcommand("check", "read and check only; say what was understood");
+  CLI::App* check_app = app.add_subcommand("check", "every mistake in a problem file, or what was understood of it");
   check_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   common(check_app);
   CLI::App* verify_app = app.add_subcommand("verify", "run, and hold the results against [[expect]]");
@@ -268,19 +257,19 @@ int answer(int argc, char** argv) {
   export_app->add_option("--steps", exported.steps, "steps of each stage's run towards equilibrium (default: about 20 periods of the slowest bending)")->check(positive("integer"));
   common(export_app);
   ReportOptions report;
-  CLI::App* report_app = app.add_subcommand("report", "one self-contained HTML page of the results of runs and sweeps");
+  CLI::App* report_app = app.add_subcommand("report", "one self-contained HTML page of the results of runs and sweeps, to look at in a browser; also --report after a run");
   report_app->add_option("directories", report.directories, "directories of results")->type_name("DIR")->required();
   report_app->add_option("-o,--output", report.file, "the page (default: report.html in the directory; of several directories, here)")->type_name("FILE");
   report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
   ResumeOptions stopped;
-  CLI::App* resume_app = app.add_subcommand("resume", "a run or sweep that was stopped goes on where it was");
+  CLI::App* resume_app = app.add_subcommand("resume", "a run or sweep that was stopped goes on where it was, with the same bits");
   resume_app->add_option("directory", stopped.directory, "the directory of its results")->type_name("DIR")->required();
   resume_app->add_option("--threads", stopped.threads, "threads to use (default: OMP_NUM_THREADS, or all cores)")->check(positive("integer"));
   resume_app->add_flag("--quiet", stopped.quiet, "print nothing but errors");
   resume_app->add_flag("--report", and_report, "then write report.html into the directory");
   checkpointed(resume_app);
   CollectOptions parts;
-  CLI::App* collect_app = app.add_subcommand("collect", "sweep.csv of a sweep that was run in parts (--part)");
+  CLI::App* collect_app = app.add_subcommand("collect", "sweep.csv of a sweep that was run in parts (--part K/N), each on a machine of its own");
   collect_app->add_option("directory", parts.directory, "the directory of its results")->type_name("DIR")->required();
   collect_app->add_flag("--quiet", parts.quiet, "print nothing but errors");
   FigureOptions figure;
@@ -292,7 +281,7 @@ int answer(int argc, char** argv) {
   plot_app->add_flag("!--no-diagram", figure.diagram, "the states alone");
   plot_app->add_option("--out", figure.file, "file of the figure, FIG.svg or FIG.pdf (default: DIR/figure.svg)");
   ImportOptions import;
-  CLI::App* import_app = app.add_subcommand("import", "a LAMMPS input script as a problem file, with a data file beside it");
+  CLI::App* import_app = app.add_subcommand("import", "a LAMMPS input script as a problem file, with a data file beside it; what was taken, ignored, not understood");
   import_app->add_option("script", import.script, "the script")->type_name("FILE")->required();
   import_app->add_option("-o,--output", import.output, "the problem file (default: the script's name with .toml)")->type_name("FILE.toml");
   import_app->add_flag("--dynamics", import.dynamics, "motion in time, step for step as LAMMPS makes it, instead of equilibria");
