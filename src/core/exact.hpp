@@ -93,4 +93,21 @@ class ExactSum {
   double total_ = 0, rest_ = 0;
 };
 
+// What is left when nearly equal lengths are subtracted is still good.
+
+/// √a for a ≥ 0, relative error about 2⁻¹⁰⁰ (one Newton step from the rounded root); 0 for a ≤ 0.
+inline Exact square_root(Exact a) {
+  if (!(a.hi > 0)) return {};
+  const double r = std::sqrt(a.hi);
+  return quick_two_sum(r, (a - two_product(r, r)).hi / (2 * r));
+}
+
+/// |a|.
+inline Exact length(const ExactVector& a) { return square_root(dot(a, a)); }
+
+/// a × b, each component to about 30 digits of |a||b|.
+inline ExactVector cross(const ExactVector& a, const ExactVector& b) {
+  return exact_vector(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+
 }  // namespace elamin

@@ -1,5 +1,4 @@
 #pragma once
-#include "laws/exact_geometry.hpp"
 #include "laws/law.hpp"
 #include "laws/section.hpp"
 #include "laws/triple.hpp"

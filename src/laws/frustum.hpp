@@ -1,6 +1,6 @@
 #pragma once
 // Cylinders and cones in the half-plane through their axis: a trapezoid, and points by their distance from the axis.
-#include "laws/exact_geometry.hpp"
+#include "core/exact.hpp"
 #include "laws/region.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Frustum {
     radius_hi = straight ? radius_lo : r.radius_hi;
     if (straight) return;
     rise = two_sum(radius_hi, -radius_lo), height = two_sum(hi, -lo);
-    slant = root(rise * rise + height * height);
+    slant = square_root(rise * rise + height * height);
   }
 
   /// S times the signed distance from the line of the side, positive outside: (ρ − radius_lo) L − (z − lo) ΔR; of a

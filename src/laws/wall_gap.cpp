@@ -136,7 +136,7 @@ class Search {
   }
 
   static std::optional<Foot> circle(Exact a, Exact b, bool on_side, double fraction) {
-    const Exact d = root(a * a + b * b);
+    const Exact d = square_root(a * a + b * b);
     if (!(d.hi > 0)) return {};
     return Foot{d, a.hi / d.hi, b.hi / d.hi, on_side, true, fraction};
   }

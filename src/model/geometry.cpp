@@ -28,13 +28,6 @@ Exact series(Exact x, int first) {
 
 }  // namespace
 
-Exact square_root(Exact a) {                       // one Newton step from the rounded root doubles its digits
-  const double r = std::sqrt(a.hi);
-  if (r == 0) return {};
-  const Exact rest = a - two_product(r, r);
-  return quick_two_sum(r, rest.value() / (2 * r));
-}
-
 Exact norm(const ExactVector& d) {                 // scaled by a power of 2 so that no square leaves the doubles' range
   if (!d.hi.allFinite()) return {d.hi.norm(), 0};
   const double largest = d.hi.cwiseAbs().maxCoeff();
@@ -42,8 +35,8 @@ Exact norm(const ExactVector& d) {                 // scaled by a power of 2 so 
   const int exponent = std::ilogb(largest);
   ExactVector unit;
   for (int c = 0; c < 3; ++c) unit.set(c, {std::ldexp(d.hi[c], -exponent), std::ldexp(d.lo[c], -exponent)});
-  const Exact root = square_root(dot(unit, unit));
-  return {std::ldexp(root.hi, exponent), std::ldexp(root.lo, exponent)};
+  const Exact size = square_root(dot(unit, unit));
+  return {std::ldexp(size.hi, exponent), std::ldexp(size.lo, exponent)};
 }
 
 Vec3 scaled(const Vec3& v) {

@@ -10,9 +10,6 @@ constexpr Exact exact_pi{3.14159265358979323846, 1.2246467991473532e-16};
 inline Exact exact(double x) { return {x, 0}; }
 inline ExactVector exact(const Vec3& x) { return {x, Vec3::Zero()}; }
 
-/// √a of a ≥ 0.
-Exact square_root(Exact a);
-
 /// |d|, for vectors of any size that doubles can hold.
 Exact norm(const ExactVector& d);
 

@@ -3,7 +3,7 @@
 #include "core/parallel.hpp"
 #include "energy/energy.hpp"
 #include "energy/load_difference.hpp"
-#include "laws/exact_geometry.hpp"
+#include "core/exact.hpp"
 #include "laws/check_law.hpp"
 
 using namespace elamin;

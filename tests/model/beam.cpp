@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "laws/exact_geometry.hpp"
+#include "core/exact.hpp"
 #include "model/beam.hpp"
 #include "model/geometry.hpp"
 
