@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include <fcntl.h>
@@ -37,6 +38,15 @@ void synchronise(const std::string& place, int flags, int (*how)(int)) {
 }  // namespace
 
 void cannot_write(const std::string& file) { throw OutputError(file + ": cannot be written: " + std::strerror(errno)); }
+
+void must_be_own(const std::string& file, const std::string& command, bool force) {
+  if (force || !fs::exists(file)) return;
+  std::ifstream in(file);
+  std::string line;
+  for (int k = 0; k < 2 && std::getline(in, line); ++k)
+    if (line.find("by elamin " + command) != std::string::npos) return;
+  throw InputError(file + ": is there already and was not written by elamin " + command + "; choose another name with -o, or --force");
+}
 
 void write_text(const std::string& file, std::string_view text) {
   WholeFile whole(file);

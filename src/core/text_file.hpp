@@ -9,6 +9,9 @@ namespace elamin {
 /// Throws OutputError with the reason that errno has.
 [[noreturn]] void cannot_write(const std::string& file);
 
+/// Throws InputError where `file` is there and `elamin COMMAND` has not written it, as one of its first two lines says; not with `force`.
+void must_be_own(const std::string& file, const std::string& command, bool force);
+
 /// Writes a file whole or not at all, see WholeFile. Throws OutputError if that fails.
 void write_text(const std::string& file, std::string_view text);
 

@@ -1,4 +1,4 @@
-#include "energy/body_collision_free_step.hpp"
+#include "energy/collision_free_step.hpp"
 
 #include "core/interrupt.hpp"
 #include "core/near_pairs.hpp"

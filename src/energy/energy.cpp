@@ -2,7 +2,6 @@
 
 #include "core/sparse.hpp"
 #include "energy/body_groups.hpp"
-#include "energy/body_collision_free_step.hpp"
 #include "energy/groups.hpp"
 #include "energy/touches.hpp"
 #include "model/entities.hpp"

@@ -3,7 +3,7 @@
 #include "input/parts.hpp"
 #include "input/conditions.hpp"
 #include "model/entities.hpp"
-#include "model/triangles.hpp"
+#include "model/sheet.hpp"
 
 #include <fmt/format.h>
 

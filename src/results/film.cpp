@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "lammps/state.hpp"
-#include "results/vtu.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "results/vtu.hpp"
+#include "results/shot.hpp"
 
 #include "core/text_file.hpp"
 #include "energy/wall_group.hpp"

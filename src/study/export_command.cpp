@@ -5,7 +5,6 @@
 #include "core/text_file.hpp"
 #include "dynamics/timestep.hpp"
 #include "study/imperfection.hpp"
-#include "study/own_file.hpp"
 #include "input/read.hpp"
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"

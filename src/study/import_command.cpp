@@ -7,7 +7,6 @@
 #include "core/text_file.hpp"
 #include "lammps/script/report.hpp"
 #include "lammps/script/translation.hpp"
-#include "study/own_file.hpp"
 
 #include <fmt/format.h>
 

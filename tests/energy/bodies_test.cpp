@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "chain.hpp"
 #include "core/parallel.hpp"
-#include "energy/body_collision_free_step.hpp"
+#include "energy/collision_free_step.hpp"
 #include "energy/energy.hpp"
 #include "energy/load_difference.hpp"
 #include "laws/check_law.hpp"

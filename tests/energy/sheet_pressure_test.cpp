@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "energy/energy.hpp"
 #include "input/model_of.hpp"
-#include "model/triangles.hpp"
+#include "model/sheet.hpp"
 #include "solve/method.hpp"
 
 #include <Eigen/SparseCholesky>

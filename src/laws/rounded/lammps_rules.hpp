@@ -4,7 +4,6 @@
 #include "laws/rounded/core_distance.hpp"
 #include "laws/rounded/kernel.hpp"
 #include "laws/rounded/pose.hpp"
-#include "laws/rounded/wrench.hpp"
 
 
 namespace elamin {

@@ -3,7 +3,6 @@
 #include "laws/rounded/core_distance.hpp"
 #include "laws/rounded/carried.hpp"
 #include "laws/rounded/pose.hpp"
-#include "laws/rounded/wrench.hpp"
 
 namespace elamin {
 
