@@ -16,9 +16,24 @@
 
 namespace elamin {
 
+namespace detail {
+
+struct AnyMember {
+  template <class T> operator T&() const;
+};
+
+/// How many members a plain struct has: the most that it can be made of, each of any type.
+template <class T, std::size_t n = 16> consteval std::size_t members() {
+  constexpr auto takes = []<std::size_t... i>(std::index_sequence<i...>) { return requires { T{(void(i), AnyMember())...}; }; };
+  if constexpr (takes(std::make_index_sequence<n>())) return n;
+  else return members<T, n - 1>();
+}
+
+}  // namespace detail
+
 /// Bytes of this machine, in the order in which they are called for. One list of parts, `archive(a, b, c)`, both writes them and reads them back:
-/// numbers, texts, containers, Eigen's matrices, and what has a member `carry(Archive&)` or a function `carry(Archive&, T&)`, which for plain structs
-/// names all members by a structured binding, so that a new one is not forgotten. Throws InputError where reading comes to the end of the bytes.
+/// numbers, texts, containers, Eigen's matrices, what has a member `carry(Archive&)`, and plain structs, of which no member is forgotten. Throws InputError
+/// where reading comes to the end of the bytes.
 class Archive {
  public:
   Archive() = default;                                                       // writes
@@ -49,7 +64,47 @@ class Archive {
     else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) raw(&x, sizeof x);
     else if constexpr (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>) matrix(x);
     else if constexpr (std::is_base_of_v<Eigen::QuaternionBase<T>, T>) matrix(x.coeffs());
-    else carry(*this, x);
+    else plain<detail::members<T>()>(x);
+  }
+  template <std::size_t n, class T> void plain(T& x) {
+    if constexpr (n == 2) {
+      auto& [a, b] = x;
+      (*this)(a, b);
+    } else if constexpr (n == 3) {
+      auto& [a, b, c] = x;
+      (*this)(a, b, c);
+    } else if constexpr (n == 4) {
+      auto& [a, b, c, d] = x;
+      (*this)(a, b, c, d);
+    } else if constexpr (n == 5) {
+      auto& [a, b, c, d, e] = x;
+      (*this)(a, b, c, d, e);
+    } else if constexpr (n == 6) {
+      auto& [a, b, c, d, e, f] = x;
+      (*this)(a, b, c, d, e, f);
+    } else if constexpr (n == 7) {
+      auto& [a, b, c, d, e, f, g] = x;
+      (*this)(a, b, c, d, e, f, g);
+    } else if constexpr (n == 8) {
+      auto& [a, b, c, d, e, f, g, h] = x;
+      (*this)(a, b, c, d, e, f, g, h);
+    } else if constexpr (n == 9) {
+      auto& [a, b, c, d, e, f, g, h, i] = x;
+      (*this)(a, b, c, d, e, f, g, h, i);
+    } else if constexpr (n == 11) {
+      auto& [a, b, c, d, e, f, g, h, i, j, k] = x;
+      (*this)(a, b, c, d, e, f, g, h, i, j, k);
+    } else if constexpr (n == 12) {
+      auto& [a, b, c, d, e, f, g, h, i, j, k, l] = x;
+      (*this)(a, b, c, d, e, f, g, h, i, j, k, l);
+    } else if constexpr (n == 13) {
+      auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = x;
+      (*this)(a, b, c, d, e, f, g, h, i, j, k, l, m);
+    } else {
+      static_assert(n == 15, "a struct of as many members has no line here");
+      auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p] = x;
+      (*this)(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p);
+    }
   }
   template <class M> void matrix(M& m) {
     Eigen::Index rows = m.rows(), columns = m.cols();

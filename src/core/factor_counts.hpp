@@ -14,7 +14,6 @@ enum class FactorsFor { points, events, snaps };
 struct FactorCounts {
   std::array<std::int64_t, 3> of{};              // each of FactorsFor
   std::int64_t refused = 0;                      // of all those that were no factor: the matrix was not positive definite, or singular
-  void carry(Archive& archive) { archive(of, refused); }
 };
 
 namespace detail {

@@ -12,7 +12,6 @@ namespace elamin {
 struct IndexPair {
   int first, second;
   auto operator<=>(const IndexPair&) const = default;
-  void carry(Archive& archive) { archive(first, second); }
 };
 
 /// All pairs with |c_i − c_j| ≤ ρ_i + ρ_j that `wanted` keeps (called from several threads), ascending. Balls of radius 0

@@ -1,7 +1,6 @@
 #pragma once
 // What moves: where everything is, how fast, and what has been put in and taken out.
 #include "laws/rounded/rigid_step.hpp"
-#include "model/carry.hpp"
 #include "model/model.hpp"
 
 namespace elamin {
@@ -22,24 +21,5 @@ struct Motion {
 class Kinematics;
 /// Throws InputError where something that can move has no mass, a contact is hard, or bodies cannot move as they are held.
 void refuse_what_cannot_move(const Model& model, const Kinematics& kinematics);
-
-// The parts of what moves, for an Archive.
-
-inline void carry(Archive& archive, BodyMotion& x) {
-  auto& [velocity, angular_velocity] = x;
-  archive(velocity, angular_velocity);
-}
-inline void carry(Archive& archive, Wrench& x) {
-  auto& [force, torque] = x;
-  archive(force, torque);
-}
-inline void carry(Archive& archive, RigidState& x) {
-  auto& [pose, velocity, angular_momentum] = x;
-  archive(pose, velocity, angular_momentum);
-}
-inline void carry(Archive& archive, Motion& x) {
-  auto& [state, velocity, angular_velocity, force, body_velocity, angular_momentum, body_force, torque, step, time, work, dissipation] = x;
-  archive(state, velocity, angular_velocity, force, body_velocity, angular_momentum, body_force, torque, step, time, work, dissipation);
-}
 
 }  // namespace elamin

@@ -1,7 +1,7 @@
 #pragma once
 // The pairs that are near enough to feel each other before anything has moved far.
 #include "core/near_pairs.hpp"
-#include "model/carry.hpp"
+#include "core/archive.hpp"
 #include "energy/contact_rules.hpp"
 
 #include <array>

@@ -24,6 +24,7 @@ struct State {
   double load_factor = 0;
   std::vector<HardForce> hard;   // of the hard contacts that bear a force
 
+  template <class A> void carry(A& archive) { archive(position, low, bodies, load_factor, hard); }
   State() = default;
   explicit State(Field positions) : position(std::move(positions)), low(Field::Zero(3, position.cols())) {}
 

@@ -2,7 +2,6 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
-#include "path/carry.hpp"
 #include "path/fading_contact.hpp"
 #include "path/family.hpp"
 #include "path/limits.hpp"

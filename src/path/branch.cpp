@@ -1,7 +1,6 @@
 #include "path/branch.hpp"
 
 #include "core/factor_counts.hpp"
-#include "path/carry.hpp"
 #include "path/event_error.hpp"
 #include "path/family.hpp"
 #include "path/limits.hpp"

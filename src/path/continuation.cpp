@@ -1,7 +1,6 @@
 #include "path/continuation.hpp"
 
 #include "model/entities.hpp"
-#include "path/carry.hpp"
 #include "path/cause.hpp"
 #include "path/family.hpp"
 #include "path/jump.hpp"

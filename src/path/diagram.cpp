@@ -1,5 +1,4 @@
 #include "core/interrupt.hpp"
-#include "path/carry.hpp"
 #include "path/continuation.hpp"
 #include "path/deflation.hpp"
 #include "path/hard_contact_steps.hpp"
@@ -75,7 +74,6 @@ class Diagram final : public Path {
     double energy = std::numeric_limits<double>::infinity(), other = energy;
     double size = 0;                     // of the terms that they are sums of
     std::string label = "";                   // of the other one
-    void carry(Archive& archive) { archive(load_factor, energy, other, size, label); }
   };
 
   void compare(const PathPoint& point, bool is_other) {

@@ -3,7 +3,6 @@
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "model/entities.hpp"
-#include "path/carry.hpp"
 #include "path/limits.hpp"
 #include "path/load_steps.hpp"
 #include "path/locate.hpp"

@@ -58,7 +58,6 @@ struct LandscapeChange {
 struct PathEvent {
   std::string label;
   double load_factor = 0;
-  void carry(Archive& archive) { archive(label, load_factor); }
 };
 
 struct Landscapes {

@@ -1,7 +1,6 @@
 #include "path/load_steps.hpp"
 
 #include "core/interrupt.hpp"
-#include "path/carry.hpp"
 #include "path/family.hpp"
 #include "path/limits.hpp"
 #include "path/locate.hpp"

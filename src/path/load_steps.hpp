@@ -48,7 +48,6 @@ class LoadSteps final : public Branch {
     int most = 0;                        // 0: without end
     double creep = 0, since = 0;
     int refused = 0;
-    void carry(Archive& archive) { archive(most, creep, since, refused); }
   } patience_;
 };
 

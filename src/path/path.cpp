@@ -1,7 +1,6 @@
 #include "path/path.hpp"
 
 #include "core/interrupt.hpp"
-#include "path/carry.hpp"
 
 #include <fmt/format.h>
 
@@ -15,11 +14,6 @@ std::optional<PathPoint> Path::next() {
   PathPoint point = std::move(ready_.front());
   ready_.pop_front();
   return point;
-}
-
-void carry(Archive& archive, Numbering& x) {
-  auto& [steps, branches, limits, branch_points, contacts, jumps, user_events] = x;
-  archive(steps, branches, limits, branch_points, contacts, jumps, user_events);
 }
 
 void Path::carry(Archive& archive) {

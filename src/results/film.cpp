@@ -86,11 +86,6 @@ Reel& Film::reel(const std::string& end) {
   return found != reels_.end() ? found->second : reels_.try_emplace(end, directory_.file(name_ + end), header(end), footer(end)).first->second;
 }
 
-void carry(Archive& archive, Box& x) {
-  auto& [lo, hi] = x;
-  archive(lo, hi);
-}
-
 void Film::carry(Archive& archive, bool dropping) {
   std::vector<std::string> ends;
   for (const auto& [end, reel] : reels_) ends.push_back(end);

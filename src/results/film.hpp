@@ -35,7 +35,6 @@ class Reel {
   struct Frame {
     std::int64_t step;
     std::size_t bytes;
-    void carry(Archive& archive) { archive(step, bytes); }
   };
 
   std::string file_, header_, footer_;

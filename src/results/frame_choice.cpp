@@ -1,6 +1,6 @@
 #include "results/frame_choice.hpp"
 
-#include "model/carry.hpp"
+#include "core/archive.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -37,7 +37,6 @@ class FrameChoice {
     int step;
     double at;
     bool labelled;
-    void carry(Archive& archive) { archive(step, at, labelled); }
   };
   double way_to(const PathPoint& point) const;
   double piece(double at) const;

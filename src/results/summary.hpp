@@ -18,7 +18,6 @@ struct EndCheck {
   std::string what;                                            // is not as it was told; "" if it passed
   double residual = 0, energy_error = 0;                       // as found anew [1, energy]
   int directions = 0;                                          // along which the energy was followed, and told something, where the point is called stable
-  void carry(Archive& archive) { archive(passed, what, residual, energy_error, directions); }
 };
 
 struct Summary {

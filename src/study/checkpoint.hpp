@@ -23,7 +23,6 @@ struct RunRecord {
   bool report = false;                                          // RunOptions::report
   int run = all;                                                // of a sweep that one; not_alone: of a bisection some one
   std::vector<std::pair<std::string, std::string>> inputs;      // the files that it reads besides, and the SHA-256 of each
-  void carry(Archive& archive) { archive(file, folder, text, settings, report, run, inputs); }
 };
 
 /// Nothing where the document is not what its file holds. `inputs` as input_hashes has them.

@@ -6,7 +6,6 @@
 #include "dynamics/lammps_bodies.hpp"
 #include "dynamics/verlet.hpp"
 #include "input/check.hpp"
-#include "path/carry.hpp"
 
 #include <fmt/format.h>
 

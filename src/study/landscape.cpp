@@ -2,7 +2,6 @@
 
 #include "core/interrupt.hpp"
 #include "energy/hard_gaps.hpp"
-#include "model/carry.hpp"
 #include "path/limits.hpp"
 #include "results/columns.hpp"
 #include "results/landscape.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 // The study "modes": which way an equilibrium gives way first.
-#include "path/carry.hpp"
 #include "path/equilibrium.hpp"
 #include "results/mode.hpp"
 #include "solve/factors.hpp"

@@ -23,7 +23,6 @@ class StrainWatch {
   struct Largest {
     double value = 0;
     std::string whose, where, since;            // since: where the limit was passed first; "" it was not
-    void carry(Archive& archive) { archive(value, whose, where, since); }
     bool grows(double v, double limit, const std::string& where);
   };
   Largest strain_, bend_;

@@ -3,7 +3,6 @@
 #include "input/staged_structure.hpp"
 #include "input/stages.hpp"
 #include "model/entities.hpp"
-#include "path/carry.hpp"
 #include "path/path.hpp"
 #include "study/landscape.hpp"
 #include "study/trace.hpp"
