@@ -25,9 +25,7 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
   const double extent = model.start.position.size() ? model.start.position.cwiseAbs().maxCoeff() : 0;
   const double rounding = 8 * epsilon * extent;   // of `along`
 
-  std::vector<int> structure(model.particles());
-  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s)
-    std::fill_n(structure.begin() + model.structures[s].first, model.structures[s].count, s);
+  const std::vector<int> structure = structure_of(model);
   std::set<std::pair<int, int>> told;
   for (std::size_t a = 0; a < order.size(); ++a)
     for (std::size_t b = a + 1; b < order.size(); ++b) {
@@ -82,17 +80,6 @@ void check_timestep(const Problem& problem, const Model& model, Mistakes& mistak
 }
 
 namespace {
-
-/// Index of the structure of each entity.
-std::vector<int> structure_of(const Model& model) {
-  std::vector<int> of(entities(model));
-  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s) {
-    const Structure& t = model.structures[s];
-    std::fill_n(of.begin() + t.first, t.count, s);
-    std::fill_n(of.begin() + model.particles() + t.first_body, t.bodies, s);
-  }
-  return of;
-}
 
 /// Those of a group.
 template <class Each> void for_entities(const Model& model, const std::vector<int>& particles, const std::vector<int>& bodies, const Each& each) {

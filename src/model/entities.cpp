@@ -20,6 +20,16 @@ std::string called(const Model& model, int entity) {
   return (body ? "body " : "particle ") + std::to_string(id_of(model, entity));
 }
 
+std::vector<int> structure_of(const Model& model) {
+  std::vector<int> of(entities(model), -1);
+  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s) {
+    const Structure& t = model.structures[s];
+    std::fill_n(of.begin() + t.first, t.count, s);
+    std::fill_n(of.begin() + model.particles() + t.first_body, t.bodies, s);
+  }
+  return of;
+}
+
 double size_of(const Model& model, int entity) {
   if (is_body(model, entity)) return 2 * model.shapes[model.bodies[entity - model.particles()].shape].bounding_radius();
   return model.diameter[entity];

@@ -13,6 +13,8 @@ int id_of(const Model& model, int entity);
 /// Its structure and its number there, from 1: "ball 1", "sheet 1757"; "body cube"; "particle 7", "body 9" with their ids of
 /// what a data file has and what is in no structure.
 std::string called(const Model& model, int entity);
+/// Of each the number of its structure.
+std::vector<int> structure_of(const Model& model);
 /// A particle's diameter, twice a body's bounding radius [length].
 double size_of(const Model& model, int entity);
 /// The largest and the smallest size that is not 0; 0: there is none. [length]

@@ -69,18 +69,6 @@ struct Part {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-// Of which structure everything is, −1: none; how many particles and bodies it has.
-std::vector<int> structure_of(const Model& model) {
-  std::vector<int> of(entities(model), -1);
-  for (std::size_t s = 0; s < model.structures.size(); ++s) {
-    const Structure& structure = model.structures[s];
-    const int k = static_cast<int>(s), first_body = model.particles() + structure.first_body;
-    std::fill_n(of.begin() + structure.first, structure.count, k);
-    std::fill_n(of.begin() + first_body, structure.bodies, k);
-  }
-  return of;
-}
-
 // A part is named after its structure if it is all of it, else after its first member; `more`: it touches what is named.
 std::vector<Part> parts_of(const Model& model, const Pairs& also) {
   const std::vector<int> of = connected_parts(model, also), glued = also.empty() ? of : connected_parts(model), structures = structure_of(model);

@@ -196,10 +196,9 @@ std::string stiffness_of(const std::optional<double>& bond, const std::optional<
 
 // Bonds between two groups that are no structure's own.
 std::string describe_connection(const ConnectTable& t, const Model& model) {
-  std::vector<int> structure(model.particles(), -1);                       // that has bonds of its own
-  for (std::size_t s = 0; s < model.structures.size(); ++s)
-    if (model.structures[s].bond_type >= 0)
-      std::fill_n(structure.begin() + model.structures[s].first, model.structures[s].count, static_cast<int>(s));
+  std::vector<int> structure = structure_of(model);                        // that has bonds of its own
+  for (int& s : structure)
+    if (s >= 0 && model.structures[s].bond_type < 0) s = -1;
   std::array<std::vector<bool>, 2> member;
   for (int side = 0; side < 2; ++side) {
     member[side].resize(model.particles());
