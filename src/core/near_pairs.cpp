@@ -29,8 +29,7 @@ struct Grid {
 
 }  // namespace
 
-std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double>& radii,
-                                  const std::function<bool(int, int)>& wanted) {
+std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double>& radii, const std::function<bool(int, int)>& wanted) {
   const int n = static_cast<int>(centers.cols());
   std::map<int, Grid> grids;                                    // by the power of two of the radius
   for (int i = 0; i < n; ++i) {

@@ -17,7 +17,6 @@ struct IndexPair {
 /// All pairs with |c_i − c_j| ≤ ρ_i + ρ_j that `wanted` keeps (called from several threads), ascending. Balls of radius 0
 /// meet nobody. centers 3 × n, radii n [length]. About n log n for any mixture of sizes that does not overlap much.
 /// Source: hierarchical grids, as Ogarko & Luding 2012, Comput. Phys. Commun. 183.
-std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double>& radii,
-                                  const std::function<bool(int, int)>& wanted);
+std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double>& radii, const std::function<bool(int, int)>& wanted);
 
 }  // namespace elamin

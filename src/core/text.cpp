@@ -31,8 +31,7 @@ std::size_t length_of_text(const std::string& bytes) {
       if ((at(i + k) & 0xC0) != 0x80) return i;
     const unsigned next = at(i + 1);
     // Overlong forms, surrogates, and what lies beyond U+10FFFF.
-    if ((b == 0xE0 && next < 0xA0) || (b == 0xED && next > 0x9F) || (b == 0xF0 && next < 0x90) ||
-        (b == 0xF4 && next > 0x8F))
+    if ((b == 0xE0 && next < 0xA0) || (b == 0xED && next > 0x9F) || (b == 0xF0 && next < 0x90) || (b == 0xF4 && next > 0x8F))
       return i;
     i += 1 + more;
   }

@@ -233,8 +233,7 @@ void PairForces::add(const Hertz& pairs, const ContactDamping& damping, const Mo
           turning = turning + radii[side] * columns_of(movement.angular_velocity.row[p[0]], movement.angular_velocity.row[p[1]],
                                                        movement.angular_velocity.row[p[2]], movement.angular_velocity.row[p[3]]);
         }
-        const Triple<Lanes> rub = friction(n, v, along, turning, elastic + slow, Lanes(damping.tangential) * eta,
-                                           Lanes(damping.friction));
+        const Triple<Lanes> rub = friction(n, v, along, turning, elastic + slow, Lanes(damping.tangential) * eta, Lanes(damping.friction));
         f = f + rub;
         const Triple<Lanes> t = cross(n, rub);
         for (const int side : {0, 1})

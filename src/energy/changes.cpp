@@ -38,8 +38,7 @@ Kinds kinds(const Model& model, const std::vector<Element>& elements, std::size_
 }  // namespace
 
 Kinds bond_kinds(const Model& model) {
-  return kinds(model, model.bonds, model.bond_types.size(),
-               [](const Change& c) { return c.rest_length != 0 || c.bond_stiffness != 0; });
+  return kinds(model, model.bonds, model.bond_types.size(), [](const Change& c) { return c.rest_length != 0 || c.bond_stiffness != 0; });
 }
 
 Kinds angle_kinds(const Model& model) {

@@ -21,8 +21,7 @@ bool Neighbours::covers(const State& state, double within) const {
   if (listed_.particles() != state.particles() || !(within <= skin_)) return false;
   const double most = (skin_ - within) / 2;                     // each of two may have come nearer by it
   for (Eigen::Index i = 0; i < state.particles(); ++i)
-    if (rules_.cutoff_radius(static_cast<int>(i)) > 0 &&
-        !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= most * most))
+    if (rules_.cutoff_radius(static_cast<int>(i)) > 0 && !((state.position.col(i) - listed_.position.col(i)).squaredNorm() <= most * most))
       return false;
   for (const HardForce& h : state.hard)
     if (h.wall < 0 && !std::binary_search(pairs_[2].begin(), pairs_[2].end(), IndexPair{h.particle, h.other})) return false;

@@ -56,13 +56,11 @@ void check_arch(BeamTable& b, bool in_plane, Mistakes& mistakes) {
   const auto written = [&](const char* key) { return b.place.written(key); };
   const bool is_arch = written("rise") || written("angle");
   if (is_arch && !(written("from") && written("to")))
-    mistakes.add(b.place, written("rise") ? "rise" : "angle",
-                  "is of an arch, which stands on from and to; give both");
+    mistakes.add(b.place, written("rise") ? "rise" : "angle", "is of an arch, which stands on from and to; give both");
   if (!is_arch) return;
   if (b.rise && *b.rise == 0) mistakes.add(b.place, "rise", "must not be 0; leave it out for a straight beam");
   if (!written("toward") && !in_plane && written("from") && written("to"))
-    mistakes.add(b.place, "toward",
-                  "is missing; the arch rises to this side of from and to. In a plane it may be left out");
+    mistakes.add(b.place, "toward", "is missing; the arch rises to this side of from and to. In a plane it may be left out");
   if (b.from && b.to && b.toward && *b.from != *b.to && !rises({*b.from, *b.to, *b.toward}))
     mistakes.add(b.place, "toward", "leads to no side of the line between from and to");
   if (b.particles == 2) mistakes.add(b.place, "particles", "must be at least 3 for an arch");
@@ -136,8 +134,7 @@ void check(BeamTable& b, bool in_plane, Mistakes& mistakes) {
     if (middle)
       mistakes.add(b.place, "clamped", "needs ends; give from and to, or through, points or file");
     else if (b.particles > 0 && b.particles < least)
-      mistakes.add(b.place, "particles",
-                    fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
+      mistakes.add(b.place, "particles", fmt::format("must be at least {} with {} clamped", least, least == 3 ? "an end" : "both ends"));
   }
   check_row_stiffness(b.place, mistakes);
 }
@@ -160,8 +157,7 @@ std::vector<ExactVector> corners_of(const BeamTable& table) {
   else if (table.from)
     corners = {exact(*table.from), exact(*table.to)};
   else
-    for (const ExactVector& x : ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter),
-                                            table.particles - 1))
+    for (const ExactVector& x : ends_of_row(*table.center, *table.axis, table.spacing.value_or(table.diameter), table.particles - 1))
       corners.push_back(x);
   return corners;
 }
@@ -174,15 +170,13 @@ std::optional<Centerline> arch_of(const BeamTable& table, const std::string& pla
   }
   const double chord = (a.to - a.from).norm();
   if (!rises(a) || chord <= 1e-12 * size) {
-    mistakes.add(table.place, "to",
-                 "is no place to which an arch leads from here; from and to must lie apart in the plane");
+    mistakes.add(table.place, "to", "is no place to which an arch leads from here; from and to must lie apart in the plane");
     return std::nullopt;
   }
   if (table.profile == Profile::sine) {
     std::optional<Centerline> line = half_sine(a, *table.rise, table.particles);
     if (!line)
-      mistakes.add(table.place, "rise",
-                   "is too high for so few particles on a sine; take more of them, or a circle");
+      mistakes.add(table.place, "rise", "is too high for so few particles on a sine; take more of them, or a circle");
     return line;
   }
   if (table.angle) return arc(a, exact(*table.angle) / exact(360), table.particles, clamped_ends(table));

@@ -38,19 +38,15 @@ void check_distinct(const Problem& problem, const Model& model, Mistakes& mistak
       const bool allowed = of_file && problem.study == StudyType::energy;
       if (!allowed && told.insert({structure[i], structure[j]}).second) {
         const Vec3 x = model.start.position.col(i);
-        mistakes.add(
-            place_of(problem, second),
-            fmt::format(
-                "{} is in the same place as {}, [{}, {}, {}]; particles must lie apart", called(model, j), called(model, i), x[0], x[1],
-                x[2]));
+        mistakes.add(place_of(problem, second), fmt::format("{} is in the same place as {}, [{}, {}, {}]; particles must lie apart",
+                                                            called(model, j), called(model, i), x[0], x[1], x[2]));
       }
       if (told.size() > 20) return;
       break;   // on to the next of the list, so that a heap of many in one place takes no longer
     }
 }
 
-void check_plane(const Problem& problem, const Model& model, const State& state, const TablePlace& whose,
-                 Mistakes& mistakes) {
+void check_plane(const Problem& problem, const Model& model, const State& state, const TablePlace& whose, Mistakes& mistakes) {
   if (!model.plane_normal || state.particles() + state.bodies.size() == 0) return;
   const int c = *model.plane_normal;
   const auto at = [c](const State& s, std::size_t k) {
@@ -212,8 +208,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
     } else if (!asked || force[parts.cluster(i)]) {
       const std::string of_file =
           fmt::format("{} is connected to {} that a support holds", called(model, i), model.bodies.empty() ? "no particle" : "nothing");
-      tell(i, (s.kind == "lammps" ? of_file : "none of its particles is held by a support") +
-                  "; an equilibrium needs a [[support]]");
+      tell(i, (s.kind == "lammps" ? of_file : "none of its particles is held by a support") + "; an equilibrium needs a [[support]]");
     }
   }
   // What is held may still move as a whole. A translation is never an equilibrium's business; a rotation is if
@@ -229,8 +224,7 @@ void check_held(const Problem& problem, const Model& model, Mistakes& mistakes) 
   }
   for (std::size_t s = 0; s < names.size(); ++s)
     if (!names[s].empty())
-      mistakes.add(place_of(problem, model.structures[s]),
-                   "free to move as a whole: " + names[s] + "; hold it with a [[support]]");
+      mistakes.add(place_of(problem, model.structures[s]), "free to move as a whole: " + names[s] + "; hold it with a [[support]]");
 }
 
 void check_modes(const Problem& problem, const Model& model, Mistakes& mistakes) {

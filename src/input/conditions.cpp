@@ -15,16 +15,14 @@ std::vector<Condition> conditions_of(const Problem& problem) {
 }
 
 int find_condition(const std::vector<Condition>& conditions, const std::string& word) {
-  const auto found = std::find_if(conditions.begin(), conditions.end(),
-                                  [&](const Condition& c) { return c.answers_to(word); });
+  const auto found = std::find_if(conditions.begin(), conditions.end(), [&](const Condition& c) { return c.answers_to(word); });
   return found == conditions.end() ? -1 : static_cast<int>(found - conditions.begin());
 }
 
 Scaling scaling_of(const Problem& problem, const Condition& condition) {
   const std::vector<std::string>& chosen = problem.path.parameter;
   if (chosen.empty()) return condition.constant ? Scaling::constant() : Scaling();
-  const bool named = std::any_of(chosen.begin(), chosen.end(),
-                                 [&](const std::string& word) { return condition.answers_to(word); });
+  const bool named = std::any_of(chosen.begin(), chosen.end(), [&](const std::string& word) { return condition.answers_to(word); });
   return named ? Scaling() : Scaling::constant();
 }
 

@@ -137,8 +137,7 @@ const Node* find(const Entries& entries, const std::string& key) { return find(c
 
 bool is_tables(const Node& node) {
   const auto* list = std::get_if<List>(&node.value);
-  return list && std::all_of(list->begin(), list->end(),
-                             [](const Node& n) { return std::holds_alternative<Entries>(n.value); });
+  return list && std::all_of(list->begin(), list->end(), [](const Node& n) { return std::holds_alternative<Entries>(n.value); });
 }
 
 std::string shown(const Node& node) {

@@ -137,8 +137,7 @@ std::string wrong_at(const Problem& p, const std::string& at) {
   const bool watched = std::any_of(p.events.begin(), p.events.end(), [&](const EventTable& e) { return e.name == kind; });
   if (!watched && kind != "branch" && kind != "limit" && kind != "contact" && kind != "jump" && kind != "deflated")
     return allowed + did_you_mean(at, labels);
-  if (number.empty() || number.size() > 9 || number[0] == '0' ||
-      number.find_first_not_of("0123456789") != std::string::npos)
+  if (number.empty() || number.size() > 9 || number[0] == '0' || number.find_first_not_of("0123456789") != std::string::npos)
     return allowed;
   if (!watched && kind != "jump" && kind != "deflated" && !p.path.place.broken && !is_in(p.path.locate, kind))
     return in_quotes(kind) + " is not among path.locate; only located events have a row";

@@ -129,8 +129,7 @@ const Members* Groups::find(const TablePlace& table, const char* key, const std:
     std::vector<std::string> types;
     for (const std::string& known : order_)
       if (is_type_group(known)) types.push_back(known);
-    mistakes_.add(table, key,
-                  in_quotes(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
+    mistakes_.add(table, key, in_quotes(name) + " names no group; the data file has: " + listed(types) + did_you_mean(name, types));
   }
   return nullptr;
 }
@@ -183,8 +182,7 @@ std::optional<Members> Groups::chosen(const GroupTable& table, const Members& fr
   for (const auto& [key, count] : {std::pair("first", table.first), {"last", table.last}, {"middle", table.middle}}) {
     if (!count) continue;
     if (*count > size) {
-      mistakes_.add(table.place, key,
-                    fmt::format("must be at most {}, the {} of {}, is {}", size, kinds(from), origin(table), *count));
+      mistakes_.add(table.place, key, fmt::format("must be at most {}, the {} of {}, is {}", size, kinds(from), origin(table), *count));
       return std::nullopt;
     }
     // The middle n of N; where one side must have one more left over, it is the end: the lower ones are taken.
@@ -203,8 +201,7 @@ std::optional<Members> Groups::chosen(const GroupTable& table, const Members& fr
     if (region.contains(model_.start.bodies[b].position) == inside) members.bodies.push_back(b);
   if (members.count() == 0) {
     const std::string what = from.bodies.empty() ? "no particle" : from.particles.empty() ? "no body" : "no particle and no body";
-    mistakes_.add(table.place, inside ? "inside" : "outside",
-                  fmt::format("holds {} of {}; a group has at least one", what, origin(table)));
+    mistakes_.add(table.place, inside ? "inside" : "outside", fmt::format("holds {} of {}; a group has at least one", what, origin(table)));
     return std::nullopt;
   }
   return members;

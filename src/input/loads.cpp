@@ -142,11 +142,9 @@ void need_density(const Problem& problem, const Model& model, const std::vector<
     while (i >= s->first + s->count) ++s;
     if (!told.insert(s->name).second) continue;
     if (s->kind == "lammps")
-      mistakes.add(problem.lammps->place, "data",
-                   fmt::format("particle {} has no mass, which {} needs", model.id[i], needed));
+      mistakes.add(problem.lammps->place, "data", fmt::format("particle {} has no mass, which {} needs", model.id[i], needed));
     else
-      mistakes.add(place_of(problem, *s), "density",
-                   fmt::format("is missing; it must be a positive number, {} needs it", needed));
+      mistakes.add(place_of(problem, *s), "density", fmt::format("is missing; it must be a positive number, {} needs it", needed));
   }
 }
 
@@ -311,8 +309,7 @@ void add_loads(const Problem& problem, Groups& groups, Model& model, Mistakes& m
     const LoadTable& table = problem.loads[t];
     const Members* members = groups.find(table.place, "group", table.group);
     if (!members) continue;
-    Load load{table.group, members->particles, Vec3::Zero(),
-              scaling_of(problem, condition_of("load", problem.loads, t))};
+    Load load{table.group, members->particles, Vec3::Zero(), scaling_of(problem, condition_of("load", problem.loads, t))};
     load.bodies = members->bodies;
     for (const char* key : {"point", "torque"})
       if (table.place.keys.count(key) && load.bodies.empty())

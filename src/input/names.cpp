@@ -7,8 +7,7 @@
 namespace elamin {
 
 bool is_type_group(const std::string& name) {
-  return name.size() > 4 && name.compare(0, 4, "type") == 0 &&
-         name.find_first_not_of("0123456789", 4) == std::string::npos;
+  return name.size() > 4 && name.compare(0, 4, "type") == 0 && name.find_first_not_of("0123456789", 4) == std::string::npos;
 }
 
 std::string named(const TablePlace& place) {
@@ -25,12 +24,10 @@ Names::Names(const Problem& problem, const std::vector<std::string>& others, Mis
 void Names::add(TablePlace& place, const std::string& name, Places& to) {
   if (name.empty()) return;
   if (name == "all" || name == "lammps" || is_type_group(name))
-    return mistakes_.add(
-        place, "name", in_quotes(name) + " is reserved; \"all\", \"lammps\" and \"type1\", \"type2\", … name themselves");
+    return mistakes_.add(place, "name", in_quotes(name) + " is reserved; \"all\", \"lammps\" and \"type1\", \"type2\", … name themselves");
   for (const Places* places : {&groups_, &walls_})
     if (const auto first = places->find(name); first != places->end())
-      return mistakes_.add(place, "name",
-                           in_quotes(name) + " is taken by " + named(first->second) + "; names are unique");
+      return mistakes_.add(place, "name", in_quotes(name) + " is taken by " + named(first->second) + "; names are unique");
   to.emplace(name, place);
 }
 

@@ -111,8 +111,7 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
 void check_distinct(const Problem& problem, const Model& model, Mistakes& mistakes);
 
 /// Particles and bodies that are not in one plane, where the problem asks for it.
-void check_plane(const Problem& problem, const Model& model, const State& state, const TablePlace& whose,
-                 Mistakes& mistakes);
+void check_plane(const Problem& problem, const Model& model, const State& state, const TablePlace& whose, Mistakes& mistakes);
 
 /// What cannot be an equilibrium. Glued parts that neither a support nor, by its tables, a wall or a contact may hold
 /// are told once a structure; a single particle only if a force acts on it. Parts that only touch each other are fine

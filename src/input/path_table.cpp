@@ -90,8 +90,7 @@ namespace {
 void check_method(PathTable& t, Mistakes& mistakes) {
   if (t.method == PathMethod::arc_length || t.branches > 0) return;
   const auto refuse = [&](const char* key) {
-    mistakes.add(t.place, key, "is for branches in arc length: method = \"arc_length\", or branches; load steps go from "
-                               "`from` to `to`");
+    mistakes.add(t.place, key, "is for branches in arc length: method = \"arc_length\", or branches; load steps go from `from` to `to`");
   };
   if (t.lowest) refuse("lowest");
   if (t.highest) refuse("highest");
@@ -132,8 +131,7 @@ void check_stops(PathTable& t, bool staged, Mistakes& mistakes) {
 void check_table(PathTable& t, bool is_path, bool staged, Mistakes& mistakes) {
   if (t.place.broken) return;
   if (t.from == t.to && !staged)
-    mistakes.add(t.place, "to",
-                 fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
+    mistakes.add(t.place, "to", fmt::format("is the same load factor as from, {}; a path leads from one to another", t.to));
   if (t.start_lambda && t.start.empty())
     mistakes.add(t.place, "start_lambda", "is of no use without start, the state to start from");
   if (is_path && !staged && t.start_lambda && *t.start_lambda == t.to && t.from != t.to) {

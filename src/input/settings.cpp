@@ -56,8 +56,7 @@ class Walk {
     return nullptr;
   }
   Node* unknown(const std::string& part) {
-    return refuse(fmt::format("{} is no key; allowed: {}{}", in_quotes(part), listed(tree_->names()),
-                              did_you_mean(part, tree_->names())));
+    return refuse(fmt::format("{} is no key; allowed: {}{}", in_quotes(part), listed(tree_->names()), did_you_mean(part, tree_->names())));
   }
   /// One of [constants], which must be there: nothing would use another.
   Node* constant(const std::string& part) {

@@ -65,15 +65,10 @@ std::optional<Sheet> built(const SheetTable& table, Mistakes& mistakes) {
   const int particles = sheet_particles(s);
   if (particles > most_particles)
     mistakes.add(table.place,
-                  fmt::format("has more particles than can be handled, {}; make it smaller or its spacing "
-                              "larger",
-                              most_particles));
+                 fmt::format("has more particles than can be handled, {}; make it smaller or its spacing larger", most_particles));
   else if (particles == 0)
-    mistakes.add(
-        table.place, "radius",
-        fmt::format("is too small for the spacing: once around is {:.3g} spacings, and a cylinder closes with "
-                    "three",
-                    2 * pi * s.radius / s.spacing));
+    mistakes.add(table.place, "radius", fmt::format("is too small for the spacing: once around is {:.3g} spacings, and a cylinder closes with three",
+                                                    2 * pi * s.radius / s.spacing));
   else if (particles == 1)
     mistakes.add(table.place, "spacing", "is too large: the sheet has one particle; it needs two at least");
   else

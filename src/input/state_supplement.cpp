@@ -65,8 +65,7 @@ class TailReader {
   TailReader(std::string file, Json json) : file_(std::move(file)), json_(std::move(json)) {}
 
   StateSupplement read() const {
-    if (!json_.is_object() || !json_.contains("lambda") || !json_.contains("tail") || !number(json_["lambda"]) ||
-        !json_["tail"].is_array())
+    if (!json_.is_object() || !json_.contains("lambda") || !json_.contains("tail") || !number(json_["lambda"]) || !json_["tail"].is_array())
       wrong("must hold {\"lambda\": number, \"tail\": [[x, y, z], …]}, as beside every stored state; without this file "
             "the state is taken from its data file alone");
     StateSupplement stored{json_["lambda"].get<double>(), Field(3, static_cast<Eigen::Index>(json_["tail"].size())), {}, {}};
@@ -168,8 +167,7 @@ class TailReader {
     if (j.contains("closed")) {
       constexpr int most = std::numeric_limits<int>::max();
       const auto contact = [&](const Json& c) {
-        return c.is_array() && c.size() == 3 && integer(c[0], 0, sites - 1) && integer(c[1], -1, sites - 1) &&
-               integer(c[2], -1, most);
+        return c.is_array() && c.size() == 3 && integer(c[0], 0, sites - 1) && integer(c[1], -1, sites - 1) && integer(c[2], -1, most);
       };
       if (!all(j["closed"], contact))
         wrong("path.resume.closed must be contacts [particle, other or -1, wall or -1], particles counted from 0");

@@ -93,8 +93,7 @@ void check_structures(Problem& problem, Names& names, Mistakes& mistakes) {
   for (const BeamTable& b : problem.beams) particles += b.particles;
   for (const LoopTable& l : problem.loops) particles += l.particles;
   if (particles > most_particles)
-    mistakes.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", particles,
-                             most_particles));
+    mistakes.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", particles, most_particles));
 }
 
 bool add_structures(const Problem& problem, Model& model, std::vector<std::string>& left_out, Mistakes& mistakes) {
@@ -109,8 +108,7 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
   total += rows, room += room_in_row * rows;
   if (total > most_particles) {
     if (rows <= most_particles)   // else said when the file was read
-      mistakes.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", total,
-                               most_particles));
+      mistakes.add(fmt::format("the structures have {:.0f} particles together; at most {} can be handled", total, most_particles));
     return false;
   }
   if (room > all_memory()) {
@@ -120,11 +118,8 @@ bool add_structures(const Problem& problem, Model& model, std::vector<std::strin
   for (const auto* numbers : {&model.id, &model.type, &model.molecule}) {
     const int most = numbers->empty() ? 0 : *std::max_element(numbers->begin(), numbers->end());
     if (most > std::numeric_limits<int>::max() - total && total > model.particles()) {
-      mistakes.add(
-          problem.lammps->place, "data",
-          fmt::format("its numbers of particles, types or molecules reach {}; there is no room above for those "
-                      "of the other structures",
-                      most));
+      mistakes.add(problem.lammps->place, "data",
+                   fmt::format("its numbers of particles, types or molecules reach {}; there is no room above for those of the other structures", most));
       return false;
     }
   }

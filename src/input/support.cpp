@@ -121,9 +121,8 @@ class Holders {
     const auto word = [](const Scaling& s) { return s.rate == 0 ? "constant" : "scaled"; };
     const std::string what = here != there ? fmt::format("{} here, {} there", here, there)
                                            : fmt::format("{} here, {} there", word(at_a), word(at_b));
-    mistakes_.add(
-        a.place, fmt::format("prescribes {} of {} otherwise than {} ({}); one coordinate has one displacement",
-                             "xyz"[c], name, named(b.place), what));
+    mistakes_.add(a.place, fmt::format("prescribes {} of {} otherwise than {} ({}); one coordinate has one displacement", "xyz"[c], name, named(b.place),
+                                       what));
   }
 
   const Problem& problem_;

@@ -186,8 +186,7 @@ std::optional<Centerline> polyline(const std::vector<Vec3>& corners, int particl
   std::size_t s = 0;
   for (int i = 0; i < particles; ++i) {
     while (places.of(i) >= place[s + 1] && s + 2 < place.size()) ++s;
-    line.centers.push_back(point_between(exact(corners[s]), exact(corners[s + 1]), places.of(i) - place[s],
-                                         place[s + 1] - place[s]));
+    line.centers.push_back(point_between(exact(corners[s]), exact(corners[s + 1]), places.of(i) - place[s], place[s + 1] - place[s]));
   }
   line.spacing = along.back() / places.length;
   return line;

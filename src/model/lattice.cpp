@@ -33,8 +33,7 @@ Interval rows_of(const Outline& o) {
     sine = -half_root_three * static_cast<double>(o.n2) / width;
   }
   const double u = -width * sine, v = height * cosine;         // heights of its sides above the row through the corner
-  return {(std::min(0.0, u) + std::min(0.0, v)) / half_root_three - 1,
-          (std::max(0.0, u) + std::max(0.0, v)) / half_root_three + 1};
+  return {(std::min(0.0, u) + std::min(0.0, v)) / half_root_three - 1, (std::max(0.0, u) + std::max(0.0, v)) / half_root_three + 1};
 }
 
 /// The i of the points of row j.

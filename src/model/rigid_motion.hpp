@@ -27,8 +27,7 @@ struct RigidMotion {
 /// The rigid motions of every part that is glued together (connected by bonds and angles, or carried by a body), at the given
 /// state, that the supports leave free. Motions that move nothing, as turning a straight row about its own line, do not count;
 /// a body turns about any. `also`: pairs of entities that hold each other as if glued, as contacts in force do.
-std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& state,
-                                            const std::vector<std::array<int, 2>>& also = {});
+std::vector<RigidMotion> free_rigid_motions(const Model& model, const State& state, const std::vector<std::array<int, 2>>& also = {});
 
 /// The motions of one part that these combinations (as many rows as there are motions of it) span, named like any.
 std::vector<RigidMotion> combined(const std::vector<RigidMotion>& motions, const Eigen::MatrixXd& combinations);

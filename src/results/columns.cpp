@@ -122,8 +122,7 @@ Row sweep_row(const std::vector<Cell>& values, const std::string& status, const 
   Row row(values.begin(), values.end());
   row.emplace_back(status);
   for (const std::string& label : first_events(problem)) {
-    const auto it =
-        std::find_if(events.rows.begin(), events.rows.end(), [&](const Row& r) { return r[0] == Cell(label); });
+    const auto it = std::find_if(events.rows.begin(), events.rows.end(), [&](const Row& r) { return r[0] == Cell(label); });
     row.push_back(it == events.rows.end() ? Cell{} : (*it)[1]);
   }
   if (problem.curve) row.push_back(curve.rows.empty() ? Cell{} : curve.rows.back().front());

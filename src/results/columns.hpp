@@ -27,8 +27,7 @@ Row node_row(const PathPoint& p, const std::vector<double>& observables);
 /// stable, then the observables, parent, negative_rigid, and `stage` of a path in stages.
 std::vector<std::string> path_columns(const std::vector<std::string>& observables, bool staged = false);
 /// stage: of a path in stages, the name of the point's.
-Row path_row(const PathPoint& point, const std::vector<double>& observables,
-             const std::optional<std::string>& stage = std::nullopt);
+Row path_row(const PathPoint& point, const std::vector<double>& observables, const std::optional<std::string>& stage = std::nullopt);
 
 /// label, lambda, multiplicity, then the columns of path.csv without label and lambda, with negative_before,
 /// negative_after, what and, if asked for, lambda_error (of the load factor, by rounding) behind negative_rigid.

@@ -316,8 +316,7 @@ Vec3 Observables::of_body(Quantity q, int b, const Seen& seen) const {
   }
 }
 
-std::vector<Vec3> Observables::of_wall(const ObserveTable& o, const Subject& subject,
-                                       const std::vector<Touch>& touches) const {
+std::vector<Vec3> Observables::of_wall(const ObserveTable& o, const Subject& subject, const std::vector<Touch>& touches) const {
   std::vector<Vec3> values;
   if (o.quantity == Quantity::gap) {
     const std::vector<double> all = gaps(subject.wall, touches);

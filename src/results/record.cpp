@@ -40,8 +40,7 @@ void Record::enter(const Stage& stage, const Model& model) {
   if (!problem_.stages.empty()) stage_ = stage.name;
 }
 
-void Record::add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
-                 const std::vector<double>& eigenvalues) {
+void Record::add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches, const std::vector<double>& eigenvalues) {
   std::vector<double> values = observables_->evaluate(point.state, forces, touches);
   values.insert(values.end(), eigenvalues.begin(), eigenvalues.end());
   values.resize(names_.size() - model_->own.size(), std::numeric_limits<double>::quiet_NaN());     // fewer dofs than modes asked for

@@ -21,8 +21,7 @@ class Record {
 
   /// A point of the path; forces: −∂U/∂x of all sites with the loads, 3 × sites; touches: see
   /// Observables::evaluate; eigenvalues: the lowest, where the study has them. An event (a label such as "branch:1") stands in both tables.
-  void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
-           const std::vector<double>& eigenvalues = {});
+  void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches, const std::vector<double>& eigenvalues = {});
 
   /// A moment of a motion; touches as above.
   void add(const Moment& moment, const std::vector<Touch>& touches);

@@ -46,8 +46,7 @@ class RunDirectory {
 
   /// A row of path.csv, of events.csv if it is an event, a state if it has a label; forces, touches, eigenvalues: see
   /// Record::add.
-  void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches,
-           const std::vector<double>& eigenvalues = {});
+  void add(const PathPoint& point, const Field& forces, const std::vector<Touch>& touches, const std::vector<double>& eigenvalues = {});
 
   /// A row of trajectory.csv, and a state with velocities if it has a label.
   void add(const Moment& moment, const std::vector<Touch>& touches);

@@ -175,8 +175,7 @@ std::string describe_sheet(const Problem& problem, const Model& model, const Str
   return text + fmt::format("; {} bonds of length {} as built\n", bonds, lengths.text()) +
          fmt::format("  bond stiffness K = {:.10g}, rest length q0 = {}, Y = 4 K/sqrt(3) = {:.10g}, nu = 1/3\n", K, rest.text(),
                      4 * K / std::sqrt(3.0)) +
-         fmt::format("  angle stiffness B = {:.10g}, {}, D = 3 sqrt(3)/4 B = {:.10g}\n", B, rest_of(model, s),
-                     0.75 * std::sqrt(3.0) * B);
+         fmt::format("  angle stiffness B = {:.10g}, {}, D = 3 sqrt(3)/4 B = {:.10g}\n", B, rest_of(model, s), 0.75 * std::sqrt(3.0) * B);
 }
 
 std::string describe_grains(const Model& model, const Structure& s) {

@@ -25,19 +25,15 @@ std::vector<std::string> values_of_range(const Sweep& s, Mistakes& mistakes) {
   const double first = s.range[0], last = s.range[1], step = s.range[2];
   const double count = std::floor((last - first) / step + 1e-9) + 1;
   if (step == 0 || !(count >= 1)) {
-    mistakes.add(
-        s.place, "range",
-        fmt::format("leads from {} to {} by steps of {}, which never arrives; the step must point from first to last",
-                    first, last, step));
+    mistakes.add(s.place, "range", fmt::format("leads from {} to {} by steps of {}, which never arrives; the step must point from first to last",
+                                               first, last, step));
     return {};
   }
   if (!(count <= most_runs)) {
-    mistakes.add(s.place, "range",
-                 fmt::format("has {:.0f} values; at most {:.0f} runs can be asked for", count, most_runs));
+    mistakes.add(s.place, "range", fmt::format("has {:.0f} values; at most {:.0f} runs can be asked for", count, most_runs));
     return {};
   }
-  const bool integers =
-      first == std::trunc(first) && step == std::trunc(step) && std::abs(first) < 1e15 && std::abs(last) < 1e15;
+  const bool integers = first == std::trunc(first) && step == std::trunc(step) && std::abs(first) < 1e15 && std::abs(last) < 1e15;
   std::vector<std::string> values;
   for (int i = 0; i < count; ++i) {
     const double x = first + i * step;

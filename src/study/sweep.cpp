@@ -241,8 +241,7 @@ RunResult run_sweep_part(const PreparedRuns& prepared, const RunOptions& given) 
   const auto results = run_side_by_side(prepared.runs, in_order(own), own.size(), options);
   RunResult all = result_of_runs(prepared, results, options.directory);
   if (!options.quiet)
-    say("{} of {} runs of part {}/{} in {:.2f} s\n", ended(results), own.size(),
-               options.part->number, options.part->of, watch.seconds());
+    say("{} of {} runs of part {}/{} in {:.2f} s\n", ended(results), own.size(), options.part->number, options.part->of, watch.seconds());
   return all;
 }
 

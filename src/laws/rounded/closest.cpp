@@ -136,8 +136,7 @@ PairLocal RoundedClosest::derivatives(const RoundedBody& a, const RoundedBody& b
   u.value = kernel.value(gap);
   if (f->edges) {
     const LineFunction d = LineDerivatives(f->lines, view.edge_a(f->edge_a), view.edge_b(f->edge_b)).distance;
-    view.add_lines(u, f->edge_a, f->lines, slope * d.gradient,
-        slope * d.hessian + curvature * d.gradient * d.gradient.transpose());
+    view.add_lines(u, f->edge_a, f->lines, slope * d.gradient, slope * d.hessian + curvature * d.gradient * d.gradient.transpose());
   } else {
     const Vec3& n = f->at.normal;
     view.add_vertex(u, f->first, f->vertex, slope * n, curvature * n * n.transpose() + slope * f->at.curvature());

@@ -158,8 +158,7 @@ void edges_on_edges(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff,
       } else {
         const LinePair lines(a.from, u, b.from, v);
         r = lines.distance;
-        m = {between_ends(a.parameter(lines.foot_a)) && between_ends(b.parameter(lines.foot_b)), lines.foot_a,
-            lines.foot_b};
+        m = {between_ends(a.parameter(lines.foot_a)) && between_ends(b.parameter(lines.foot_b)), lines.foot_a, lines.foot_b};
       }
       if (!m.found || r < eps || !(r < cutoff)) continue;
       hit({1, {FeatureKind::edge, ej}, {FeatureKind::edge, ei}, m.on_a, m.on_b, r, false, parallel});

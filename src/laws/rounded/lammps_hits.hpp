@@ -31,7 +31,6 @@ struct LammpsHit {
 
 /// Calls `hit` with each, in LAMMPS's order: edges of i on faces of j, edges of j on faces of i, edges on edges; a
 /// sphere: faces, then edges. Distances beyond the cutoff may be among them: the kernel is 0 there.
-void lammps_hits(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff,
-    const std::function<void(const LammpsHit&)>& hit);
+void lammps_hits(const LammpsPlaced& i, const LammpsPlaced& j, double cutoff, const std::function<void(const LammpsHit&)>& hit);
 
 }  // namespace elamin

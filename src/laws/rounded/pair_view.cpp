@@ -67,8 +67,7 @@ void PairView::push_lines(std::array<Wrench, 2>& on, int ea, const LinePair& lin
   on[0].torque -= turning, on[1].torque += turning;
 }
 
-RoundedContact PairView::contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance,
-    double weight) const {
+RoundedContact PairView::contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance, double weight) const {
   const double gap = distance - radii();
   return {fa, fb, gap, weight, position_b_ + foot_b + (shape(false).radius + gap / 2) * normal, normal};
 }

@@ -55,8 +55,7 @@ class PairView {
     return shape(false).vertices[shape(false).edges[e].to] - shape(false).vertices[shape(false).edges[e].from];
   }
   LinePair lines(int ea, int eb) const {
-    return {a_by_b_.vertices[shape(true).edges[ea].from], edge_a(ea),
-        shape(false).vertices[shape(false).edges[eb].from], edge_b(eb)};
+    return {a_by_b_.vertices[shape(true).edges[ea].from], edge_a(ea), shape(false).vertices[shape(false).edges[eb].from], edge_b(eb)};
   }
 
   /// Adds a function of the place of a vertex, of A if `first`, in the frame of the other body.
@@ -72,8 +71,7 @@ class PairView {
   RoundedContact edge_contact(int ea, int eb, const LinePair& lines, double weight) const;
 
  private:
-  RoundedContact contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance,
-      double weight) const;
+  RoundedContact contact(Feature fa, Feature fb, const Vec3& foot_b, const Vec3& normal, double distance, double weight) const;
 
   Mat3 rotation_a_, rotation_b_;
   Vec3 a_from_b_, position_b_;

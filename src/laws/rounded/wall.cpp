@@ -29,8 +29,7 @@ void visit(const RoundedWall& wall, const RoundedBody& body, const OnNear& near)
       continue;
     }
     for (const WallGap& g : wall_gaps(wall.region, wall.inside, false, x, rho, cutoff))
-      near(NearFace{k, g.face, arm, g.distance.value, -g.overlap, g.distance.gradient.head<3>(),
-          g.distance.hessian.topLeftCorner<3, 3>()});
+      near(NearFace{k, g.face, arm, g.distance.value, -g.overlap, g.distance.gradient.head<3>(), g.distance.hessian.topLeftCorner<3, 3>()});
   }
 }
 
@@ -47,8 +46,7 @@ Local<2> RoundedWall::derivatives(const RoundedBody& body) const {
   visit(*this, body, [&](const NearFace& v) {
     u.value += kernel.value(v.gap);
     const double slope = kernel.slope(v.gap);
-    add_point(u, v.arm, slope * v.normal,
-        kernel.curvature(v.gap) * v.normal * v.normal.transpose() + slope * v.curvature);
+    add_point(u, v.arm, slope * v.normal, kernel.curvature(v.gap) * v.normal * v.normal.transpose() + slope * v.curvature);
   });
   mirror(u);
   return u;
