@@ -5,7 +5,6 @@
 #include "core/timing.hpp"
 
 #include <cerrno>
-#include <chrono>
 #include <thread>
 
 #include <fcntl.h>

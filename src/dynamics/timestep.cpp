@@ -5,7 +5,6 @@
 #include "dynamics/inverse_mass.hpp"
 #include "dynamics/lammps_bodies.hpp"
 #include "energy/body_groups.hpp"
-#include "energy/wall_group.hpp"
 #include "laws/hertz_contact.hpp"
 
 #include <fmt/format.h>

@@ -2,17 +2,13 @@
 
 #include "core/near_pairs.hpp"
 #include "energy/body_groups.hpp"
-#include "laws/rounded/closest.hpp"
-#include "laws/rounded/multi.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elamin {
 
 namespace {
-
 
 std::vector<IndexPair> candidates(const Model& model, const BodyRules& rules, const State& state, double within) {
   const auto feel = [&](int i, int j) {

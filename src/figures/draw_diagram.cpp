@@ -1,7 +1,6 @@
 #include "figures/diagram.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <set>

@@ -1,7 +1,6 @@
 #include "figures/scene.hpp"
 
 #include "core/error.hpp"
-#include "laws/section.hpp"
 #include "core/suggest.hpp"
 #include "results/stored_run.hpp"
 
@@ -11,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 namespace elamin {
 namespace {

@@ -1,14 +1,11 @@
 #include "figures/scene.hpp"
 
-#include "laws/section.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
-#include <optional>
 
 namespace elamin {
 namespace {

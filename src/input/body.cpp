@@ -1,6 +1,5 @@
 #include "input/parts.hpp"
 
-#include "core/suggest.hpp"
 #include "input/stiffness.hpp"
 #include "lammps/bodies.hpp"
 #include "model/entities.hpp"

@@ -1,7 +1,6 @@
 #include "input/group.hpp"
 
 #include "core/suggest.hpp"
-#include "input/check.hpp"
 #include "input/parts.hpp"
 
 #include <fmt/format.h>

@@ -7,7 +7,6 @@
 #include "study/commands.hpp"
 #include "study/imperfection.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "laws/rounded/multi.hpp"
 
-#include <cmath>
-
 namespace elamin {
 
 namespace {
