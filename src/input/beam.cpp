@@ -30,13 +30,9 @@ void check_corners(TablePlace& place, const char* key, const std::vector<Vec3>& 
 
 /// The points of a beam's file; none, and said why, if they make no curve.
 std::optional<std::vector<Vec3>> curve_of(const BeamTable& table, Mistakes& mistakes) {
-  NumberTable rows;
-  try {
-    rows = read_numbers(table.file, {"x", "y", "z"});
-  } catch (const InputError& e) {
-    mistakes.add(e.mistakes());
-    return std::nullopt;
-  }
+  const std::optional<NumberTable> read = mistakes.unless_wrong([&] { return read_numbers(table.file, {"x", "y", "z"}); });
+  if (!read) return std::nullopt;
+  const NumberTable& rows = *read;
   const int x = rows.column("x"), y = rows.column("y"), z = rows.column("z");
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < rows.rows.size(); ++i) {

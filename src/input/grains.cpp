@@ -115,17 +115,9 @@ void check(GrainsTable& g, Mistakes& mistakes) {
 }
 
 std::optional<Grains> built(const GrainsTable& table, Mistakes& mistakes) {
-  GrainRows rows;
-  if (table.positions) {
-    rows.position = *table.positions;
-  } else {
-    try {
-      rows = read_grains(table.file);
-    } catch (const InputError& e) {
-      mistakes.add(e.mistakes());
-      return std::nullopt;
-    }
-  }
+  const auto read = table.positions ? GrainRows{*table.positions, {}} : mistakes.unless_wrong([&] { return read_grains(table.file); });
+  if (!read) return std::nullopt;
+  GrainRows rows = *read;
   if (rows.diameter.empty() != table.diameter.has_value()) {
     mistakes.add(table.place, "diameter",
                   table.diameter ? "stands in the fourth column of the file; leave it out"

@@ -231,6 +231,14 @@ class Mistakes {
   void add(const std::vector<Mistake>& others) {
     for (const Mistake& m : others) keep(m);
   }
+  /// What `read` gives; nothing where it throws InputError, whose mistakes are added.
+  template <class Read> auto unless_wrong(const Read& read) -> std::optional<decltype(read())> {
+    try {
+      return read();
+    } catch (const InputError& error) {
+      return add(error.mistakes()), std::nullopt;
+    }
+  }
 
   /// Throws InputError, which has the order of the file, if there is any.
   void raise() const {

@@ -71,12 +71,7 @@ namespace {
 
 /// A LAMMPS data file, or nothing if it holds mistakes.
 std::optional<LammpsData> read(const std::string& file, const LammpsReading& how, Mistakes& mistakes) {
-  try {
-    return read_lammps_data(file, how);
-  } catch (const InputError& e) {
-    mistakes.add(e.mistakes());
-    return std::nullopt;
-  }
+  return mistakes.unless_wrong([&] { return read_lammps_data(file, how); });
 }
 
 void move_bodies(LammpsData& from, LammpsData& to) {

@@ -22,12 +22,9 @@ void add_own_values(const TablePlace& place, const std::string& file, const Stru
   const bool row = structure.kind == "beam" || structure.kind == "loop";
   std::vector<std::string> names{"diameter", "density"};
   if (row) names.insert(names.end(), {"bond_stiffness", "rest_length", "angle_stiffness"});
-  NumberTable table;
-  try {
-    table = read_numbers(file, {}, names);
-  } catch (const InputError& e) {
-    return mistakes.add(e.mistakes());
-  }
+  const std::optional<NumberTable> read = mistakes.unless_wrong([&] { return read_numbers(file, {}, names); });
+  if (!read) return;
+  const NumberTable& table = *read;
   const std::size_t count = table.rows.size();
   if (count != static_cast<std::size_t>(structure.count))
     return mistakes.add(place, "values", fmt::format("has {} rows, and \"{}\" has {} particles; give a row for each", count, structure.name,

@@ -88,12 +88,9 @@ class Maker {
  private:
   void add_modes(Field& by) {
     const int count = *std::max_element(t_.modes->begin(), t_.modes->end());
-    std::vector<Field> shapes;
-    try {
-      shapes = t_.run.empty() ? own_modes(p_, model_, count) : stored_modes(t_, model_, count);
-    } catch (const InputError& e) {
-      return mistakes_.add(e.mistakes());
-    }
+    const auto read = mistakes_.unless_wrong([&] { return t_.run.empty() ? own_modes(p_, model_, count) : stored_modes(t_, model_, count); });
+    if (!read) return;
+    const std::vector<Field>& shapes = *read;
     for (std::size_t k = 0; k < t_.modes->size(); ++k) {
       const std::size_t mode = static_cast<std::size_t>((*t_.modes)[k]);
       if (mode > shapes.size()) {
