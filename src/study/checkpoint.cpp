@@ -117,6 +117,7 @@ void Checkpointing::offer(const std::function<void(Archive&)>& carry) {
   const Timed timed(writing_);
   if (!results_.settled()) write(Phase::dropping), results_.settle(), keep();
   write(Phase::going);
+  std::string().swap(latest_.state), kept_ = false;             // what is on the disk needs no memory
   since_ = Stopwatch();
 }
 

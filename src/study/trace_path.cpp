@@ -81,7 +81,7 @@ class Numbers {
     else point.parent = renumbered(point.parent);
     point.branch += branches_;
     point.label = renumbered(point.label);
-    last_ = point;
+    last_ = {point.step, point.branch, point.parent};
     count(point.label);
     return point;
   }
@@ -111,7 +111,7 @@ class Numbers {
   int steps_ = 0, branches_ = 0;
   std::string parent_;
   std::map<std::string, int> before_, so_far_;
-  PathPoint last_;
+  struct { int step = 0, branch = 0; std::string parent; } last_;
 };
 
 // Whether a path gets anywhere: its driver takes one point after the other, as long as there is one.
@@ -167,7 +167,7 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
   if (stored && stored->stage && stages.resume(*stored->stage)) k = stages.next();
   const int first = k;
   Numbers numbers;
-  Model all = model;                                   // with everything in force
+  std::optional<Model> all = model;                    // with everything in force, as long as a stage is to come
   std::unique_ptr<Run> run, before;
   std::optional<PathPoint> held;                       // the last point is known only when there is no next one
   std::vector<State> starts;                           // of the stages so far
@@ -180,14 +180,15 @@ Outcome trace_path(const Problem& problem, const Model& model, const std::option
     const State& start = starts[so_far];
     std::string unclear;
     Stage stage = stages.enter(unclear);
-    std::string broken = connect_in(problem, stage.number, all, start);       // why the path is not gone on with
+    std::string broken = connect_in(problem, stage.number, *all, start);       // why the path is not gone on with
     if (stored && k == first && connects_before(problem, stage.number))
       broken = "a path is not taken up behind a [[connect]] with from_stage, whose bonds are not those of the file; begin with a stage before it";
     if (!broken.empty()) {
       outcome = {Status::not_converged, stage.name + ": " + broken};
       break;
     }
-    Model in_stage = model_in(problem, stage, all, start);
+    Model in_stage = model_in(problem, stage, *all, start);
+    if (k + 1 == stages.count()) all.reset();
     if (again && !here) {
       stages.leave(starts[so_far + 1].load_factor);
       continue;
