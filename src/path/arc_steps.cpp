@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace elamin {
 
@@ -154,9 +153,7 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
   const Arc arc(newton_, current_, towards, metric_);
   std::optional<Candidate> c = reach(arc, s, why);
   std::optional<Segment> fading;
-  const bool looks = !c && !along_contact && !std::exchange(kink_refused_, true);
-  if (looks) c = reach_kink(arc, s, fading);
-  const bool kink = looks && c && !c->events.empty();
+  const bool kink = !c && !along_contact && !kink_refused_ && (c = reach_kink(arc, s, fading)).has_value() && !c->events.empty();
   if (!c) return {};
   if (along_contact && !still_closed(c->e)) return why = "a contact that has just been made opens again", std::nullopt;
   if (!kink) {
@@ -171,7 +168,8 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
                                   [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
   if (!kink && !find_events(segment, *c, why)) return {};
-  if (kink && ((!is_critical(deciding(*c)) && !find_critical(segment, *c, why)) || !find_user_events(segment, *c, why))) return {};
+  if (kink && !is_critical(deciding(*c)) && !find_critical(segment, *c, why)) return kink_refused_ = true, std::nullopt;
+  if (kink && !find_user_events(segment, *c, why)) return {};
   if (!find_stop(segment, *c, why)) return {};
   if (fading) c->parameter = arc.position(c->e.point.state);
   return c;
@@ -247,7 +245,8 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, 
     std::string why;
     const bool found = find_critical(*fading, c, why);
     if (found && c.events.front().kind == EventKind::limit && std::any_of(closed_.begin(), closed_.end(), bears)) return c;
-    if (!found && change->at.point.stability.negative == lost.point.stability.negative) return {};      // the same search would fail again
+    if (!found && change->at.point.stability.negative == lost.point.stability.negative)       // the same search would fail again
+      return kink_refused_ = true, std::nullopt;
     fading.reset();
   }
   if (!contacts_ && lost.point.stability.negative == negative_) return {};

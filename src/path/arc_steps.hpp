@@ -76,7 +76,7 @@ class ArcSteps final : public Branch {
   ArcOptions options_;
   Direction direction_;
   std::vector<ContactKey> just_made_;  // where it stands, if steps go along them
-  bool kink_refused_ = false;          // the one ahead of where it stands: shorter steps come to the same one
+  bool kink_refused_ = false;          // no critical point was found before the kink ahead: shorter steps would look for the same one
   std::optional<double> last_stop_;    // where it stands, if at a stop
   double step_, shortest_, least_length_, taken_ = 0;
   int refused_ = 0;
