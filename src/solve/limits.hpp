@@ -81,7 +81,8 @@ constexpr double alike = 0.1;
 constexpr double no_push = 1e-6;                 // of the whole gradient
 /// Iterations in a row without half the residual, of a search that is to stay on its branch: an overlap shrinks to a third in each.
 constexpr int patience_on_branch = 6;
-/// … or without compression, where the Hessian is indefinite, with a larger residual each: beyond a limit point the structure slides down.
+/// Steps in a row where the Hessian is indefinite (they are taken without compression) that each make the residual larger: then the search has gone beyond a limit
+/// point and slides down.
 constexpr int most_rises = 3;
 /// Saddles that a search may end at and leave before it is given up; Newton steps that take a residual at the tolerance down to rounding, and those from a
 /// saddle before it is asked whether a hard contact is on the way.
