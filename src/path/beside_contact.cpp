@@ -39,7 +39,8 @@ void look_both_ways(Newton& newton, ContactChange& change, const std::vector<Con
   double part = 0;
   for (const ContactKey& key : keys) {
     const double size = size_of(energy.model(), key.particle), moved = std::abs(rate(key, way, load_change, 1e-4));
-    if (!(contact_event::most_beside * moved > contact_event::least_beside * size)) return;
+    const double least = key.feature >= 0 ? contact_event::least_beside * size : std::max(contact_event::exact_rounding * size, coordinate_rounding(key, state));
+    if (!(contact_event::most_beside * moved > least)) return;
     // Stiff bodies overlap by hardly more than that in all.
     double beside = std::min(contact_event::beside * size / moved, contact_event::most_beside);
     if (key.feature < 0 && !change.after.count(key))
@@ -85,28 +86,36 @@ std::optional<int> index_behind(Newton& newton, const Equilibrium& at, const std
   return {};
 }
 
-// The Morse index at the place where these contacts change. Where all of them are lost they are opened by more than rounding first: a stiff contact
-// that overlaps by rounding alone may have more stiffness than the structure.
-int index_open(Newton& newton, const ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change) {
+// What is true where these contacts change as long as they are open: by rounding they may be closed there, and a stiff contact that overlaps by rounding alone may
+// have more stiffness than the structure. They are opened across their surfaces: along the branch they may overlap by no more anywhere.
+Equilibrium opened(Newton& newton, const Equilibrium& at, const std::vector<ContactKey>& changed, double load_change) {
   Energy& energy = newton.energy();
-  const State& state = change.at.point.state;
-  double part = 0;
+  State open = at.point.state;
+  Vector row;
+  double by_load = 0;
+  bool closed = false;
   for (const ContactKey& key : changed) {
-    if (key.feature >= 0 || change.after.count(key)) return change.at.point.stability.negative;
-    const double gone = gap(energy, key, moved_by(energy.kinematics(), state, way, load_change, contact_event::little)) - gap(energy, key, state);
-    part = std::max(part, contact_event::little * contact_event::rounding * size_of(energy.model(), key.particle) / gone);
+    if (key.feature >= 0) return at;
+    if (!(gap(energy, key, at.point.state) < 0) || !slope(energy, key, at.point.state, load_change, row, by_load) || row.isZero(0)) continue;
+    energy.kinematics().retract(open, row, std::max(contact_event::rounding * size_of(energy.model(), key.particle), coordinate_rounding(key, open)) / row.squaredNorm());
+    closed = true;
   }
-  if (!(part > 0 && part <= contact_event::most_beside)) return change.at.point.stability.negative;
-  return assess(newton, moved_by(energy.kinematics(), state, way, load_change, part), change.at.point.report).point.stability.negative;
+  if (!closed) return at;
+  Equilibrium e = assess(newton, open, at.point.report);
+  e.point.state = at.point.state, e.point.energy = at.point.energy, e.family = at.family;
+  return e;
 }
 
 }  // namespace
 
 void find_beyond(Newton& newton, ContactChange& change, const std::vector<ContactKey>& changed, const Vector& way, double load_change, int negative) {
+  if (change.at.slack) return;
   std::vector<ContactKey> here = changed;
-  const int at = index_open(newton, change, changed, way, load_change);
-  if (at == negative) std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (negative == 0 || !change.after.count(key)); });
-  if (here.empty() || change.at.slack) return;
+  change.at = opened(newton, change.at, changed, load_change);
+  const int at = change.at.point.stability.negative;
+  // Where contacts of particles are made the index has changed before.
+  std::erase_if(here, [&](const ContactKey& key) { return key.feature < 0 && (at != negative ? change.after.count(key) > 0 : negative == 0 || !change.after.count(key)); });
+  if (here.empty()) return;
   const Equilibrium open = change.at;
   look_both_ways(newton, change, here, way, load_change);
   const bool bodies = std::any_of(here.begin(), here.end(), [](const ContactKey& key) { return key.feature >= 0; });

@@ -180,51 +180,72 @@ double Branch::way_to_limit() const {
   return left / lost * std::abs(current_.point.state.load_factor - load_before_);
 }
 
+void Branch::see_softest_anew(Equilibrium& e, const EigenPairs& neighbour, double change) {
+  newton_.energy().evaluate(e.point.state);
+  newton_.factors().factorize_holding(e.zero_modes);
+  see_softest(newton_, e, neighbour, change);
+}
+
 // Behind an event, or where the branch begins, or where nothing has softened yet.
 void Branch::see_softest_here(const Candidate& c, double change) {
   if (current_.softest.values.size() > 0 || c.e.softest.values.size() == 0) return;
-  newton_.energy().evaluate(current_.point.state);
-  newton_.factors().factorize_holding(current_.zero_modes);
-  see_softest(newton_, current_, c.e.softest, change);
+  see_softest_anew(current_, c.e.softest, change);
   Vector& values = current_.softest.values;
   if (singular_) values = (values.array().abs() <= branch::vanished * infinity_norm(values)).select(0, values);
 }
 
-// Where an eigenvalue changes its sign twice between the ends of a step, or two of them in opposite ways, two branch points lie between that the Morse index does
-// not tell at the ends: the candidate becomes a state between them. It is looked for where Hermite's cubics of the softest eigenvalues, of modes that are alike at
-// both ends, make another index than at the ends: in the middle of where first; or where one is least beside its values at both ends, if that is little. False if no
-// equilibrium is found there: the branch does not lead straight from the one end to the other.
-bool Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
-  const auto look_at = [&](Equilibrium& e, const Equilibrium& neighbour) {
-    see_softest(newton_, e, neighbour.softest, branch::little * (segment.b - segment.a) * segment.load_rate(e));
-  };
-  see_softest_here(c, branch::little * (segment.b - segment.a) * segment.load_rate(current_));
-  const auto softest = [&](double ta, const Equilibrium& a, double tb, const Equilibrium& b) -> std::optional<Place> {
-    if (a.softest.values.size() == 0 || b.softest.values.size() == 0) return {};
-    const double width = tb - ta, la = width * segment.load_rate(a), lb = width * segment.load_rate(b);
-    const Eigen::MatrixXd alike = (a.softest.vectors.transpose() * b.softest.vectors).cwiseAbs();
-    std::array<int, branch::samples> negative{};
-    int before = 0;
-    Place least{0, branch::slowed};
-    for (Eigen::Index i = 0; i < alike.rows(); ++i) {
-      Eigen::Index j = 0;
-      if (alike.row(i).maxCoeff(&j) < branch::same_mode) continue;
-      const double from = a.softest.values[i], to = b.softest.values[j], ra = la * a.softening[i], rb = lb * b.softening[j];
-      before += from < 0 || (from == 0 && ra < 0);
-      for (int k = 1; k < branch::samples; ++k) {
-        const double u = static_cast<double>(k) / branch::samples, v = 1 - u;
-        const double value = v * v * ((1 + 2 * u) * from + u * ra) + u * u * ((3 - 2 * u) * to - v * rb);
-        negative[k] += value < 0;
-        const double by = std::copysign(1.0, from) * value / std::min(std::abs(from), std::abs(to));
-        if (from * to > 0 && by < least.by) least = {ta + u * width, by};
-      }
+namespace {
+
+struct Part { double u, by; };       // of a step, and how likely: the less the more
+
+// Where on a step, from a to b, the softest eigenvalues make another index than at the end that is nearer, in the middle of where first: of modes that are alike at both
+// ends by Hermite's cubics, of others by the tangent up to the middle of the step; or where a cubic is least beside its values at both ends, if that is little.
+// la, lb: rates of the load factor at both ends, per step.
+std::optional<Part> where_index_differs(const Equilibrium& a, const Equilibrium& b, double la, double lb) {
+  if (a.softest.values.size() == 0 || b.softest.values.size() == 0) return {};
+  constexpr int half = branch::samples / 2;
+  std::array<int, branch::samples> more{};                      // negative ones than at the nearer end
+  Part least{0, branch::slowed};
+  const Eigen::MatrixXd alike = (a.softest.vectors.transpose() * b.softest.vectors).cwiseAbs();
+  Eigen::ArrayX<bool> alone = Eigen::ArrayX<bool>::Constant(alike.cols(), true);
+  for (Eigen::Index i = 0; i < alike.rows(); ++i) {
+    Eigen::Index j = 0;
+    const bool stays = alike.row(i).maxCoeff(&j) >= branch::same_mode;
+    if (stays) alone[j] = false;
+    const double from = a.softest.values[i], ra = la * a.softening[i], to = b.softest.values[j], rb = lb * b.softening[j];
+    for (int k = 1; k < (stays ? branch::samples : half); ++k) {
+      const double u = static_cast<double>(k) / branch::samples, v = 1 - u;
+      const double value = stays ? v * v * ((1 + 2 * u) * from + u * ra) + u * u * ((3 - 2 * u) * to - v * rb) : from + u * ra;
+      const double end = k >= half ? to : from != 0 ? from : ra;
+      more[k] += (value < 0) - (end < 0);
+      const double by = std::copysign(1.0, from) * value / std::min(std::abs(from), std::abs(to));
+      if (stays && from * to > 0 && by < least.by) least = {u, by};
     }
-    int first = 1, last = 1;
-    while (first < branch::samples && negative[first] == before) last = ++first;
-    while (last < branch::samples && negative[last] != before) ++last;
-    if (first < last && last < branch::samples) return Place{ta + (first + last - 1) * width / (2 * branch::samples), -1};
-    if (least.by < branch::slowed) return least;
-    return {};
+  }
+  for (Eigen::Index j = 0; j < alike.cols(); ++j)
+    for (int k = half; k < branch::samples && alone[j]; ++k) {
+      const double to = b.softest.values[j], v = 1 - static_cast<double>(k) / branch::samples;
+      more[k] += (to - v * lb * b.softening[j] < 0) - (to < 0);
+    }
+  const auto first = std::find_if(more.begin() + 1, more.end(), [](int n) { return n != 0; }), last = std::find(first, more.end(), 0);
+  if (first != more.end()) return Part{static_cast<double>(first - more.begin() + last - more.begin() - 1) / (2 * branch::samples), -1};
+  if (least.by < branch::slowed) return least;
+  return {};
+}
+
+}  // namespace
+
+// Where an eigenvalue changes its sign twice between the ends of a step, or two of them in opposite ways, two branch points lie between that the Morse index does
+// not tell at the ends: the candidate becomes a state between them. False if no equilibrium is found there: the branch does not lead straight from the one end to the other.
+bool Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
+  const double little = branch::little * (segment.b - segment.a);
+  const auto look_at = [&](Equilibrium& e, const Equilibrium& neighbour) { see_softest(newton_, e, neighbour.softest, little * segment.load_rate(e)); };
+  if (!c.events.empty() && softens()) see_softest_anew(c.e, current_.softest, -little * segment.load_rate(c.e));      // from this side of the contact
+  see_softest_here(c, little * segment.load_rate(current_));
+  const auto softest = [&](double ta, const Equilibrium& a, double tb, const Equilibrium& b) -> std::optional<Place> {
+    const double width = tb - ta;
+    const std::optional<Part> part = where_index_differs(a, b, width * segment.load_rate(a), width * segment.load_rate(b));
+    return part ? std::optional(Place{ta + part->u * width, part->by}) : std::nullopt;
   };
   return look_between(segment, c, softest, [&](Equilibrium& e) {
     if (e.point.stability.negative != negative_) return true;
@@ -335,10 +356,10 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
   const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
   const bool kink = !c.events.empty() && c.events.front().beyond;               // it may be where the branch stands
-  if (!c.natural && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_load_goes_back(segment, c))
-    return why = "the load factor goes back between two states at which it goes on", false;
+  const auto goes_on_alike = [&] { return !c.natural && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_; };
+  if (goes_on_alike() && !stop_where_load_goes_back(segment, c)) return why = "the load factor goes back between two states at which it goes on", false;
   segment.b = c.parameter;
-  if (!c.natural && c.events.empty() && c.e.point.stability.negative == negative_ && rises(c.e) == sign_ && !stop_where_index_goes_back(segment, c))
+  if (goes_on_alike() && !stop_where_index_goes_back(segment, c))
     return why = "no equilibrium was found on the step where an eigenvalue may vanish", false;
   segment.b = c.parameter;
   const int after = c.e.point.stability.negative;

@@ -91,6 +91,8 @@ class Branch {
   [[nodiscard]] bool stop_where_index_goes_back(const Segment& segment, Candidate& c);
   double way_to_limit() const;
   bool softens() const;
+  /// see_softest() where the factors are those of another state.
+  void see_softest_anew(Equilibrium& e, const EigenPairs& neighbour, double change);
   /// Tells the softest eigenpairs where the step begins, if they are told at its end alone; `change`: the load factor over which their change is taken.
   void see_softest_here(const Candidate& c, double change);
   /// Whether what happens on the next step is searched for. What floats and bears no force cannot go on without.

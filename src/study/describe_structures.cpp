@@ -124,13 +124,14 @@ std::string describe_beam(const Problem& problem, const Model& model, const Stru
     }
   std::string text = line + stiffnesses(problem, model, s);
   const End a = end_of(s, kinematics, false), b = end_of(s, kinematics, true);
+  if (a.held == s.count) return text + "  all of its particles are held\n";
   const int bonds = s.count - 1 - std::max(0, a.held - 1) - std::max(0, b.held - 1);
   // A clamp sits at the middle of its inner bond, unless the joint on its end is twice as stiff.
   const double length = (bonds + (a.held > 1 && !at_from ? 0.5 : 0.0) + (b.held > 1 && !at_to ? 0.5 : 0.0)) * q0;
-  text += fmt::format("  ends: {}, {}; {} bonds can stretch", a.name(), b.name(), std::max(bonds, 0));
+  text += fmt::format("  ends: {}, {}; {} bonds can stretch", a.name(), b.name(), bonds);
   if (!values_of(problem, s).empty()) return text + "\n";
   text += fmt::format("; effective length {:.10g}\n", length);
-  if (const double factor = line.empty() ? euler_factor(a, b) : 0; factor > 0 && bonds > 0 && B > 0)
+  if (const double factor = line.empty() ? euler_factor(a, b) : 0; factor > 0 && B > 0)
     text += fmt::format("  Euler load {:.6g} pi^2 EI/L^2 = {:.10g}, strain {:.6g}\n", factor, factor * pi * pi * B * q0 / (length * length),
                         factor * pi * pi * B / (2 * K * length * length));
   return text;

@@ -133,6 +133,10 @@ TEST_CASE("check says what was understood", "[study]") {
   INFO(own);
   CHECK(own.find("v.csv: diameter 0.1 to 0.2, density 2, K = 3 to 5, q0 = 1, B = 4\n  ends: free, free; 2 bonds can stretch\n") != std::string::npos);
   CHECK(own.find("EI") == std::string::npos);
+  const std::string held = elamin_says("check '" + scratch.file("held.toml", "[[beam]]\nname = \"b\"\nparticles = 3\nfrom = [0, 0, 0]\nto = [2, 0, 0]\ndiameter = 0.1\n"
+                                       "youngs_modulus = 1\n[[support]]\ngroup = \"b\"\n[study]\ntype = \"energy\"\n") + "'").text;
+  INFO(held);
+  CHECK(held.find("  all of its particles are held\n") != std::string::npos);
 }
 
 TEST_CASE("what does not converge keeps what it has and exits with 2", "[study]") {

@@ -1476,3 +1476,22 @@ TEST_CASE("a branch goes on from a branch point right behind a limit point", "[p
     same_events(first, run);
   }
 }
+
+// The contact of two beams that are much softer than it overlaps by 1e-12 of their thickness at most.
+TEST_CASE("a stiff contact that is lost where the branch turns back is told as a limit point", "[paths][beams_part_at_a_limit]") {
+  same_in_steps("beams_part_at_a_limit", 1, "limit", 2, {100, 20, 46, 200});
+}
+
+TEST_CASE("a contact that overlaps by rounding where it is made does not hide the branch point before it", "[paths][column_touches_twice]") {
+  same_in_steps("column_touches_twice", 6.057525974789618, "branch", 1, {67, 5, 10, 20});
+}
+
+TEST_CASE("two branch points on a step that ends on a contact are found, though their modes are not alike at its ends", "[paths][column_stable_before_contact]") {
+  const Run first("column_stable_before_contact", {in_steps(20), by_arcs});
+  CHECK(first.of("branch").size() == 18);
+  for (const int n : {5, 7, 13}) {
+    const Run run("column_stable_before_contact", {in_steps(n), by_arcs});
+    CHECK(run.answer.status == 0);
+    same_events(first, run);
+  }
+}
