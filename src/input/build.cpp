@@ -1,5 +1,6 @@
 #include "input/build.hpp"
 
+#include "input/check.hpp"
 #include "input/parts.hpp"
 #include "input/group.hpp"
 #include "input/lammps.hpp"
@@ -7,6 +8,8 @@
 #include "input/stages.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace elamin {
 namespace {
@@ -55,7 +58,10 @@ class Builder {
 
  private:
   void add_own(const std::vector<OwnLaw>& own) {
+    const std::vector<std::string> taken = taken_columns(p_);
     for (const OwnLaw& law : own) {
+      if (std::find(taken.begin(), taken.end(), law.term) != taken.end())
+        mistakes_.add(fmt::format("the law \"{}\": there is a column of this name already; give it another one", law.term));
       std::optional<int> wrong;
       for (const std::vector<int>& element : law.elements)
         for (const int p : element)

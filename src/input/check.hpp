@@ -20,6 +20,9 @@ const std::vector<std::string>& standing_columns();
 /// Those, or in time those of trajectory.csv, and the eigenvalues that a problem asks for.
 std::vector<std::string> columns_of(const Problem& problem);
 
+/// Those, and the columns that the tables of a curve or of a landscape have besides: no name of an observable or of a law.
+std::vector<std::string> taken_columns(const Problem& problem);
+
 /// Columns that a study of modes and a path with `eigenvalues` have besides: eigenvalue_1, …
 std::vector<std::string> eigenvalue_columns(const Problem& problem);
 

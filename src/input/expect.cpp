@@ -74,6 +74,13 @@ std::vector<std::string> columns_of(const Problem& p) {
   return columns;
 }
 
+std::vector<std::string> taken_columns(const Problem& p) {
+  std::vector<std::string> columns = columns_of(p);
+  if (p.curve) columns.insert(columns.end(), {"second", "asymmetry"});
+  if (p.study == StudyType::landscape) columns.insert(columns.end(), {"barrier", "barrier_back", "minima", "saddles", "euler"});
+  return columns;
+}
+
 std::optional<double> load_factor_of(const std::string& at) {
   double lambda = 0;
   const bool is_one = at.starts_with("lambda=") && reads_as(std::string_view(at).substr(7), lambda) && std::isfinite(lambda);

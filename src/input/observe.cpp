@@ -122,7 +122,7 @@ namespace {
 class CheckObserved {
  public:
   CheckObserved(const Problem& problem, Names& names, Mistakes& mistakes)
-      : p_(problem), names_(names), mistakes_(mistakes), columns_(columns_of(problem)) {}
+      : p_(problem), names_(names), mistakes_(mistakes), columns_(taken_columns(problem)) {}
 
   void check(ObserveTable& o) {
     names_.refer(o.place, "group", o.group, true);
