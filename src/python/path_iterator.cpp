@@ -39,10 +39,14 @@ class PathIterator {
   }
   ~PathIterator() { close(); }
 
+  // Of several threads that ask, one at a time is answered.
   std::shared_ptr<Step> next() {
+    std::unique_lock asking(asking_, std::defer_lock);
     {
       const py::gil_scoped_release release;
-      std::unique_lock lock(mutex_);
+      asking.lock();
+      const std::lock_guard joining(joining_);
+      const std::lock_guard lock(mutex_);
       if (!worker_.joinable() && !ended_) worker_ = std::thread([this] { work(); });
       wanted_ = true;
       changed_.notify_all();
@@ -73,6 +77,7 @@ class PathIterator {
       const std::lock_guard lock(mutex_);
       changed_.notify_all();
     }
+    const std::lock_guard joining(joining_);
     if (worker_.joinable()) worker_.join();
     const std::lock_guard lock(mutex_);
     ended_ = true;
@@ -155,6 +160,7 @@ class PathIterator {
   Signals signals_;
   std::thread worker_;
   std::atomic<bool> stop_{false};
+  std::mutex asking_, joining_;        // of who waits for a step, and of the worker's beginning and end
   std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<Step> step_;         // handed over, not yet taken

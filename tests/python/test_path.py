@@ -203,3 +203,27 @@ def test_a_path_left_open_does_not_hang_the_end():
     """).format(folder=os.path.dirname(__file__))
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, encoding="utf-8", timeout=60)
     assert done.returncode == 0 and done.stderr == ""
+
+
+def test_a_path_that_several_threads_ask_gives_each_step_once():
+    alone = [s.number for s in column().path()]
+    for _ in range(3):
+        path, found = column().path(), []
+
+        def ask():
+            for step in path:
+                found.append(step.number)
+
+        threads = [threading.Thread(target=ask, daemon=True) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(30)
+        assert not any(thread.is_alive() for thread in threads)
+        assert sorted(found) == alone
+
+
+def test_a_path_that_is_closed_before_it_begins_has_no_steps():
+    path = column().path()
+    path.close()
+    assert list(path) == []
