@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace elamin::python {
@@ -61,8 +62,10 @@ Scene scene_at(const Model& model, const State& state) {
 }
 
 std::string picture(const System& s, const State& state, double width, const std::string& title) {
+  constexpr double margin = 3;
+  if (!(width > 2 * margin && std::isfinite(width)))
+    throw InputError(fmt::format("width: must be a number of points above {}, is {}", 2 * margin, width));
   return without_lock([&] {
-    constexpr double margin = 3;
     Drawing drawing;
     const double height = draw_shapes(drawing, {scene_at(s.model, state)}, {margin, margin}, width - 2 * margin) + margin;
     return drawing.svg(width, height, title);

@@ -349,3 +349,47 @@ def test_small_strains_keep_their_digits():
     m = elamin.minimise(p, load_factor=1)
     stretch = (m.x - p.x0)[1, 0] + m.state.low[1, 0]
     assert (m.x - p.x0)[1, 0] != stretch and stretch == pytest.approx(1e-11, rel=1e-4)     # of lengths of order one: ε/1e-11
+
+
+def one_law(**given):
+    p = elamin.Problem()
+    p.particles(np.random.default_rng(1).standard_normal((12, 3)) * 3, 0.1)
+    return p.law(given.pop("name", "own"), given.pop("elements", [[0, 1]]), **given).study(type="energy")
+
+
+def test_laws_that_cannot_be_are_refused():
+    for given, match in ((dict(formula="k*r01", k=np.nan), "law own: k: must be numbers, is nan"),
+                         (dict(formula="r01!"), "has factorial; allowed are the functions sqrt"),
+                         (dict(value=value, gradient=gradient, hessian=hessian, translation_invarient=True),
+                          "translation_invarient: parameters are of a formula")):
+        with pytest.raises(elamin.InputError, match=match):
+            one_law(**given).energy()
+    p = one_law(name="second", formula="r01")
+    assert p.energy() > 0
+    p.table("study", type="path").table("path", method="arc_length")
+    p.curve(of="limit:1", second="path.to", from_=1.0, to=2.0)
+    with pytest.raises(elamin.InputError, match='the law "second": there is a column of this name already'):
+        p.n
+
+
+def test_names_that_mean_two_angles_mean_none():
+    every = [list(range(12))]
+    with pytest.raises(elamin.InputError, match="the formula has c0111"):       # at site 1, or at site 11
+        one_law(elements=every, formula="c0111")
+    p = one_law(elements=every, formula="c0211 + r1011 + 0*r111")
+    a, b, c = p.x0[[0, 2, 11]]
+    cosine = (a - b) @ (c - b) / np.linalg.norm(a - b) / np.linalg.norm(c - b)
+    assert p.energy() == pytest.approx(cosine + np.linalg.norm(p.x0[10] - p.x0[11]), rel=1e-14)
+
+
+def test_a_formula_may_be_of_sympy():
+    sympy = pytest.importorskip("sympy")
+    r, k = sympy.symbols("r01 k")
+    assert one_law(formula=k * r**2, k=3.0).energy() == pytest.approx(one_law(formula="k*r01**2", k=3.0).energy(), rel=1e-15)
+
+
+def test_check_law_says_what_it_cannot_look_at():
+    for x, step, match in ((np.full((1, 2, 3), np.nan), None, "x must be finite"), (np.zeros((0, 2, 3)), None, "must have the shape"),
+                           (np.ones((1, 2, 3)), 0.0, "step must be a positive number, is 0")):
+        with pytest.raises(elamin.InputError, match=match):
+            elamin.check_law(value, gradient, hessian, x, step)

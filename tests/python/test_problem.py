@@ -254,3 +254,55 @@ def test_bonds_and_angles_join_structures_too():
             beams(first).bonds([[0, 8 + n]], 1.0, 1.0).n
         with pytest.raises(elamin.InputError, match="bonds: pairs: there is no particle -1"):
             beams(first).bonds([[-1, 1]], 1.0, 1.0)
+
+
+def test_copies_of_all_kinds_are_apart():
+    import copy
+
+    for copied in (copy.copy, copy.deepcopy, elamin.Problem.copy):
+        p = elamin.Problem()
+        p.particles([[0, 0, 0], [1, 0, 0]], 1.0)
+        p.bonds([[0, 1]], 1.0).study(type="energy")
+        q = copied(p)
+        q.particles([[5, 0, 2]], 1.0)
+        q.bonds([[1, 2]], 1.0, 1.0).law("own", [[2]], formula="z0**2")
+        assert (q.n, p.copy().n, pickle.loads(pickle.dumps(p)).n) == (3, 2, 2)
+        assert "own" in q.terms() and "own" not in p.terms()
+        p.law("own", [[0]], formula="z0**2")
+
+
+def test_weights_and_motions_need_densities(tmp_path):
+    def grains(density):
+        p = elamin.Problem()
+        p.particles([[0, 0, 0]], 1.0, density=2.0, name="heavy")
+        p.particles([[3, 0, 0]], 1.0, density=density, name="other")
+        return p
+
+    def energy_of(group, density):
+        p = grains(density).gravity(group=group, acceleration=[0, 0, -1]).study(type="energy")
+        return p.gradient()[:, 2]
+
+    sphere = np.pi / 6
+    assert list(energy_of("all", 3.0)) == pytest.approx([2 * sphere, 3 * sphere], rel=1e-15)
+    assert list(energy_of("heavy", None)) == pytest.approx([2 * sphere, 0], rel=1e-15)
+    for group in ("all", "other"):
+        with pytest.raises(elamin.InputError, match="particles: density: is missing of particle 1; gravity.1 needs it"):
+            energy_of(group, None)
+    p = grains(None).gravity(group="other", acceleration=[0, 0, -1]).support(group="all").table("path", steps=1)
+    with pytest.raises(elamin.InputError, match="density: is missing of particle 1"):
+        p.run(tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+    with pytest.raises(elamin.InputError, match="density: is missing of particle 1; dynamics needs it"):
+        grains(None).dynamics(timestep=0.1, steps=1).n
+
+
+def test_arrays_that_are_no_real_numbers_are_refused():
+    p = column()
+    for wrong in ("abc", [[1, 2, 3], [1]], p.x0 + 1j, np.full((14, 3), "x")):
+        with pytest.raises(elamin.InputError, match="x: must be an array of real numbers"):
+            p.energy(wrong)
+        with pytest.raises(elamin.InputError, match="particles: x: must be an array of real numbers"):
+            elamin.Problem().particles(wrong, 1.0)
+    for width in (0, -3, np.nan):
+        with pytest.raises(elamin.InputError, match="width: must be a number of points above 6"):
+            p.picture(width=width)

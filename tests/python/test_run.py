@@ -138,3 +138,47 @@ def test_progress_is_told(capfd):
     assert "branch:1" in out and "written:" in out
     column().run()
     assert capfd.readouterr().out == ""
+
+
+@pytest.mark.parametrize("name", ["middle", "first", "second", "id", "kind", "name", "open"])
+def test_what_is_observed_keeps_its_numbers_whatever_it_is_called(name):
+    p = column()
+    p.observe(name=name, group="tip", quantity="displacement.z").path(steps=3)
+    rows = [step.row[name] for step in p.path()]
+    run = p.run()
+    assert list(run.path[name]) == rows and run.path[name].dtype == float
+    assert any(v != round(v) for v in rows)
+    assert run.state("initial").bonds["first"].dtype == int
+
+
+def test_where_a_curve_ends_in_a_sweep_is_no_integer(root):
+    p = elamin.Problem(root / "problems/truss_curve.toml").clear("expect")
+    p.set("curve.to", 74.25).set("curve.stops", [74.5]).set("curve.steps", 2)
+    p.sweep(key="path.steps", values=[50, 60])
+    assert list(p.run().sweep["second"]) == pytest.approx([74.25, 74.25], rel=1e-12)
+
+
+def test_temporary_results_are_not_handed_to_other_processes(tmp_path):
+    import copy
+    import pickle
+
+    run = column().run()
+    assert copy.copy(run).directory == run.directory
+    with pytest.raises(elamin.InputError, match="give it a directory"):
+        pickle.dumps(run)
+    kept = pickle.loads(pickle.dumps(column().run(tmp_path / "run")))
+    assert kept.status == "done" and kept.directory == tmp_path / "run"
+
+
+def test_what_a_directory_has_no_summary_of_is_told(tmp_path):
+    p = column().clear("load").study(type="energy")
+    p.sweep(key="beam.column.youngs_modulus", values=[1e6, 2e6])
+    run = p.run(tmp_path / "sweep")
+    with pytest.raises(elamin.InputError, match="it is a sweep, whose `runs` have one each"):
+        run.status
+    assert "sweep" in repr(run) and [r.status for r in run.runs] == ["done", "done"]
+
+
+def test_shapes_may_be_one_word(run):
+    assert run.plot(shapes="initial").svg == run.plot(shapes=["initial"]).svg
+    assert run.plot(shapes="initial,branch:1").svg == run.plot(shapes=["initial", "branch:1"]).svg

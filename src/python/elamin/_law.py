@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._elamin import Law
 from ._errors import InputError
-from ._particles import one_or_each
+from ._particles import one_or_each, real_numbers
 
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Any]
@@ -75,7 +75,9 @@ class _Variable:
 
 
 def _variables(sites: int) -> Dict[str, _Variable]:
+    """By their names. Of 12 sites c0111 is the cosine at site 1 and at site 11, and stands for none."""
     known: Dict[str, _Variable] = {}
+    unclear = set()
     for i in range(sites):
         for axis, letter in enumerate("xyz"):
             known[f"{letter}{i}"] = _Variable("x", (i,), axis)
@@ -84,8 +86,11 @@ def _variables(sites: int) -> Dict[str, _Variable]:
                 known[f"r{i}{j}"] = _Variable("r", (i, j))
             for k in range(sites):
                 if i < k and j not in (i, k):
-                    known[f"c{i}{j}{k}"] = _Variable("c", (i, j, k))
-    return known
+                    name = f"c{i}{j}{k}"
+                    if name in known:
+                        unclear.add(name)
+                    known[name] = _Variable("c", (i, j, k))
+    return {name: variable for name, variable in known.items() if name not in unclear}
 
 
 def _branches(sympy: Any, expression: Any) -> Any:
@@ -110,6 +115,7 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
         raise InputError(f"law {name}: elements must have the shape (m, sites), has {at.shape}")
     m, sites = at.shape
     known = _variables(sites)
+    formula = str(formula)                                 # of sympy, too
     words = set(re.findall(r"[A-Za-z_]\w*", re.sub(r"\d+\.?\d*[eE][+-]?\d+", "", formula)))
     for parameter in parameters:
         if parameter in known:
@@ -131,7 +137,11 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
         raise InputError(f"law {name}: the formula {formula!r} cannot be read: {why}") from error
     if not isinstance(expression, sympy.Expr) or expression.has(sympy.I, sympy.zoo, sympy.oo, -sympy.oo, sympy.nan):
         raise InputError(f"law {name}: the formula {formula!r} is no real number; it must be an energy")
-    expression = _branches(sympy, expression)
+    given = [one_or_each(a, m, f"law {name}: {parameter}") for parameter, a in parameters.items()]
+    for parameter, a in zip(parameters, given):
+        if np.isnan(a).any():
+            raise InputError(f"law {name}: {parameter}: must be numbers, is nan")
+    written, expression = expression, _branches(sympy, expression)
     used = [v for v in known if symbols[v] in expression.free_symbols]
     arguments = [symbols[v] for v in [*used, *parameters]]
 
@@ -144,9 +154,12 @@ def from_formula(name: str, elements: ArrayLike, formula: str, parameters: Mappi
     if any(slope.has(sympy.Derivative) for slope in slopes_in):
         raise InputError(f"law {name}: sympy has no derivative of the formula {formula!r}; allowed are +, -, *, /, ** and the functions "
                          f"{', '.join(functions)}")
+    allowed_here = {"Abs", *(f.__name__ for f in functions.values() if isinstance(f, type))}
+    other = sorted({str(f.func) for f in written.atoms(sympy.Function)} - allowed_here)
+    if other:
+        raise InputError(f"law {name}: the formula {formula!r} has {', '.join(other)}; allowed are the functions {', '.join(functions)}")
     first = [numeric(slope) for slope in slopes_in]
     second = [[numeric(sympy.diff(slope, symbols[w])) for w in used[:k + 1]] for k, slope in enumerate(slopes_in)]
-    given = [one_or_each(a, m, f"law {name}: {parameter}") for parameter, a in parameters.items()]
 
     def value(x: Floats) -> Floats:
         with np.errstate(all="ignore"):
@@ -189,9 +202,13 @@ def check_law(value: Function, gradient: Function, hessian: Function, x: ArrayLi
     Returns:
         The largest deviations of gradient and Hessian, each relative to the largest entry. About 1e-9 where they are right.
     """
-    x = np.array(x, dtype=float)
-    if x.ndim != 3 or x.shape[2] != 3:
+    x = real_numbers(x, "check_law: x")
+    if x.ndim != 3 or x.shape[2] != 3 or x.size == 0:
         raise InputError(f"check_law: x must have the shape (m, sites, 3), has {x.shape}")
+    if not np.isfinite(x).all():
+        raise InputError("check_law: x must be finite")
+    if step is not None and not (np.isfinite(step) and step > 0):
+        raise InputError(f"check_law: step must be a positive number, is {step}")
     m, s, _ = x.shape
 
     def found(function: Function, what: str, at: Floats, *shape: int) -> Floats:

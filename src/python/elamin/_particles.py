@@ -27,6 +27,16 @@ def numbers_of_particles(array: ArrayLike, name: str) -> NDArray[np.int64]:
     return a.astype(np.int64)
 
 
+def real_numbers(array: ArrayLike, name: str) -> Floats:
+    """An array of its own of real numbers, of any shape."""
+    try:
+        if np.iscomplexobj(array):
+            raise TypeError
+        return np.array(array, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: must be an array of real numbers") from None
+
+
 def _rows(array: ArrayLike, width: int, name: str) -> NDArray[np.int64]:
     a = numbers_of_particles(array, name)
     if a.size == 0:
@@ -39,8 +49,8 @@ def _rows(array: ArrayLike, width: int, name: str) -> NDArray[np.int64]:
 def one_or_each(value: ArrayLike, count: int, name: str) -> Floats:
     """A number for each, from one or from as many."""
     try:
-        a = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
+        a = real_numbers(value, name)
+    except InputError:
         raise InputError(f"{name}: must be one number, or {count} of them; is {value!r}") from None
     if a.ndim > 1 or (a.ndim == 1 and a.shape[0] != count):
         raise InputError(f"{name}: must be one number, or {count} of them; has the shape {a.shape}")
@@ -76,7 +86,7 @@ class Arrays:
         return bool(len(self.x) or self.bonds or self.angles)
 
     def add_particles(self, x: ArrayLike, diameter: ArrayLike, density: Optional[ArrayLike]) -> NDArray[np.int64]:
-        x = np.array(x, dtype=float)
+        x = real_numbers(x, "particles: x")
         if x.ndim != 2 or x.shape[1] != 3 or len(x) == 0:
             raise InputError(f"particles: x must have the shape (n, 3), has {x.shape}")
         if not np.isfinite(x).all():

@@ -5,6 +5,7 @@ import atexit
 import os
 import pathlib
 import tempfile
+import threading
 import warnings
 import weakref
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
@@ -16,7 +17,7 @@ from . import _elamin
 from ._elamin import Document, Law, Minimum, Mode, PathIterator, Stability, State, Step, System
 from ._errors import InputError, NotConverged
 from ._law import Function, from_formula, from_functions
-from ._particles import Arrays, numbers_of_particles
+from ._particles import Arrays, numbers_of_particles, real_numbers
 from ._results import Figure, Run, StoredState, _escaped
 from ._tables import MANY, Tables
 
@@ -73,14 +74,19 @@ class Path:
     def __init__(self, problem: "Problem") -> None:
         self._problem = problem
         self._iterator: Optional[PathIterator] = None
+        self._starting = threading.Lock()
+        self._closed = False
         Path._all.add(self)
 
     def __iter__(self) -> Iterator[Step]:
         return self
 
     def __next__(self) -> Step:
-        if self._iterator is None:
-            self._iterator = PathIterator(self._problem._system())
+        with self._starting:
+            if self._iterator is None:
+                if self._closed:
+                    raise StopIteration
+                self._iterator = PathIterator(self._problem._system())
         try:
             return self._iterator.next()
         except StopIteration:
@@ -102,6 +108,7 @@ class Path:
 
     def close(self) -> None:
         """Stops the work."""
+        self._closed = True
         if self._iterator is not None:
             self._iterator.close()
 
@@ -255,6 +262,8 @@ class Problem(Tables):
         """
         if any(law.name == name for law in self._laws):
             raise InputError(f"law {name}: there is a law of this name already; give it another name")
+        if formula is None and parameters:
+            raise InputError(f"law {name}: {', '.join(parameters)}: parameters are of a formula; functions have none")
         at = numbers_of_particles(elements, f"law {name}: elements")
         source = _LawSource(name, at, value, gradient, hessian, formula, translation_invariant, dict(parameters))
         law = source.law()
@@ -270,6 +279,8 @@ class Problem(Tables):
         other._laws, other._made = list(self._laws), list(self._made)
         other._folder, other._built = None, None
         return other
+
+    __copy__ = copy                                        # copy.copy: nothing of what is changed later is shared
 
     def __getstate__(self) -> Dict[str, Any]:
         return {"tables": self._document.tables(), "name": self._document.name, "arrays": self._arrays, "laws": self._laws}
@@ -314,8 +325,22 @@ class Problem(Tables):
         if self._built is None:
             if self._arrays and self._folder is None:
                 self._folder = tempfile.TemporaryDirectory(prefix="elamin-")
-            self._built = System(self._with_data(self._folder.name if self._folder else ""), self._made)
+            built = System(self._with_data(self._folder.name if self._folder else ""), self._made)
+            self._check_density(built)
+            self._built = built
         return self._built
+
+    def _check_density(self, system: System) -> None:
+        """Particles from arrays that have a weight, or move in time, have a density."""
+        without = np.flatnonzero(self._arrays.density == 0)
+        if not len(without):
+            return
+        if system.in_time:
+            raise InputError(f"particles: density: is missing of particle {without[0]}; dynamics needs it")
+        for k, gravity in enumerate(self._document.tables().get("gravity", []), 1):
+            heavy = np.intersect1d(system.groups[gravity.get("group", "all")], without)
+            if len(heavy):
+                raise InputError(f"particles: density: is missing of particle {heavy[0]}; gravity.{k} needs it")
 
     def _state(self, x: Where, load_factor: Optional[float], bodies: Optional[ArrayLike]) -> State:
         system = self._system()
@@ -328,7 +353,7 @@ class Problem(Tables):
         if isinstance(x, StoredState):
             load_factor = x.load_factor if load_factor is None and np.isfinite(x.load_factor) else load_factor
             x = x.x
-        return system.state(np.asarray(x, dtype=float), None if bodies is None else np.asarray(bodies, dtype=float),
+        return system.state(real_numbers(x, "x"), None if bodies is None else real_numbers(bodies, "bodies"),
                             system.load_factor if load_factor is None else load_factor)
 
     def check(self) -> str:
@@ -465,6 +490,8 @@ class Problem(Tables):
         else:
             where = os.fspath(directory)
         document = self._document
+        if (self._arrays.density == 0).any() and (document.has("gravity") or document.has("dynamics")):
+            self._system()                                 # tells what has no density
         if self._arrays:                                   # their file lies in the directory, whatever becomes of this process
             if not force:
                 _elamin.require_results(where)

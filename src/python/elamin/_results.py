@@ -20,17 +20,23 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 _WORDS = ("label", "parent", "stage", "status", "what", "zero_mode", "kind", "name", "shape", "open")
-_WHOLE = ("step", "branch", "iterations", "negative", "negative_rigid", "id", "multiplicity", "first", "second", "middle", "third")
+_WHOLE = ("step", "branch", "iterations", "negative", "negative_rigid", "multiplicity")
+_WHOLE_OF_STATES = ("id", "first", "second", "middle", "third")
+_OBSERVED = ("path.csv", "events.csv", "trajectory.csv", "sweep.csv", "curve.csv", "landscape.csv")
 
 
 def read_table(file: Union[str, "os.PathLike[str]"]) -> "pd.DataFrame":
-    """A CSV table of elamin: numbers to the last bit, words as strings, empty numbers as NaN."""
+    """A CSV table of elamin: numbers to the last bit, words as strings, empty numbers as NaN.
+
+    What is observed may be called like a column of another table, "middle" or "kind": its numbers stay what they are.
+    """
     import pandas as pd
 
     table = pd.read_csv(file, float_precision="round_trip", keep_default_na=False, na_values={}, dtype=str)
+    whole = _WHOLE if pathlib.Path(file).name in _OBSERVED else _WHOLE + _WHOLE_OF_STATES
     for column in table.columns:
         values = table[column]
-        if column in _WORDS:
+        if column in _WORDS and not values.any():
             continue
         if values.isin(["true", "false"]).all() and len(values):
             table[column] = values == "true"
@@ -39,10 +45,9 @@ def read_table(file: Union[str, "os.PathLike[str]"]) -> "pd.DataFrame":
             table[column] = pd.Series([float(v) if v else np.nan for v in values], index=table.index, dtype=float)
         except ValueError:
             continue
-        if column in _WHOLE:
-            numbers = table[column]
-            if len(numbers) and numbers.notna().all():
-                table[column] = numbers.astype(int)
+        numbers = table[column]
+        if column in whole and len(numbers) and (numbers == numbers.round()).all():
+            table[column] = numbers.astype(int)
     return table
 
 
@@ -132,6 +137,15 @@ class Run:
         if not self.directory.is_dir():
             raise InputError(f"{directory}: there is no such directory")
 
+    def __copy__(self) -> "Run":
+        return Run(self.directory, self.exit_status, self.verdicts, self._keep)
+
+    def __getstate__(self) -> Dict[str, Any]:
+        if self._keep is not None:                         # another process would find nothing there
+            raise InputError(f"{self.directory}: these results are temporary and gone with this process's Run; to hand a run to another "
+                             "process, give it a directory: p.run(\"results\")")
+        return dict(self.__dict__)
+
     def _table(self, name: str) -> "pd.DataFrame":
         file = self.directory / name
         if not file.exists():
@@ -177,7 +191,11 @@ class Run:
     @property
     def summary(self) -> Dict[str, Any]:
         """summary.json: status, message, warnings, events, final, times, version."""
-        text = (self.directory / "summary.json").read_text(encoding="utf-8")
+        file = self.directory / "summary.json"
+        if not file.exists():
+            more = "; it is a sweep, whose `runs` have one each" if (self.directory / "sweep.csv").exists() else ""
+            raise InputError(f"{self.directory}: there is no summary.json{more}")
+        text = file.read_text(encoding="utf-8")
         found: Dict[str, Any] = json.loads(text)
         return found
 
@@ -198,7 +216,7 @@ class Run:
 
     def state(self, label: str) -> StoredState:
         """The state of a label: "initial", "final", "limit:1", …"""
-        stem = self.directory / "states" / label.replace(":", "-")
+        stem = self.directory / "states" / str(label).replace(":", "-")
         if not pathlib.Path(f"{stem}.particles.csv").exists():
             raise InputError(f"{self.directory}: there is no state {label!r}; there are {', '.join(self.labels)}")
         return StoredState(stem, label)
@@ -208,12 +226,13 @@ class Run:
 
         Args:
             x, y: columns; by default the load factor and what is observed first.
-            shapes: labels of states to draw below the diagram.
+            shapes: labels of states to draw below the diagram, a list or with commas between them.
             diagram: False: the states alone.
         """
+        labels = shapes.split(",") if isinstance(shapes, str) else list(shapes)
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "figure.svg")
-            _figure(str(self.directory), x, y, list(shapes), diagram, file)
+            _figure(str(self.directory), x, y, labels, diagram, file)
             return Figure(pathlib.Path(file).read_text(encoding="utf-8"))
 
     def report(self, file: Union[str, "os.PathLike[str]", None] = None) -> pathlib.Path:
@@ -232,7 +251,7 @@ class Run:
     def __repr__(self) -> str:
         try:
             return f"<elamin.Run {str(self.directory)!r}: {self.status}, {self.message}>"
-        except (OSError, KeyError):
+        except (OSError, KeyError, ValueError):
             return f"<elamin.Run {str(self.directory)!r}>"
 
 
