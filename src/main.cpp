@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -132,7 +133,7 @@ std::string next_steps(const std::string& directory, bool has_report, bool stopp
   return "next: " + report + "elamin plot " + name + " (a figure)\n";
 }
 
-// Of an option that needs a number above 0; `what`: of which kind.
+// Of an option that needs a number that is allowed; `what`: of which kind.
 CLI::Validator number_of(const std::string& what, bool (*allowed)(double)) {
   return {[=](std::string& text) {
             double value = 0;
@@ -232,7 +233,8 @@ int answer(int argc, char** argv) {
   energy_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();
   energy_app->add_flag("--json", energy.json, "print JSON");
   energy_app->add_option("--forces", energy.forces_file, "write id,fx,fy,fz of all particles to this CSV file");
-  energy_app->add_option("--lambda", energy.load_factor, "load factor (default: where the study starts; 1 without a path)");
+  energy_app->add_option("--lambda", energy.load_factor, "load factor (default: where the study starts; 1 without a path)")
+      ->check(number_of("finite number", [](double value) { return std::isfinite(value); }));
   common(energy_app);
   CLI::App* check_app = app.add_subcommand("check", "every mistake in a problem file, or what was understood of it");
   check_app->add_option("problem", file, "the problem file")->type_name("FILE")->required();

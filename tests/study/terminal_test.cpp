@@ -168,5 +168,6 @@ TEST_CASE("words of the command line that mean nothing", "[terminal]") {
   says(quoted + " --outptu x", "--outptu: is no option; there are: ");
   says(quoted + " --outptu x", "; did you mean \"--output\"?");
   says(quoted + " --threads 0", "--threads: must be a positive integer, is 0");
+  for (const char* wrong : {"nan", "inf", "-inf", "x"}) says("energy " + quoted + " --lambda " + wrong, std::string("--lambda: must be a finite number, is ") + wrong);
   says("compare " + quoted + " --limit 0", "--limit: must be a positive number, is 0");
 }
