@@ -154,7 +154,7 @@ std::string shown(const Node& node) {
 }
 
 std::string to_toml(double value) {
-  std::string text = fmt::format("{:.17g}", value);
+  std::string text = fmt::format("{}", value);      // as few digits as read back to the same double
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }

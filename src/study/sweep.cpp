@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "core/say.hpp"
 #include "core/timing.hpp"
+#include "input/document.hpp"
 #include "results/columns.hpp"
 #include "results/results_directory.hpp"
 #include "results/run_directory.hpp"
@@ -33,13 +34,24 @@
 
 namespace elamin {
 
+namespace {
+
+/// A value as it is called: words without quotes.
+std::string plain(const Setting& setting) {
+  const Node node = parse_value(setting.value, setting.place);
+  const auto* text = std::get_if<std::string>(&node.value);
+  return text ? *text : setting.value;
+}
+
+}  // namespace
+
 std::string run_name(std::size_t number, std::size_t runs, const std::vector<Setting>& swept) {
   constexpr std::size_t longest = 120;
   std::string name = fmt::format("{:0{}}", number, fmt::formatted_size("{}", runs));
   for (const Setting& s : swept) {
     if (s.key.starts_with("expect")) continue;
     std::string part = "_" + s.key.substr(s.key.rfind('.') + 1) + "=";
-    for (const char c : s.value) part += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' ? c : '_';
+    for (const char c : plain(s)) part += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' ? c : '_';
     if (name.size() + part.size() > longest) break;        // the number tells the runs apart anyway
     name += part;
   }
@@ -57,7 +69,7 @@ std::vector<Cell> swept_values(const PreparedRun& run) {
   for (const Setting& s : run.swept) {
     char* end = nullptr;
     const double number = std::strtod(s.value.c_str(), &end);
-    values.push_back(end && *end == 0 && !s.value.empty() ? Cell(number) : Cell(s.value));
+    values.push_back(end && *end == 0 && !s.value.empty() ? Cell(number) : Cell(plain(s)));
   }
   return values;
 }

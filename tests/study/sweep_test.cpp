@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "study/prepare.hpp"
+#include "study/sweep.hpp"
 #include "scratch_directory.hpp"
 
 using namespace elamin;
@@ -49,7 +50,7 @@ TEST_CASE("Values and ranges") {
         Texts{"beam.column.diameter = 3", "beam.column.diameter = 2", "beam.column.diameter = 1"});
   const Texts tenths = runs_of(key + "range = [0.1, 0.5, 0.1]");  // 0.1 is no sum of halves: the end is in all the same
   REQUIRE(tenths.size() == 5);
-  CHECK(tenths[2] == "beam.column.diameter = 0.29999999999999999");
+  CHECK(tenths[2] == "beam.column.diameter = 0.3");
   CHECK(runs_of("[[sweep]]\nkey = \"path.when_unstable\"\nvalues = [\"jump\", \"stop\"]") ==
         Texts{"path.when_unstable = \"jump\"", "path.when_unstable = \"stop\""});
   CHECK(runs_of("[[sweep]]\nkey = \"support.1.displacement\"\nvalues = [[0, 0, 1], [0, 0, 2.5]]") ==
@@ -66,6 +67,17 @@ TEST_CASE("Values may be expressions, of the constants that their run has") {
                             "[[sweep]]\nkey = \"beam.column.particles\"\nvalues = [\"L+1\"]") ==
         Texts{"constants.t = 4, beam.column.particles = 9", "constants.t = 1.5, beam.column.particles = 4"});
   CHECK_THROWS_WITH(runs_of("[[sweep]]\nkey = \"constants.t\"\nvalues = [1, 2]"), Catch::Contains("\"t\" is no constant of this file; there is none"));
+}
+
+TEST_CASE("In tables and names of directories words have no quotes, and numbers no digits that are not needed") {
+  const ScratchDirectory scratch;
+  const std::string sweeps = "[[sweep]]\nkey = \"path.when_unstable\"\nvalues = [\"jump\"]\n[[sweep]]\nkey = \"path.to\"\nvalues = [0.1, \"3*0.1\"]\n";
+  const std::vector<PreparedRun> runs = prepare_runs(scratch.file("p.toml", swept + sweeps), {}).runs;
+  REQUIRE(runs.size() == 2);
+  CHECK(swept_values(runs[0]) == std::vector<Cell>{std::string("jump"), 0.1});
+  CHECK(swept_values(runs[1]) == std::vector<Cell>{std::string("jump"), 3 * 0.1});
+  CHECK(run_name(1, 2, runs[0].swept) == "1_when_unstable=jump_to=0.1");
+  CHECK(run_name(2, 2, runs[1].swept) == "2_when_unstable=jump_to=0.30000000000000004");
 }
 
 TEST_CASE("Several sweeps: all combinations, or in step") {
