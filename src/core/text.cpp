@@ -85,7 +85,7 @@ std::string read_data(const std::string& file, const std::string& kind, const st
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) refuse(file, std::string("cannot be opened: ") + std::strerror(errno));
-  const auto control = [](unsigned char c) { return (c < 32 && (c < '\t' || c > '\r')) || c == 127; };
+  const auto control = [](unsigned char c) { return c < 32 && (c < '\t' || c > '\r'); };
   std::string text;
   std::string block(1 << 20, '\0');
   try {

@@ -125,6 +125,12 @@ std::vector<Scene::Body> bodies_in(const std::string& file) {
   return all;
 }
 
+std::string no_mode(const std::string& directory, const std::string& label) {
+  int there = 0;
+  while (fs::exists(fs::path(directory) / "modes" / fmt::format("mode-{}.csv", there + 1))) ++there;
+  return fmt::format("{}: has no {}; {}", directory, in_quotes(label), there == 0 ? "it has no modes" : fmt::format("there are mode:1 to mode:{}", there));
+}
+
 }  // namespace
 
 Scene read_scene(const std::string& directory, const std::string& label) {
@@ -144,6 +150,10 @@ Scene read_scene(const std::string& directory, const std::string& label) {
                                  known.empty() ? "this run has left no such states: run it again" : "there are the states " + listed(known) + did_you_mean(name, known)));
   }
   if (moved) vectors = stem + ".modes.csv";
+  if (moved && !fs::exists(vectors))
+    throw InputError(fmt::format("{}: the state {} has no null vectors to be moved along, {}.modes.csv; events have them", directory,
+                                 in_quotes(name), name));
+  if (!moved && !vectors.empty() && !fs::exists(vectors)) throw InputError(no_mode(directory, label));
   const NumberTable particles(stem + ".particles.csv");
   std::map<int, int> number;                               // of a particle, by its id
   for (std::size_t k = 0; k < particles.rows(); ++k) {

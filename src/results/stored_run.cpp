@@ -71,7 +71,7 @@ std::vector<std::pair<std::string, double>> numbers(const Json& object) {
 void read_summary(const std::string& file, StoredRun& run) {
   if (!fs::exists(file)) return;
   try {
-    const Json all = Json::parse(read_data(file, "a summary"));
+    const Json all = Json::parse(read_data(file, "summary"));
     Summary& s = run.summary.emplace();
     s.title = all.value("title", ""), s.status = all.value("status", ""), s.message = all.value("message", "");
     s.input = all.value("input", ""), s.input_sha256 = all.value("input_sha256", "");
@@ -142,7 +142,7 @@ State read_frame(const std::string& file, const Model& model) {
 
 Table read_table(const std::string& file) {
   Table table;
-  for (std::vector<std::string>& line : fields(read_data(file, "a table of results"))) {
+  for (std::vector<std::string>& line : fields(read_data(file, "table of results"))) {
     if (table.columns.empty()) {
       table.columns = std::move(line);
       continue;

@@ -227,6 +227,16 @@ TEST_CASE("what is missing for a figure is said", "[figures]") {
   CHECK(sentence(options).find("did you mean \"height\"?") != std::string::npos);
   options.y = "", options.shapes = {"limit:1"};
   CHECK(sentence(options).find("limit-1.particles.csv: is not there; this run has left no such states") != std::string::npos);
+  std::filesystem::create_directories(scratch / "states");
+  std::filesystem::create_directories(scratch / "modes");
+  scratch.file("states/final.particles.csv", "id,kind,x,y,z,radius\n");
+  options.shapes = {"mode:1"};
+  CHECK(sentence(options).find(": has no \"mode:1\"; it has no modes") != std::string::npos);
+  scratch.file("modes/mode-1.csv", "id,ux,uy,uz\n");
+  options.shapes = {"mode:2"};
+  CHECK(sentence(options).find(": has no \"mode:2\"; there are mode:1 to mode:1") != std::string::npos);
+  options.shapes = {"final+mode"};
+  CHECK(sentence(options).find(": the state \"final\" has no null vectors to be moved along, final.modes.csv; events have them") != std::string::npos);
   options.shapes = {}, options.file = "f.png";
   CHECK(sentence(options) == "f.png: a figure is an SVG or a PDF; a name that ends in .svg or .pdf is needed");
   CHECK(!std::filesystem::exists(scratch / "figure.svg"));

@@ -25,6 +25,7 @@ TEST_CASE("A table of grains") {
   CHECK(said("1,2,3,0\n1,2,3,-1\n") ==
         "1:7: diameter: must be a positive number, is 0\n2:7: diameter: must be a positive number, is -1");
   CHECK(said("1 2 3\n") == "1:1: 1 columns, expected x,y,z or x,y,z,diameter");
+  CHECK(rows("# a\x7f comment\n1,2,3\n").position.size() == 1);      // no letter, but no sign of a binary file
   CHECK(said(std::string("1,2,3\0", 6)) == " is a binary file; a table x,y,z or x,y,z,diameter is text");
   std::string wrong;
   for (int i = 0; i < 1000; ++i) wrong += "a,b,c\n";

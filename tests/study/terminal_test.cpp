@@ -171,3 +171,17 @@ TEST_CASE("words of the command line that mean nothing", "[terminal]") {
   for (const char* wrong : {"nan", "inf", "-inf", "x"}) says("energy " + quoted + " --lambda " + wrong, std::string("--lambda: must be a finite number, is ") + wrong);
   says("compare " + quoted + " --limit 0", "--limit: must be a positive number, is 0");
 }
+
+TEST_CASE("results are read whatever stands in the title", "[terminal]") {
+  const ScratchDirectory scratch;
+  const std::string quoted = "'" + scratch.file("p.toml", pushed_in_steps) + "'", out = "'" + (scratch / "out") + "'";
+  for (const char* title : {"a\\u007fb", "a\\u0001b", "a</script>\\nb", "\\ufffe"}) {
+    CAPTURE(title);
+    REQUIRE(elamin_says(quoted + " --quiet -o " + out + " --set 'title=\"" + title + "\"'").status == 0);
+    for (const char* command : {"report ", "plot "}) {
+      const Answer answer = elamin_says(command + out);
+      INFO(answer.text);
+      CHECK(answer.status == 0);
+    }
+  }
+}
