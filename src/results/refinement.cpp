@@ -36,21 +36,26 @@ Extrapolated extrapolate(const std::vector<double>& values, double by, double ro
     return limit;
   }
   std::vector<double> f = values;
-  for (double before = 0; f.size() >= 3;) {
+  double before = 0, first = 0;                                // the orders that have been taken out last, and first
+  while (f.size() >= 3) {
     const Order order = order_of(f, by);
     if (before == 0) limit.order = order.observed;
     const double q = order.observed ? std::round(*order.observed) : 0;
-    if (last_change(f) <= least || !(q > before) || std::abs(*order.observed - q) > order_within) {
+    const bool by_chance = before > 0 && q > before + first;   // two terms nearly cancel: the next order is no higher than that
+    if (last_change(f) <= least || !(q > before) || std::abs(*order.observed - q) > order_within || by_chance) {
       if (before > 0) break;
       if (std::abs(order.ratio) >= 1 + (by - 1) / 3) limit.approach = Approach::not_asymptotic, limit.error = 3 * last_change(f) / (by - 1);
       return limit;
     }
     std::vector<double> next;
     for (std::size_t k = 1; k < f.size(); ++k) next.push_back(f[k] + (f[k] - f[k - 1]) / (std::pow(by, q) - 1));
-    f = std::move(next), before = q;
+    f = std::move(next), first = before == 0 ? q : first, before = q;
   }
   double error = last_change(f);                               // of a sequence whose differences fall by halves or more it is a bound
-  if (f.size() > 2 && !(std::abs(order_of(f, by).ratio) >= 2)) error = std::max(error, std::abs(f[f.size() - 2] - f[f.size() - 3]));
+  if (f.size() > 2) {
+    const double change_before = std::abs(f[f.size() - 2] - f[f.size() - 3]);
+    error = std::max(error, error >= change_before / 2 ? change_before : change_before / std::pow(by, before + first));
+  }
   limit.value = f.back(), limit.error = std::max(error, least), limit.approach = Approach::asymptotic;
   return limit;
 }
