@@ -23,7 +23,7 @@ class Dots {
   void dot(const Vec2& at) {
     static constexpr unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};       // of U+2800
     const auto [x, y] = cell(at);
-    dots_[static_cast<std::size_t>(y / 4 * width_ + x / 2)] |= bits[y % 4][x % 2];
+    dots_[y / 4 * width_ + x / 2] |= bits[y % 4][x % 2];
   }
   void letter(const Vec2& at, char c) {
     const auto [x, y] = cell(at);
@@ -32,7 +32,7 @@ class Dots {
   std::string row(int k) const {
     std::string text;
     for (int i = k * width_; i < (k + 1) * width_; ++i) {
-      const unsigned char d = dots_[static_cast<std::size_t>(i)];
+      const unsigned char d = dots_[i];
       if (const auto found = letters_.find(i); found != letters_.end()) text += found->second;
       else if (d == 0) text += ' ';
       else text += {'\xE2', static_cast<char>(0xA0 + (d >> 6)), static_cast<char>(0x80 + (d & 63))};

@@ -22,7 +22,7 @@ constexpr double small_type = 6.5, large_type = 7.5;
 std::string power_of_ten(int exponent) {
   static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string power = exponent < 0 ? "⁻" : "";
-  for (const char digit : fmt::format("{}", std::abs(exponent))) power += raised[static_cast<std::size_t>(digit - '0')];
+  for (const char digit : fmt::format("{}", std::abs(exponent))) power += raised[digit - '0'];
   return "10" + power;
 }
 
@@ -101,12 +101,12 @@ namespace {
 
 std::string text_in(const Row& row, int column) {
   if (column < 0) return "";
-  const std::string* text = std::get_if<std::string>(&row[static_cast<std::size_t>(column)]);
+  const std::string* text = std::get_if<std::string>(&row[column]);
   return text ? *text : "";
 }
 
 std::optional<double> number_in(const Row& row, int column) {
-  return column < 0 ? std::nullopt : as_number(row[static_cast<std::size_t>(column)]);
+  return column < 0 ? std::nullopt : as_number(row[column]);
 }
 
 int needed(const Table& table, const std::string& name, const std::string& file) {
@@ -128,7 +128,7 @@ bool changes(const Table& table, int column) {
 std::string first_changing(const Table& table, const std::string& first, const std::string& last) {
   const int end = column_index(table.columns, last), begin = column_index(table.columns, first);
   for (int c = begin + 1; begin >= 0 && c < end; ++c)
-    if (changes(table, c)) return table.columns[static_cast<std::size_t>(c)];
+    if (changes(table, c)) return table.columns[c];
   return "";
 }
 
@@ -283,15 +283,15 @@ Diagram sweep_diagram(const Table& sweep, const Axes& asked, const std::string& 
   const int status = needed(sweep, "status", file);
   std::vector<int> keys;                                   // swept, but not what is expected
   for (int c = 0; c < status; ++c)
-    if (!sweep.columns[static_cast<std::size_t>(c)].starts_with("expect.") && changes(sweep, c)) keys.push_back(c);
+    if (!sweep.columns[c].starts_with("expect.") && changes(sweep, c)) keys.push_back(c);
   Axes axes = asked;
-  if (axes.x.empty()) axes.x = keys.empty() ? sweep.columns.front() : sweep.columns[static_cast<std::size_t>(keys.front())];
+  if (axes.x.empty()) axes.x = keys.empty() ? sweep.columns.front() : sweep.columns[keys.front()];
   const bool in_time = column_index(sweep.columns, "balance") >= 0;
   if (axes.y.empty())
     axes.y = first_of({first_changing(sweep, "status", "step"), first_changing(sweep, "stable", "parent"), in_time ? "kinetic" : "energy"});
   CurveColumns at{};
   Diagram d = begun(sweep, axes, file, at);
-  if (d.x == sweep.columns[static_cast<std::size_t>(at.x)] && d.x.find('.') != std::string::npos) d.x = d.x.substr(d.x.find('.') + 1);
+  if (d.x == sweep.columns[at.x] && d.x.find('.') != std::string::npos) d.x = d.x.substr(d.x.find('.') + 1);
   if (is_event(d.y)) d.y = "load factor λ of " + d.y;
   // One series, unless a value comes twice.
   std::map<double, int> times;
@@ -305,7 +305,7 @@ Diagram sweep_diagram(const Table& sweep, const Axes& asked, const std::string& 
     std::string name;
     for (const int k : keys)
       if (twice && k != at.x) {
-        const std::string& key = sweep.columns[static_cast<std::size_t>(k)];
+        const std::string& key = sweep.columns[k];
         const std::string value = fmt::format("{:.6g}", number_in(row, k).value_or(0));
         name += (name.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " + value;
       }

@@ -33,7 +33,7 @@ class NumberTable {
   const Cell& cell(std::size_t row, const char* column) const {
     const int c = column_index(table_.columns, column);
     if (c < 0) throw InputError(fmt::format("{}: has no column {}", file_, in_quotes(column)));
-    return table_.rows[row][static_cast<std::size_t>(c)];
+    return table_.rows[row][c];
   }
   std::string file_;
   Table table_;
@@ -56,7 +56,7 @@ std::string stem_of_step(const std::string& directory, const std::string& step) 
   std::vector<std::string> known;
   for (const StoredState& s : run.states) {
     if (column < 0 || s.row < 0 || !s.file.ends_with(".data")) continue;
-    known.push_back(csv_text(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(column)]));
+    known.push_back(csv_text(run.path.rows[s.row][column]));
     if (known.back() == step) return s.file.substr(0, s.file.size() - 5);
   }
   throw InputError(fmt::format("{}: no state of step {} was kept; there are those of the steps {} ([path] frames or every keep more)", directory, step, listed(known)));
@@ -115,7 +115,7 @@ std::vector<Scene::Body> bodies_in(const std::string& file) {
     if (!std::all_of(polygons[k].begin(), polygons[k].end(), known)) throw InputError(file + ": is no picture that elamin has written");
     for (int& i : polygons[k]) {
       const auto [at, is_new] = number.try_emplace(i, static_cast<int>(body.points.size()));
-      if (is_new) body.points.push_back(points[static_cast<std::size_t>(i)]);
+      if (is_new) body.points.push_back(points[i]);
       i = at->second;
     }
     body.polygons.push_back(polygons[k]);
@@ -186,7 +186,7 @@ Scene read_scene(const std::string& directory, const std::string& label) {
   for (std::size_t k = 0; k < moves.rows(); ++k) most = std::max(most, along(k).norm());
   for (std::size_t k = 0; k < moves.rows() && most > 0; ++k) {
     const auto i = number.find(static_cast<int>(moves(k, "id")));
-    if (i != number.end()) scene.particles[static_cast<std::size_t>(i->second)].at += 0.1 * box.sizes().norm() / most * along(k);
+    if (i != number.end()) scene.particles[i->second].at += 0.1 * box.sizes().norm() / most * along(k);
   }
   return scene;
 }

@@ -141,17 +141,17 @@ class Panel {
       const double part = largest_ > 0 && std::isfinite(b.tension) ? b.tension / largest_ : 0;
       const int k = static_cast<int>(std::lround((part + 1) / 2 * (shades - 1)));
       const auto end = [&](int particle) {                  // of many to a tenth of a point: half the text
-        const Vec2 place = at(scene.particles[static_cast<std::size_t>(particle)].at);
+        const Vec2 place = at(scene.particles[particle].at);
         return many ? Vec2((10 * place).array().round() / 10) : place;
       };
       const Vec2 from = end(b.first), to = end(b.second);
-      std::vector<Polyline>& same = lines[static_cast<std::size_t>(k)];
+      std::vector<Polyline>& same = lines[k];
       if (!same.empty() && same.back().back() == from) same.back().push_back(to);      // a chain
       else same.push_back({from, to});
     }
     for (std::vector<Polyline>& same : lines)
       for (Polyline& line : same) line = thinned(line, 0.02);
-    for (int k = 0; k < shades; ++k) drawing_.lines(lines[static_cast<std::size_t>(k)], {shade(k), many ? 0.35 : 1.0});
+    for (int k = 0; k < shades; ++k) drawing_.lines(lines[k], {shade(k), many ? 0.35 : 1.0});
   }
 
   void bodies(const Scene& scene) const {
@@ -177,7 +177,7 @@ class Panel {
     double most = 0;
     for (const std::vector<int>& polygon : body.polygons) {
       Vec3 area = Vec3::Zero();                             // twice
-      const auto point = [&](std::size_t i) { return body.points[static_cast<std::size_t>(polygon[i])]; };
+      const auto point = [&](std::size_t i) { return body.points[polygon[i]]; };
       for (std::size_t i = 2; i < polygon.size(); ++i) area += (point(i - 1) - point(0)).cross(point(i) - point(0));
       most = std::max(most, area.norm());
       if (view_.w.dot(area) <= 1e-9 * area.norm()) continue;
@@ -247,7 +247,7 @@ double draw_shapes(Drawing& drawing, const std::vector<Scene>& scenes, const Vec
     if (k > 0 && column == 0) y += high + caption + 4;
     const int in_row = std::min(columns, n - (k - column));
     const double left = corner.x() + (width - in_row * across - (in_row - 1) * gap) / 2 + column * (across + gap);
-    const Scene& scene = scenes[static_cast<std::size_t>(k)];
+    const Scene& scene = scenes[k];
     drawing.clip({left, y}, {left + across, y + high});
     Panel(drawing, view, seen.center(), {left + across / 2, y + high / 2}, scale, largest).draw(scene, box);
     drawing.end_clip();

@@ -233,7 +233,7 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
         if (t.name == s.name) within = 1e-6 * t.spacing / by;
     }
     for (int i = 0; i < s.count; ++i)
-      image[static_cast<std::size_t>(s.first + i)] = places ? places->at(coarse_model.start.at(s.first + i).hi, within)
+      image[s.first + i] = places ? places->at(coarse_model.start.at(s.first + i).hi, within)
                                                             : there.first + (part.row ? part.row->image(i) : i);
   }
   std::set<int> held;                                          // beside the end of what is held the middle of a bond counts
@@ -252,12 +252,12 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
     if (!before || !now) continue;
     const std::set<int> was(before->particles.begin(), before->particles.end()), is(now->particles.begin(), now->particles.end());
     for (int i = 0; i < coarse_model.particles(); ++i) {
-      const int there = image[static_cast<std::size_t>(i)];
+      const int there = image[i];
       const bool clamps = refined.part_of(i).row && held.count(i) && (held.count(i - 1) || held.count(i + 1));
       if (there < 0 || clamps || (was.count(i) > 0) == (is.count(there) > 0)) continue;
       mistakes.add(g.place, fmt::format("does not stay where it is: particle {} {} it, but with a spacing {} times as fine what is at its place {}; give the "
                                         "region by lengths that do not depend on the spacing, or by a constant that refine.divide names",
-                                        coarse_model.id[static_cast<std::size_t>(i)], was.count(i) ? "is in" : "is not in", by,
+                                        coarse_model.id[i], was.count(i) ? "is in" : "is not in", by,
                                         was.count(i) ? "is not" : "is"));
       break;
     }

@@ -71,7 +71,7 @@ bool Stages::resume(const StoredStage& stored) {
     next_ = k, resumed_ = stored;
     for (std::size_t i = 0; i < tables_.size(); ++i)
       for (int before = 0; before < k; ++before)
-        was_in_force_[i] = was_in_force_[i] && in_force_[static_cast<std::size_t>(before)][i];
+        was_in_force_[i] = was_in_force_[i] && in_force_[before][i];
     return true;
   }
   return false;
@@ -82,7 +82,7 @@ Stage Stages::enter(std::string& unclear) {
   const StageTable* t = !problem_.stages.empty() ? &problem_.stages[next_] : nullptr;
   Stage stage{t ? t->name : "", next_, problem_.path, {}, {}, {}};
   for (std::size_t i = 0; i < tables_.size(); ++i) {
-    stage.in_force.push_back(in_force_[static_cast<std::size_t>(next_)][i]);
+    stage.in_force.push_back(in_force_[next_][i]);
     stage.entering.push_back(!first && stage.in_force[i] && !was_in_force_[i]);
   }
   was_in_force_ = stage.in_force;

@@ -93,8 +93,7 @@ std::string wrong_inertia(const Mat3& inertia) {
   return "";
 }
 
-std::optional<BodyForm> body_form(const std::array<int, 3>& counts, const std::vector<double>& numbers,
-                                  std::vector<std::string>& wrong) {
+std::optional<BodyForm> body_form(const std::array<int, 3>& counts, const std::vector<double>& numbers, std::vector<std::string>& wrong) {
   const std::size_t before = wrong.size();
   const auto [n, e, f] = std::array<std::int64_t, 3>{counts[0], counts[1], counts[2]};
   const int lists = announced_in(counts, numbers.size());

@@ -47,8 +47,7 @@ std::vector<int> by_type(LammpsLines& lines, const std::vector<Row>& rows, const
   for (std::size_t i = 0; i < rows.size(); ++i) {
     int& place = row[rows[i].type - 1];
     if (place >= 0)
-      lines.mistake(rows[i].line, 1, section,
-                    fmt::format("type {} stands twice; the first is on line {}", rows[i].type, rows[place].line));
+      lines.mistake(rows[i].line, 1, section, fmt::format("type {} stands twice; the first is on line {}", rows[i].type, rows[place].line));
     else
       place = static_cast<int>(i);
   }
@@ -70,8 +69,7 @@ bool take_atoms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
     const auto& image = rows.images[order[i]];
     if (i > 0 && rows.atoms[order[i - 1]].id == a.id) {
       unique = false;
-      lines.mistake(a.line, 1, "Atoms: id",
-                    fmt::format("{} stands twice; the first is on line {}", a.id, rows.atoms[order[i - 1]].line));
+      lines.mistake(a.line, 1, "Atoms: id", fmt::format("{} stands twice; the first is on line {}", a.id, rows.atoms[order[i - 1]].line));
     }
     if (a.is_body) {
       data.bodies.push_back({-1, a.id, a.type, a.mass, Mat3::Zero()});
@@ -85,8 +83,7 @@ bool take_atoms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
     if (!x.allFinite()) lines.mistake(a.line, 1, "Atoms: image flag", "the unwrapped position is not finite");
     if (!tilted && image != std::array<int, 3>{} && rows.tilt != Vec3::Zero()) {
       tilted = true;
-      lines.mistake(a.line, 1, "Atoms: image flag",
-                    "a tilted box (xy xz yz) is not available with image flags other than 0");
+      lines.mistake(a.line, 1, "Atoms: image flag", "a tilted box (xy xz yz) is not available with image flags other than 0");
     }
     if (a.is_body) data.body_position.col(body++) = x;
     else data.position.col(particle++) = x;
@@ -122,8 +119,7 @@ void take_forms(LammpsLines& lines, LammpsRows& rows, LammpsData& data) {
     const int b = body_of(data, row.id);
     const auto tell = [&](const std::string& what) { lines.mistake(row.line, 1, "Bodies: id", what); };
     if (b < 0) {
-      tell(index_of(data.id, row.id) < 0 ? fmt::format("there is no atom {}", row.id)
-                                         : fmt::format("atom {} is a particle", row.id));
+      tell(index_of(data.id, row.id) < 0 ? fmt::format("there is no atom {}", row.id) : fmt::format("atom {} is a particle", row.id));
     } else if (from[b] > 0) {
       tell(fmt::format("{} stands twice; the first is on line {}", row.id, from[b]));
     } else {
@@ -203,8 +199,7 @@ LammpsData read_lammps_data(const std::string& file, const LammpsReading& how) {
     }
   if (rows.sound("Angle Coeffs"))
     for (const int i : by_type(lines, rows.angle_coefficients, "Angle Coeffs")) {
-      data.angle_types.push_back(
-          i < 0 ? AngleType{0} : AngleType{rows.angle_coefficients[i].stiffness, rows.angle_coefficients[i].rest});
+      data.angle_types.push_back(i < 0 ? AngleType{0} : AngleType{rows.angle_coefficients[i].stiffness, rows.angle_coefficients[i].rest});
     }
   if (rows.sound("Atoms")) {
     if (rows.atoms.empty())

@@ -271,7 +271,7 @@ class ScriptMaker {
     }
     for (const Line& old : fixes_) {
       const auto at = std::find_if(now_.begin(), now_.end(), same(old));
-      if (at == now_.end() || !kept[static_cast<std::size_t>(at - now_.begin())]) put("unfix {}", old.id);
+      if (at == now_.end() || !kept[at - now_.begin()]) put("unfix {}", old.id);
     }
     for (std::size_t k = 0; k < now_.size(); ++k)
       if (!kept[k]) put("fix {} {}{}", now_[k].id, now_[k].text, now_[k].means.empty() ? "" : "   # " + now_[k].means);

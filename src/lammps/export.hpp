@@ -58,7 +58,7 @@ struct ExportTypes {
   std::vector<Stage> stages;
   std::vector<std::string> refused;         // what types cannot say, in sentences
 
-  const Rule& rule(std::size_t stage, int a, int b) const { return stages[stage].rules[static_cast<std::size_t>((a - 1) * count + b - 1)]; }
+  const Rule& rule(std::size_t stage, int a, int b) const { return stages[stage].rules[(a - 1) * count + b - 1]; }
 };
 
 /// Of models that differ in their contacts alone, one a stage. At most `most` types.

@@ -177,10 +177,10 @@ class TypeMaker {
       for (int b = 0; b < n; ++b) {
         Rule rule = tables(s, first_[a], first_[b]);
         if (rule.hertz >= 0 && stages_[s]->contacts[rule.hertz].effective_modulus == 0) rule.hertz = -1;
-        rules[static_cast<std::size_t>(a * n + b)] = rule;
+        rules[a * n + b] = rule;
       }
     for (const Pair& p : left_out_[s])
-      for (const Pair q : {p, Pair{p[1], p[0]}}) rules[static_cast<std::size_t>((types_.type[q[0]] - 1) * n + types_.type[q[1]] - 1)].hertz = -1;
+      for (const Pair q : {p, Pair{p[1], p[0]}}) rules[(types_.type[q[0]] - 1) * n + types_.type[q[1]] - 1].hertz = -1;
   }
 
   const std::vector<const Model*>& stages_;

@@ -59,8 +59,7 @@ class LammpsLines {
   /// The same of a number that must not be negative.
   std::optional<double> amount(const DataLine& line, std::size_t i, const std::string& key);
   /// Whether a row of a section has one of these numbers of words; else notes a mistake, which tells what they mean.
-  bool has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& section,
-                const std::string& meaning);
+  bool has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& section, const std::string& meaning);
 
  private:
   std::string file_, text_;

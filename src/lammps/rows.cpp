@@ -72,8 +72,7 @@ std::optional<Columns> atom_columns(const std::string& style, std::string* why) 
     return refuse(in_quotes(style) + " is not available: one column would be a density here and a mass there; put the particles "
                                   "into one file and the bodies into another");
   if (!any)
-    return refuse(
-        "\"hybrid\" alone does not say which columns there are; give the styles, such as \"hybrid sphere angle\"");
+    return refuse("\"hybrid\" alone does not say which columns there are; give the styles, such as \"hybrid sphere angle\"");
   return columns;
 }
 
@@ -395,8 +394,7 @@ class RowReader {
                                      expected, what));
       } else if (it == rows_.sections.end() && expected > 0 && !how_.ignores(name) &&
                  (name == "Atoms" || name == "Bodies" || name == "Bonds" || name == "Angles")) {
-        lines_.mistake(end, 1, name,
-                       fmt::format("the file ends without this section; its header announces {} {}", expected, what));
+        lines_.mistake(end, 1, name, fmt::format("the file ends without this section; its header announces {} {}", expected, what));
       }
     }
   }

@@ -213,8 +213,7 @@ void write_particles(const std::string& file, const Model& model, const State& s
   if (!model.angles.empty()) put("\nAngles\n\n");
   for (std::size_t k = 0; k < model.angles.size(); ++k) {
     const Angle& a = model.angles[k];
-    put("{} {} {} {} {}\n", k + 1, angles.number[a.type], model.id[a.particles[0]], model.id[a.particles[1]],
-        model.id[a.particles[2]]);
+    put("{} {} {} {} {}\n", k + 1, angles.number[a.type], model.id[a.particles[0]], model.id[a.particles[1]], model.id[a.particles[2]]);
   }
   put.write(file);
 }

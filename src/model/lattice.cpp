@@ -99,7 +99,7 @@ int LatticePatch::find(LatticePoint p) const {
     for (; around >= once; around -= once) p.i -= outline_.n1, p.j -= outline_.n2;
   }
   if (p.j < lowest_ || p.j >= lowest_ + static_cast<std::int64_t>(rows_.size())) return -1;
-  const Row& row = rows_[static_cast<std::size_t>(p.j - lowest_)];
+  const Row& row = rows_[p.j - lowest_];
   return p.i < row.from || p.i > row.to ? -1 : number(row, p.i);
 }
 

@@ -71,7 +71,7 @@ Json fields_data(Energy& energy, const State& state, const std::vector<int>& bon
   const Model& model = energy.model();
   const Fields fields = fields_at(energy, state, {});
   std::vector<float> tension(all.bonds.size()), moment(model.particles()), curvature(moment), energies;
-  for (std::size_t b = 0; b < bonds.size(); ++b) tension[static_cast<std::size_t>(bonds[b])] = finite_float(fields.bonds[b].tension);
+  for (std::size_t b = 0; b < bonds.size(); ++b) tension[bonds[b]] = finite_float(fields.bonds[b].tension);
   for (std::size_t k = 0; k < fields.angles.size(); ++k) {
     const AngleField& angle = fields.angles[k];
     for (const auto& [of, here] : {std::pair(&moment, angle.moment), {&curvature, angle.curvature}})

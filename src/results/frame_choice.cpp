@@ -66,7 +66,7 @@ std::vector<int> FrameChoice::dropped_at_end() {
     const double at = at_ * k / (frames_ - 1);
     auto nearest = std::lower_bound(candidates_.begin(), candidates_.end() - 1, at, [](const Candidate& c, double x) { return c.at < x; });
     if (nearest != candidates_.begin() && at - std::prev(nearest)->at < nearest->at - at) --nearest;
-    chosen[static_cast<std::size_t>(nearest - candidates_.begin())] = true;
+    chosen[nearest - candidates_.begin()] = true;
   }
   keep([&](std::size_t k) { return chosen[k]; });
   return dropped();

@@ -74,7 +74,7 @@ Table landscape_table(const Landscapes& all, const std::vector<std::string>& obs
     return table.rows.emplace_back(std::move(row));
   };
   const auto put = [&](Row& row, const char* column, Cell value) {
-    row[static_cast<std::size_t>(column_index(table.columns, column))] = std::move(value);
+    row[column_index(table.columns, column)] = std::move(value);
   };
   for (const Landscape& l : all.at) {
     Row& graph = short_row("graph", l.load_factor);

@@ -183,8 +183,7 @@ bool Observables::sufficient(const std::vector<Touch>& touches) const {
     const std::vector<double> all = gaps(subjects_[k].wall, touches);
     const auto known = [&](int i) { return all[i] < infinity; };
     const std::vector<int>& of = subjects_[k].entities;
-    if (o.reduce == Reduce::min ? std::none_of(of.begin(), of.end(), known)
-                                : !std::all_of(of.begin(), of.end(), known))
+    if (o.reduce == Reduce::min ? std::none_of(of.begin(), of.end(), known) : !std::all_of(of.begin(), of.end(), known))
       return false;
   }
   return true;

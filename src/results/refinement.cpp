@@ -64,7 +64,7 @@ namespace {
 
 std::vector<std::string> labels_of(const Table& events) {
   std::vector<std::string> labels;
-  for (const Row& row : events.rows) labels.push_back(csv_text(row[static_cast<std::size_t>(column_index(events.columns, "label"))]));
+  for (const Row& row : events.rows) labels.push_back(csv_text(row[column_index(events.columns, "label")]));
   return labels;
 }
 
@@ -108,7 +108,7 @@ double usual_in(const Table& table, const std::string& column) {
   std::vector<double> sizes;
   const int c = column_index(table.columns, column);
   for (const Row& row : table.rows)
-    if (const auto value = c < 0 ? std::nullopt : as_number(row[static_cast<std::size_t>(c)])) sizes.push_back(std::abs(*value));
+    if (const auto value = c < 0 ? std::nullopt : as_number(row[c])) sizes.push_back(std::abs(*value));
   if (sizes.empty()) return 0;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());

@@ -64,8 +64,7 @@ ResultsDirectory::Files inputs_in(const std::string& directory, const Problem& p
   return inside;
 }
 
-RunDirectory::RunDirectory(std::string directory, const Problem& problem, const Model& model,
-                           const std::string& resolved_toml, bool force)
+RunDirectory::RunDirectory(std::string directory, const Problem& problem, const Model& model, const std::string& resolved_toml, bool force)
     : inputs_(inputs_in(directory, problem)),
       record_(problem, model),
       model_(model),

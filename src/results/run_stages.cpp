@@ -13,7 +13,7 @@ namespace {
 std::string stage_name(const StoredRun& run, const StoredState& stored) {
   const int column = column_index(run.path.columns, "stage");
   if (column < 0 || stored.row < 0) return "";
-  return csv_text(run.path.rows[static_cast<std::size_t>(stored.row)][static_cast<std::size_t>(column)]);
+  return csv_text(run.path.rows[stored.row][column]);
 }
 
 std::vector<StoredState> states_of(const StoredRun& run, const std::string& stage) {

@@ -98,7 +98,7 @@ void find_states(StoredRun& run) {
     const std::string* name = label >= 0 ? std::get_if<std::string>(&row[label]) : nullptr;
     const bool labelled = name && !name->empty();
     if (!labelled && step < 0) continue;
-    const std::string stem = labelled ? "states/" + file_name_of(*name) : "frames/" + csv_text(row[static_cast<std::size_t>(step)]);
+    const std::string stem = labelled ? "states/" + file_name_of(*name) : "frames/" + csv_text(row[step]);
     for (const char* end : {"-again.data", ".data", ".csv"})
       if (const std::string file = in(run.directory, stem + end); fs::exists(file)) {
         run.states.push_back({labelled ? *name : "", k, file});

@@ -39,7 +39,7 @@ std::string bar(double part) {
   const int filled = static_cast<int>(8 * cells * std::clamp(part, 0.0, 1.0));
   std::string text;
   for (int k = 0; k < filled / 8; ++k) text += "█";
-  text += eighths[static_cast<std::size_t>(filled % 8)];
+  text += eighths[filled % 8];
   return text + std::string(static_cast<std::size_t>(cells - (filled + 7) / 8), ' ');
 }
 
@@ -148,7 +148,7 @@ struct NamedCells {
   const Row& row;
   Cell operator[](const std::string& name) const {
     const int i = column_index(columns, name);
-    return i < 0 ? Cell{} : row[static_cast<std::size_t>(i)];
+    return i < 0 ? Cell{} : row[i];
   }
 };
 

@@ -32,7 +32,7 @@ const StoredState& stored_at(const StoredRun& run, const std::string& at) {
     if (!s.file.ends_with(".data")) continue;
     known.push_back(s.label);
     if (s.label.empty() && column >= 0 && s.row >= 0)
-      known.back() = "step=" + csv_text(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(column)]);
+      known.back() = "step=" + csv_text(run.path.rows[s.row][column]);
     if (known.back() == at) return s;
   }
   const std::string meant = did_you_mean(at, known);

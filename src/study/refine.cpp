@@ -51,7 +51,7 @@ void leave_out_ends(const std::vector<RunTables>& runs, const std::string& at, R
   for (const RunTables& run : runs) {
     std::string why;
     const Row& last = run.path->rows.back();
-    labels.insert(at == "final" ? csv_text(last[static_cast<std::size_t>(column_index(run.path->columns, "label"))]) : at);
+    labels.insert(at == "final" ? csv_text(last[column_index(run.path->columns, "label")]) : at);
     ends.push_back(value_at("lambda", at, run, why).value_or(0));
   }
   const auto [least, most] = std::minmax_element(ends.begin(), ends.end());

@@ -111,7 +111,7 @@ std::vector<int> chosen(Interpreter& in, const std::string& style, std::size_t i
     if (i < in.size() && in.word(i).find('*') == std::string::npos) return {w.with_id(in.integer(i, 1, largest_id), i)};
     const auto r = in.range(i, largest_id);
     for (int id = r[0]; id <= r[1] && id < static_cast<int>(w.of_id.size()); ++id)
-      if (const int k = w.of_id[static_cast<std::size_t>(id)]; k >= 0) list.push_back(k);
+      if (const int k = w.of_id[id]; k >= 0) list.push_back(k);
   } else if (style == "type") {
     const auto r = in.range(i, w.atom_types);
     take([&](const Atom& a) { return r[0] <= a.type && a.type <= r[1]; });
@@ -155,7 +155,7 @@ void create_atoms(Interpreter& in) {
   }
   if (w.atoms.size() >= most_atoms) throw Wrong(0, fmt::format("makes more than {} atoms", most_atoms));
   w.create(type, x);
-  const std::string& file = in.reading.files[static_cast<std::size_t>(in.where.file)];
+  const std::string& file = in.reading.files[in.where.file];
   if (const std::size_t at = file.rfind("sheet_"); at != std::string::npos && file.find('/', at) == std::string::npos)
     w.sheets[file].push_back(static_cast<int>(w.atoms.size()) - 1);
 }
@@ -167,7 +167,7 @@ std::set<std::pair<int, int>> left_out(const World& w, const std::vector<int>& a
   std::set<std::pair<int, int>> pairs;
   int deepest = 0;
   for (int k = 0; k < 3; ++k)
-    if (w.special_lj[static_cast<std::size_t>(k)] == 0 && w.special_coul[static_cast<std::size_t>(k)] == 0) deepest = k + 1;
+    if (w.special_lj[k] == 0 && w.special_coul[k] == 0) deepest = k + 1;
   if (deepest == 0 || w.bonds.empty() || among.empty()) return pairs;
   std::vector<std::vector<int>> to(w.atoms.size());
   const auto matters = [&](const Glue<2>& b) {
@@ -176,13 +176,13 @@ std::set<std::pair<int, int>> left_out(const World& w, const std::vector<int>& a
   };
   for (const auto& b : w.bonds)
     if (b.gone == always && matters(b))
-      to[static_cast<std::size_t>(b.atoms[0])].push_back(b.atoms[1]), to[static_cast<std::size_t>(b.atoms[1])].push_back(b.atoms[0]);
+      to[b.atoms[0]].push_back(b.atoms[1]), to[b.atoms[1]].push_back(b.atoms[0]);
   for (const int i : among) {
     std::vector<int> front{i}, all{i};
     for (int k = 0; k < deepest; ++k) {
       std::vector<int> after;
       for (const int f : front)
-        for (const int t : to[static_cast<std::size_t>(f)])
+        for (const int t : to[f])
           if (std::find(all.begin(), all.end(), t) == all.end()) all.push_back(t), after.push_back(t);
       const auto c = static_cast<std::size_t>(k);
       if (w.special_lj[c] == 0 && w.special_coul[c] == 0)
@@ -203,7 +203,7 @@ std::vector<double> reach(const World& w) {
   if (!grains) return {};
   std::vector<double> part(static_cast<std::size_t>(w.atom_types) + 1, w.skin / 2);
   for (const Atom& a : w.atoms)
-    if (World::there(a)) part[static_cast<std::size_t>(a.type)] = std::max(part[static_cast<std::size_t>(a.type)], (a.diameter + w.skin) / 2);
+    if (World::there(a)) part[a.type] = std::max(part[a.type], (a.diameter + w.skin) / 2);
   return part;
 }
 
@@ -220,11 +220,11 @@ void many(Interpreter& in) {
   if (!parts.empty() && most > 2 * *std::max_element(parts.begin(), parts.end())) parts.clear();       // where LAMMPS stops
   int beyond = 0;
   const auto near = [&](int i, int j) {
-    const Atom &a = w.atoms[static_cast<std::size_t>(i)], &b = w.atoms[static_cast<std::size_t>(j)];
+    const Atom &a = w.atoms[i], &b = w.atoms[j];
     const Vec3 d = w.at(a) - w.at(b);
     const double rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (rsq < least * least || rsq > most * most) return;
-    if (!parts.empty() && rsq > std::pow(parts[static_cast<std::size_t>(a.type)] + parts[static_cast<std::size_t>(b.type)], 2)) return void(++beyond);
+    if (!parts.empty() && rsq > std::pow(parts[a.type] + parts[b.type], 2)) return void(++beyond);
     wanted.push_back({i, j}), touched.push_back(i);
   };
   std::vector<int> among, of_first, of_second;
@@ -241,13 +241,13 @@ void many(Interpreter& in) {
       if (other != one) near(one, other);
   } else {
     Field x(3, static_cast<Eigen::Index>(among.size()));
-    for (std::size_t k = 0; k < among.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = w.at(w.atoms[static_cast<std::size_t>(among[k])]);
-    const auto atom = [&](int k) -> const Atom& { return w.atoms[static_cast<std::size_t>(among[static_cast<std::size_t>(k)])]; };
+    for (std::size_t k = 0; k < among.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = w.at(w.atoms[among[k]]);
+    const auto atom = [&](int k) -> const Atom& { return w.atoms[among[k]]; };
     for (const IndexPair& p : near_pairs(x, std::vector<double>(among.size(), most / 2 * (1 + 1e-9)), [&](int i, int j) {
            const Atom &a = atom(i), &b = atom(j);
            return (w.in(a, first) && w.in(b, second)) || (w.in(a, second) && w.in(b, first));
          }))
-      near(among[static_cast<std::size_t>(p.first)], among[static_cast<std::size_t>(p.second)]);
+      near(among[p.first], among[p.second]);
   }
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
@@ -310,7 +310,7 @@ void set(Interpreter& in) {
       for (const int a : list) {
         const double x = v.at(static_cast<std::size_t>(a));
         if (!std::isfinite(x)) throw Wrong(i + 1, "is not finite");
-        put(w.atoms[static_cast<std::size_t>(a)], x);
+        put(w.atoms[a], x);
       }
       i += 2;
     };
@@ -356,11 +356,10 @@ void set(Interpreter& in) {
     } else if (k == "bond" || k == "angle") {
       const int t = static_cast<int>(in.integer(i + 1, 1, k == "bond" ? w.bond_types : w.angle_types));
       std::vector<bool> in_list(w.atoms.size());
-      for (const int a : list) in_list[static_cast<std::size_t>(a)] = true;
+      for (const int a : list) in_list[a] = true;
       const auto change = [&](auto& glue) {
         for (auto& g : glue)
-          if (g.gone == always &&
-              std::all_of(g.atoms.begin(), g.atoms.end(), [&](int a) { return in_list[static_cast<std::size_t>(a)]; })) {
+          if (g.gone == always && std::all_of(g.atoms.begin(), g.atoms.end(), [&](int a) { return in_list[a]; })) {
             if (g.born < w.run_number()) throw Wrong(i, "changes glue that was there in an earlier run; glue keeps its kind", true);
             g.type = t;
           }
@@ -375,7 +374,7 @@ void set(Interpreter& in) {
       moving(in);
       for (int c = 0; c < 3; ++c, ++i) {
         const Value v = each_value(in, i + 1);
-        for (const int a : list) w.atoms[static_cast<std::size_t>(a)].omega[c] = v.at(static_cast<std::size_t>(a));
+        for (const int a : list) w.atoms[a].omega[c] = v.at(static_cast<std::size_t>(a));
       }
       ++i;
     }

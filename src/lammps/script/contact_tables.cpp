@@ -55,7 +55,7 @@ std::string contact_keys(TableList& list, const PairCoefficient& c, const PairSt
 void exclusions(TableList& list, int k, const Run& run, const std::vector<const PairCoefficient*>& acting) {
   int behind = 0;                               // the last table of this run; where it is another one, they come anew
   for (std::size_t t = 0; t < list.tables.size(); ++t)
-    if (list.tables[t].kind == "contact" && list.tables[t].in_run[static_cast<std::size_t>(k)]) behind = static_cast<int>(t) + 1;
+    if (list.tables[t].kind == "contact" && list.tables[t].in_run[k]) behind = static_cast<int>(t) + 1;
   for (const Run::Excluded& e : run.excluded)
     for (const Law law : {Law::hertz, Law::lj, Law::rounded}) {
       if (std::none_of(acting.begin(), acting.end(), [&](const PairCoefficient* c) { return c->law == law; })) continue;

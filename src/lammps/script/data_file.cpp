@@ -82,7 +82,7 @@ bool take_coefficients(Interpreter& in, const std::string& file, const std::arra
       }
       if (names || in.words.empty() || !section) continue;
       for (int t = 0; t < section->types; ++t)
-        in.words[static_cast<std::size_t>(t)].text = std::to_string(in.integer(static_cast<std::size_t>(t), 1, most_atoms) + offset[section->offset]);
+        in.words[t].text = std::to_string(in.integer(static_cast<std::size_t>(t), 1, most_atoms) + offset[section->offset]);
       if (section->command == sections[0].command && section->types == 1) in.words.insert(in.words.begin(), in.words[0]);
       in.words.insert(in.words.begin(), Word{section->command, first});
       if (section->offset > 0)
@@ -178,8 +178,8 @@ void read_data(Interpreter& in) {
     a.id = id + id_offset.value_or(0), a.type = type + offset[0], a.x = a.start = x + shift, a.born = w.run_number();
     if (group_bit >= 0) a.groups |= 1u << group_bit;
     if (a.id >= static_cast<int>(w.of_id.size())) w.of_id.resize(static_cast<std::size_t>(a.id) + 1, -1);
-    if (w.of_id[static_cast<std::size_t>(a.id)] >= 0) throw Wrong(1, fmt::format("holds an atom {}, which is there already", a.id));
-    w.of_id[static_cast<std::size_t>(a.id)] = static_cast<int>(w.atoms.size());
+    if (w.of_id[a.id] >= 0) throw Wrong(1, fmt::format("holds an atom {}, which is there already", a.id));
+    w.of_id[a.id] = static_cast<int>(w.atoms.size());
     return w.atoms.emplace_back(a);
   };
   const auto base = static_cast<int>(w.atoms.size());
@@ -188,7 +188,7 @@ void read_data(Interpreter& in) {
     a.molecule = data.molecule[k] + molecule_offset, a.diameter = data.diameter[k], a.density = data.density[k];
     if (data.velocity.cols() > 0) a.v = data.velocity.col(static_cast<Eigen::Index>(k));
     if (data.angular_velocity.cols() > 0) a.omega = data.angular_velocity.col(static_cast<Eigen::Index>(k));
-    if (!w.sphere && data.mass.size() > k) w.mass[static_cast<std::size_t>(a.type - 1)] = data.mass[k];
+    if (!w.sphere && data.mass.size() > k) w.mass[a.type - 1] = data.mass[k];
   }
   for (const Bond& b : data.bonds)
     w.bonds.push_back({b.type + 1 + offset[1], {b.particles[0] + base, b.particles[1] + base}, w.run_number()});
@@ -211,9 +211,9 @@ void take_positions(Interpreter& in, const std::string& file) {
   std::vector<int> later;                          // a state of several stages holds what a later one makes, too
   for (std::size_t k = 0; k < data.id.size(); ++k) {
     const int id = data.id[k];
-    const int i = id < static_cast<int>(w.of_id.size()) ? w.of_id[static_cast<std::size_t>(id)] : -1;
+    const int i = id < static_cast<int>(w.of_id.size()) ? w.of_id[id] : -1;
     if (i < 0) later.push_back(id);
-    else w.atoms[static_cast<std::size_t>(i)].x = data.position.col(static_cast<Eigen::Index>(k)), found[static_cast<std::size_t>(i)] = true;
+    else w.atoms[i].x = data.position.col(static_cast<Eigen::Index>(k)), found[i] = true;
   }
   for (std::size_t i = 0; i < w.atoms.size(); ++i)
     if (World::there(w.atoms[i]) && !found[i] && !w.atoms[i].is_body)

@@ -53,7 +53,7 @@ std::string misread(const Pairs& pairs, const std::vector<int>& types) {
 /// Whether a fix pushes in one of these directions.
 bool pushes(const Run::Active& a, const std::array<bool, 3>& directions) {
   for (int c = 0; c < 3; ++c)
-    if (directions[static_cast<std::size_t>(c)] &&
+    if (directions[c] &&
         (a.fix.vector[c] != 0 || a.fix.end[c] != 0 ||
          std::any_of(a.own.begin(), a.own.end(), [&](const auto& own) { return own[0][c] != 0 || own[1][c] != 0; })))
       return true;
@@ -64,7 +64,7 @@ bool pushes(const Run::Active& a, const std::array<bool, 3>& directions) {
 void pushed(const Run& run, std::vector<Difference>& all) {
   for (const auto& [h, members] : run.held) {
     if (h.fix < 0 || run.still()) continue;
-    const Fix& hold = run.fixes[static_cast<std::size_t>(h.fix)].fix;
+    const Fix& hold = run.fixes[h.fix].fix;
     if (hold.kind != Fix::Kind::hold || hold.unforced) continue;
     for (std::size_t f = static_cast<std::size_t>(h.fix) + 1; f < run.fixes.size(); ++f) {
       const Run::Active& a = run.fixes[f];
@@ -84,7 +84,7 @@ void pushed(const Run& run, std::vector<Difference>& all) {
 std::vector<Difference> differences(const World& world, const Run& run) {
   std::vector<Difference> all;
   std::set<int> types;
-  for (const int i : run.atoms) types.insert(world.atoms[static_cast<std::size_t>(i)].type);
+  for (const int i : run.atoms) types.insert(world.atoms[i].type);
   if (const std::string what = misread(run.pairs, {types.begin(), types.end()}); !what.empty())
     all.push_back({run.where, "pair_coeff", what});
   pushed(run, all);
@@ -94,7 +94,7 @@ std::vector<Difference> differences(const World& world, const Run& run) {
       all.push_back({a.fix.where, "", fmt::format("LAMMPS's minimize leaves out fixes of style {}; here they act in it", a.fix.style)});
     if (a.fix.style != "wall/gran" || walls.size() != 2) continue;
     double most = 0;
-    for (const int i : a.members) most = std::max(most, world.atoms[static_cast<std::size_t>(i)].diameter);
+    for (const int i : a.members) most = std::max(most, world.atoms[i].diameter);
     const double gap = (walls[1].region.center - walls[0].region.center).norm();
     if (most > gap)
       all.push_back({a.fix.where, "",
@@ -110,7 +110,7 @@ std::optional<Difference> clamp(const World& world, const Run& run) {
     for (const auto& b : world.bonds) {
       const auto holds = [&, &of = members](int i) { return std::binary_search(of.begin(), of.end(), i); };
       if (!holds(b.atoms[0]) || !holds(b.atoms[1])) continue;
-      return Difference{h.fix < 0 ? run.where : run.fixes[static_cast<std::size_t>(h.fix)].fix.where, "",
+      return Difference{h.fix < 0 ? run.where : run.fixes[h.fix].fix.where, "",
                         "bonded particles are held beside each other: a clamp. It sits in the middle of the innermost held bond, so that a "
                         "beam of N free particles bends over N + 2 spacings (docs/column.md)"};
     }

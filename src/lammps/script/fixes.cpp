@@ -65,7 +65,7 @@ struct Making {
     for (int c = 0; c < 3; ++c) {
       const bool zero = constant(static_cast<std::size_t>(4 + c)) == 0;
       zeros += zero;
-      fix.directions[static_cast<std::size_t>(c)] = zero == (fix.style == "lineforce");
+      fix.directions[c] = zero == (fix.style == "lineforce");
     }
     if (zeros != 2) throw Wrong(4, fix.style + " along x, y or z is taken", true);
   }

@@ -56,7 +56,7 @@ struct Plane {
 }  // namespace
 
 Flat flat(const World& world, const Particles& particles) {
-  const auto atom_of = [&](int i) -> const Atom& { return world.atoms[static_cast<std::size_t>(i)]; };
+  const auto atom_of = [&](int i) -> const Atom& { return world.atoms[i]; };
   Flat best;
   if (particles.bodies() > 0 || particles.particles() == 0) return best;
   for (int c = 0; c < 3; ++c) {
@@ -67,7 +67,7 @@ Flat flat(const World& world, const Particles& particles) {
     };
     const auto first =
         std::find_if(world.runs.begin(), world.runs.end(), [&](const Run& run) {
-          return run.thrown[static_cast<std::size_t>(c)] || !holds(run.atoms) || !plane.keeps(run);
+          return run.thrown[c] || !holds(run.atoms) || !plane.keeps(run);
         });
     const Flat found{c, static_cast<int>(first - world.runs.begin()), first == world.runs.end() && holds(particles.atoms())};
     if (found.always && !best.always) best = found;

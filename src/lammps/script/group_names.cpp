@@ -35,9 +35,9 @@ std::string GroupNames::of(const std::vector<int>& members, const std::string& w
 
 std::string GroupNames::selection(const std::vector<int>& members, int run) const {
   std::set<int> types;
-  for (const int i : members) types.insert(world_.atoms[static_cast<std::size_t>(i)].type);
+  for (const int i : members) types.insert(world_.atoms[i].type);
   const bool whole = std::all_of(alive(run).begin(), alive(run).end(), [&](int i) {
-    return !types.count(world_.atoms[static_cast<std::size_t>(i)].type) || std::binary_search(members.begin(), members.end(), i);
+    return !types.count(world_.atoms[i].type) || std::binary_search(members.begin(), members.end(), i);
   });
   std::vector<std::string> items;
   if (whole) {
@@ -64,7 +64,7 @@ std::string GroupNames::of_types(const std::vector<int>& types) {
 }
 
 const std::vector<int>& GroupNames::alive(int run) const {
-  return world_.runs.empty() ? particles_.atoms() : world_.runs[static_cast<std::size_t>(run)].atoms;
+  return world_.runs.empty() ? particles_.atoms() : world_.runs[run].atoms;
 }
 
 }  // namespace elamin::script

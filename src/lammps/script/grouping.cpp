@@ -74,7 +74,7 @@ void group(Interpreter& in) {
       for (const Fix& f : w.fixes)
         if (f.group == name) throw Wrong(1, fmt::format("is the group of the fix {}, which is in force", f.id));
     for (Atom& a : w.atoms) a.groups &= ~(1u << bit);
-    if (style == "delete") w.groups[static_cast<std::size_t>(bit)].clear();
+    if (style == "delete") w.groups[bit].clear();
     return;
   }
   if (style == "dynamic") throw Wrong(2, "groups that change as things move are not followed", true);
@@ -102,8 +102,8 @@ void group(Interpreter& in) {
   }
   if (style == "id" && in.size() == 4 && in.word(3).find(':') == std::string::npos) {
     const long long id = in.integer(3, 0, largest_id);
-    if (id < static_cast<long long>(w.of_id.size()) && w.of_id[static_cast<std::size_t>(id)] >= 0)
-      w.atoms[static_cast<std::size_t>(w.of_id[static_cast<std::size_t>(id)])].groups |= 1u << bit;
+    if (id < static_cast<long long>(w.of_id.size()) && w.of_id[id] >= 0)
+      w.atoms[w.of_id[id]].groups |= 1u << bit;
   } else if (style == "id") mark_numbers(in, bit, [](const Atom& a) { return static_cast<long long>(a.id); });
   else if (style == "type") mark_numbers(in, bit, [](const Atom& a) { return static_cast<long long>(a.type); });
   else if (style == "molecule") mark_numbers(in, bit, [](const Atom& a) { return static_cast<long long>(a.molecule); });
@@ -137,7 +137,7 @@ void delete_atoms(Interpreter& in) {
   if (in.word(1) != "group" && in.word(1) != "region")
     throw Wrong(1, in_quotes(in.word(1)) + " is no way of choosing atoms that is taken; group and region are", true);
   std::vector<bool> gone(w.atoms.size());
-  for (const int a : chosen(in, in.word(1), 2)) gone[static_cast<std::size_t>(a)] = true;
+  for (const int a : chosen(in, in.word(1), 2)) gone[a] = true;
   bool compress = true, bonds = false, molecules = false;
   for (std::size_t i = 3; i < in.size(); i += 2)
     if (in.word(i) == "compress") compress = in.yes(i + 1);
@@ -149,7 +149,7 @@ void delete_atoms(Interpreter& in) {
     if (gone[k] && w.atoms[k].molecule > 0) whole.insert(w.atoms[k].molecule);
   for (std::size_t k = 0; k < w.atoms.size(); ++k) gone[k] = World::there(w.atoms[k]) && (gone[k] || whole.count(w.atoms[k].molecule) > 0);
   const auto cut = [&](const auto& glue) {
-    const auto goes = [&](int i) { return gone[static_cast<std::size_t>(i)]; };
+    const auto goes = [&](int i) { return gone[i]; };
     return std::any_of(glue.begin(), glue.end(), [&](const auto& g) {
       return g.gone == always && std::any_of(g.atoms.begin(), g.atoms.end(), goes) && !std::all_of(g.atoms.begin(), g.atoms.end(), goes);
     });
@@ -196,7 +196,7 @@ void delete_bonds(Interpreter& in) {
     else if (in.word(i) == "special") special = true;
     else if (in.word(i) != "remove")
       throw Wrong(i, in_quotes(in.word(i)) + " is no keyword of delete_bonds that is taken; any, remove and special are", true);
-  const auto inside = [&](int a) { return w.in(w.atoms[static_cast<std::size_t>(a)], g); };
+  const auto inside = [&](int a) { return w.in(w.atoms[a], g); };
   const auto meant = [&](const auto& glue) {
     return glue.gone == always && types[0] <= glue.type && glue.type <= types[1] &&
            (any ? std::any_of(glue.atoms.begin(), glue.atoms.end(), inside) : std::all_of(glue.atoms.begin(), glue.atoms.end(), inside));

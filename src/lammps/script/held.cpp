@@ -19,20 +19,20 @@ std::map<Held, std::vector<int>> held_in(const World& world, const Run& run) {
   std::vector<char> integrated(n, run.minimize);
   for (const Run::Active& a : run.fixes)
     if (a.fix.integrates())
-      for (const int i : a.members) integrated[static_cast<std::size_t>(i)] = 1;
+      for (const int i : a.members) integrated[i] = 1;
   std::vector<std::vector<Held>> held(n);
   const std::array<bool, 3> whole{true, true, true};
   for (const int i : run.atoms)
-    if (!integrated[static_cast<std::size_t>(i)]) held[static_cast<std::size_t>(i)].push_back({whole, Vec3::Zero(), -1});
+    if (!integrated[i]) held[i].push_back({whole, Vec3::Zero(), -1});
   for (std::size_t f = 0; f < run.fixes.size(); ++f) {
     const Run::Active& a = run.fixes[f];
     const bool moves = a.fix.kind == Fix::Kind::move;
     if ((moves || a.fix.unforced) ? run.minimize : a.fix.kind != Fix::Kind::hold) continue;
     for (const int i : a.members) {
-      auto& list = held[static_cast<std::size_t>(i)];
+      auto& list = held[i];
       if (!list.empty() && list[0].fix < 0 && !moves) continue;
       const bool stands = run.still() || run.minimize;
-      const Vec3 v = stands ? Vec3(Vec3::Zero()) : moves ? a.fix.vector : world.atoms[static_cast<std::size_t>(i)].v;
+      const Vec3 v = stands ? Vec3(Vec3::Zero()) : moves ? a.fix.vector : world.atoms[i].v;
       for (Held& h : list)                    // the later fix has the last word
         for (std::size_t c = 0; c < 3; ++c)
           if (a.fix.directions[c]) h.directions[c] = false, h.velocity[static_cast<Eigen::Index>(c)] = 0;
@@ -42,7 +42,7 @@ std::map<Held, std::vector<int>> held_in(const World& world, const Run& run) {
   }
   std::map<Held, std::vector<int>> by;
   for (const int i : run.atoms)
-    for (const Held& h : held[static_cast<std::size_t>(i)]) by[h].push_back(i);
+    for (const Held& h : held[i]) by[h].push_back(i);
   return by;
 }
 

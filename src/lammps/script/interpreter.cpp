@@ -72,7 +72,7 @@ class Reader {
   void step() {
     load_files();
     Interpreter::Frame& frame = in_.frames.back();
-    const File& file = *files_[static_cast<std::size_t>(frame.file)];
+    const File& file = *files_[frame.file];
     if (in_.label) {
       const auto found = file.labels.find(*in_.label);
       if (found == file.labels.end()) {
@@ -176,14 +176,14 @@ class Reader {
   void load_files() {
     for (Interpreter::Frame& f : in_.frames) {
       if (f.file < static_cast<int>(files_.size())) continue;
-      const std::string& path = in_.reading.files[static_cast<std::size_t>(f.file)];
+      const std::string& path = in_.reading.files[f.file];
       try {
         files_.push_back(read(path));
       } catch (const InputError& e) {
         files_.push_back(std::make_shared<File>());
         files_.back()->path = path;
         Mistake m = e.mistakes().front();
-        if (m.line == 0) m = {in_.reading.files[static_cast<std::size_t>(in_.where.file)], in_.where.line, 1, in_.words[0].text, e.what()};
+        if (m.line == 0) m = {in_.reading.files[in_.where.file], in_.where.line, 1, in_.words[0].text, e.what()};
         tell(m);
       }
     }
@@ -199,7 +199,7 @@ class Reader {
 }  // namespace
 
 std::string Reading::short_place(const Where& w) const {
-  return std::filesystem::path(files[static_cast<std::size_t>(w.file)]).filename().string() + ":" + std::to_string(w.line);
+  return std::filesystem::path(files[w.file]).filename().string() + ":" + std::to_string(w.line);
 }
 
 Reading read_script(const std::string& file, const ReadingOptions& options) { return Reader(file, options).all(); }

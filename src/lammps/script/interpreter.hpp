@@ -43,7 +43,7 @@ struct Reading {
   long long commands = 0;
   /// As comments of a problem file have it: the file's name without its folder, and the line.
   std::string short_place(const Where& w) const;
-  std::string place(const Where& w) const { return files[static_cast<std::size_t>(w.file)] + ":" + std::to_string(w.line); }
+  std::string place(const Where& w) const { return files[w.file] + ":" + std::to_string(w.line); }
 };
 
 /// Reads a script. Throws InputError with file, line and column of all mistakes (at most 20).

@@ -48,13 +48,12 @@ std::string Particles::data(const std::string& title, const std::map<int, double
     fmt::vformat_to(std::back_inserter(text), format, fmt::make_format_args(values...));
   };
   std::vector<int> order;
-  std::copy_if(atoms_.begin(), atoms_.end(), std::back_inserter(order),
-               [&](int i) { return !world_.atoms[static_cast<std::size_t>(i)].is_body; });
+  std::copy_if(atoms_.begin(), atoms_.end(), std::back_inserter(order), [&](int i) { return !world_.atoms[i].is_body; });
   std::sort(order.begin(), order.end(), [&](int i, int j) { return id(i) < id(j); });
   Field x(3, static_cast<Eigen::Index>(order.size()));
   std::vector<double> diameter;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const Atom& a = world_.atoms[static_cast<std::size_t>(order[k])];
+    const Atom& a = world_.atoms[order[k]];
     x.col(static_cast<Eigen::Index>(k)) = a.start;
     diameter.push_back(a.diameter);
   }
@@ -83,11 +82,11 @@ std::string Particles::data(const std::string& title, const std::map<int, double
   const Box box = box_around(x, diameter);
   for (int c = 0; c < 3; ++c) put("{:.17g} {:.17g} {}lo {}hi\n", box.lo[c], box.hi[c], "xyz"[c], "xyz"[c]);
   const bool masses =
-      !world_.sphere && std::all_of(types_.begin(), types_.end(), [&](int t) { return world_.mass[static_cast<std::size_t>(t - 1)] > 0; });
+      !world_.sphere && std::all_of(types_.begin(), types_.end(), [&](int t) { return world_.mass[t - 1] > 0; });
   if (masses) {
     put("\nMasses\n\n");
     for (int t = 1; t <= types_.back(); ++t)
-      put("{} {:.17g}\n", t, world_.mass[static_cast<std::size_t>(t - 1)] > 0 ? world_.mass[static_cast<std::size_t>(t - 1)] : 1.0);
+      put("{} {:.17g}\n", t, world_.mass[t - 1] > 0 ? world_.mass[t - 1] : 1.0);
   }
   if (!bond_types.empty()) put("\nBond Coeffs # harmonic\n\n");
   for (const auto& [type, number] : bond_types) {
@@ -105,7 +104,7 @@ std::string Particles::data(const std::string& title, const std::map<int, double
   const char* style = world_.sphere ? "hybrid sphere angle" : world_.molecular ? "angle" : "atomic";
   put("\nAtoms # {}\n\n", style);
   for (const int i : order) {
-    const Atom& a = world_.atoms[static_cast<std::size_t>(i)];
+    const Atom& a = world_.atoms[i];
     const Vec3& p = a.start;
     if (world_.sphere)
       put("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {}\n", id(i), a.type, p[0], p[1], p[2], a.diameter, a.density, a.molecule);
@@ -114,11 +113,11 @@ std::string Particles::data(const std::string& title, const std::map<int, double
   }
   const auto moves = [](const Atom& a) { return !a.start_v.isZero(0) || !a.omega.isZero(0); };
   const bool move =
-      velocities && std::any_of(order.begin(), order.end(), [&](int i) { return moves(world_.atoms[static_cast<std::size_t>(i)]); });
+      velocities && std::any_of(order.begin(), order.end(), [&](int i) { return moves(world_.atoms[i]); });
   if (move) {
     put("\nVelocities # {}\n\n", style);
     for (const int i : order) {
-      const Vec3 &v = world_.atoms[static_cast<std::size_t>(i)].start_v, &w = world_.atoms[static_cast<std::size_t>(i)].omega;
+      const Vec3 &v = world_.atoms[i].start_v, &w = world_.atoms[i].omega;
       put("{} {:.17g} {:.17g} {:.17g}", id(i), v[0], v[1], v[2]);
       if (world_.sphere) put(" {:.17g} {:.17g} {:.17g}", w[0], w[1], w[2]);
       put("\n");

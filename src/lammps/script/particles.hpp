@@ -17,7 +17,7 @@ class Particles {
   const std::vector<int>& types(bool of_bodies = false) const { return of_bodies ? body_types_ : types_; }   // that there are, ascending
   int particles() const { return static_cast<int>(atoms_.size()) - bodies_; }
   int bodies() const { return bodies_; }
-  int id(int index) const { return id_[static_cast<std::size_t>(index)]; }
+  int id(int index) const { return id_[index]; }
 
   /// The data file, with 17 digits; types of bonds and angles that nothing uses are left out. `stiffer`: factors of angle types.
   /// Throws Wrong if a type in use has no coefficients.

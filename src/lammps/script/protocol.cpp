@@ -43,22 +43,20 @@ std::string protocol_text(const Protocol& of, const Reading& reading, const Worl
     const Run& run = world.runs.front();
     t += fmt::format("\n# {} {}\n", reading.short_place(run.where), run.text);
     if (of.driven.front())
-      t += fmt::format(
-          "[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\n{}",
-          run.time(), jumping);
+      t += fmt::format("[path]                           # load factor 1: after {} of LAMMPS's time\nsteps = 100\n{}", run.time(), jumping);
     else t += "[study]\ntype = \"equilibrium\"\n";
     return t + observations(of);
   }
   t += fmt::format("\n[path]\nsteps = 100\n{}", jumping);
   for (int k = 0; k < world.run_number(); ++k) {
-    const Run& run = world.runs[static_cast<std::size_t>(k)];
+    const Run& run = world.runs[k];
     t += fmt::format("\n# {} {}\n[[stage]]\nname = \"{}\"\n", reading.short_place(run.where), run.text, stage(k));
     if (const auto off = of.off.find(k); off != of.off.end()) t += fmt::format("off = {}\n", list_of(off->second));
-    if (!of.driven[static_cast<std::size_t>(k)]) {
+    if (!of.driven[k]) {
       t += "from = 0\nto = 1\nsteps = 1\n";
       continue;
     }
-    const auto [from, to] = of.along[static_cast<std::size_t>(k)];
+    const auto [from, to] = of.along[k];
     t += fmt::format("from = {}\nto = {}                            # 1: {} of LAMMPS's time\n", from, to, of.unit_time);
   }
   return t + observations(of);

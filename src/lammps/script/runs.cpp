@@ -74,7 +74,7 @@ void evaluate_formulas(Interpreter& in, Run::Active& a, const Span& span) {
     }
     a.own.resize(a.members.size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t k = 0; k < a.members.size(); ++k)
-      for (std::size_t end = 0; end < 2; ++end) a.own[k][end][component] = values[end][static_cast<std::size_t>(a.members[k])];
+      for (std::size_t end = 0; end < 2; ++end) a.own[k][end][component] = values[end][a.members[k]];
   }
   for (Fix::Wall& wall : f.walls)
     for (std::size_t c = 0; c < 4; ++c) {
@@ -101,7 +101,7 @@ std::vector<Run::Excluded> excluded(const World& w, const std::vector<int>& atom
     std::array<std::vector<int>, 2> sides;
     std::map<int, std::vector<int>> molecules;
     for (const int k : atoms) {
-      const Atom& a = w.atoms[static_cast<std::size_t>(k)];
+      const Atom& a = w.atoms[k];
       for (std::size_t s = 0; s < 2; ++s)
         if (e.of == Of::types ? a.type == e.which[s] : w.in(a, e.which[s])) sides[s].push_back(k);
       if (e.of == Of::molecules && w.in(a, e.which[0])) molecules[a.molecule].push_back(k);
@@ -138,7 +138,7 @@ Run in_force(Interpreter& in, const Span& span) {
     Run::Active a{f, {}, {}};
     const int g = w.group(f.group, 0);
     for (const int k : r.atoms)
-      if (w.in(w.atoms[static_cast<std::size_t>(k)], g)) a.members.push_back(k);
+      if (w.in(w.atoms[k], g)) a.members.push_back(k);
     if (a.members.empty()) continue;
     if (f.kind == Fix::Kind::move && span.steps > 0) {
       if (f.timestep > 0 && f.timestep != w.timestep)
@@ -158,12 +158,12 @@ Run in_force(Interpreter& in, const Span& span) {
   }
   for (const int k : r.atoms)
     for (std::size_t c = 0; c < 3; ++c)
-      if (w.atoms[static_cast<std::size_t>(k)].v[static_cast<Eigen::Index>(c)] != 0) r.thrown[c] = true;
+      if (w.atoms[k].v[static_cast<Eigen::Index>(c)] != 0) r.thrown[c] = true;
   r.held = held_in(w, r);
   for (const auto& [h, members] : r.held) {       // by fixes that let go on what moves
-    if (h.fix < 0 || r.fixes[static_cast<std::size_t>(h.fix)].fix.kind != Fix::Kind::hold || r.minimize) continue;
-    const Fix& f = r.fixes[static_cast<std::size_t>(h.fix)].fix;
-    if (std::any_of(members.begin(), members.end(), [&](int k) { return w.atoms[static_cast<std::size_t>(k)].drifts; }))
+    if (h.fix < 0 || r.fixes[h.fix].fix.kind != Fix::Kind::hold || r.minimize) continue;
+    const Fix& f = r.fixes[h.fix].fix;
+    if (std::any_of(members.begin(), members.end(), [&](int k) { return w.atoms[k].drifts; }))
       w.not_in_motion.push_back({f.where, "fix", f.id + ", which lets what moved freely go on at the velocity that it has by then, "});
     if (!h.velocity.isZero(0) && !w.runs.empty() &&
         std::none_of(w.runs.back().fixes.begin(), w.runs.back().fixes.end(), [&](const Run::Active& a) { return a.fix.serial == f.serial; }))
@@ -192,7 +192,7 @@ void record(Interpreter& in, const Span& span) {
   if (span.steps == 0 && !span.minimize && !w.runs.empty()) return in.ignore("a run of no steps moves nothing");
   Run r = in_force(in, span);
   for (const int k : r.atoms)
-    if (Atom& a = w.atoms[static_cast<std::size_t>(k)]; a.born == w.run_number()) a.start = a.x, a.start_v = a.v;
+    if (Atom& a = w.atoms[k]; a.born == w.run_number()) a.start = a.x, a.start_v = a.v;
   if (r.still()) {                                 // a study only if nothing else is run
     w.still = std::move(r), w.atoms_of_still = w.atoms;
     return;
@@ -201,13 +201,13 @@ void record(Interpreter& in, const Span& span) {
   std::vector<Motion> motions(w.atoms.size());
   for (const auto& [h, members] : r.held)
     for (const int k : members) {
-      Motion& m = motions[static_cast<std::size_t>(k)];
+      Motion& m = motions[k];
       m.held += static_cast<int>(std::count(h.directions.begin(), h.directions.end(), true));
-      m.held_at += h.velocity, m.after += h.fix < 0 ? w.atoms[static_cast<std::size_t>(k)].v : h.velocity;
+      m.held_at += h.velocity, m.after += h.fix < 0 ? w.atoms[k].v : h.velocity;
     }
   for (const int k : r.atoms) {
-    Atom& a = w.atoms[static_cast<std::size_t>(k)];
-    const Motion& m = motions[static_cast<std::size_t>(k)];
+    Atom& a = w.atoms[k];
+    const Motion& m = motions[k];
     if (m.held == 3) a.x += m.held_at * r.time();
     else a.moved = true, a.drifts = a.drifts || !r.minimize;
     if (!r.minimize) a.v = m.after;

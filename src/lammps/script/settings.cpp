@@ -226,7 +226,7 @@ void region(Interpreter& in) {
       const bool block = s.shape == Shape::block;
       if (r.kind != ScriptRegion::Kind::shape || s.shape == Shape::sphere || s.shape == Shape::plane)
         throw Wrong(i, "is of blocks, cylinders and cones");
-      s.open[static_cast<std::size_t>(in.integer(i + 1, 1, block ? 6 : 3) - 1)] = true, i += 2;
+      s.open[in.integer(i + 1, 1, block ? 6 : 3) - 1] = true, i += 2;
     } else if (k == "move" && i + 3 < in.size()) {
       r.moves = true;
       for (std::size_t c = 0; c < 3; ++c)
@@ -304,7 +304,7 @@ void change_box(Interpreter& in) {
         takes(3);
         for (std::size_t end = 0; end < 2; ++end) {
           now[end][c] = unit * in.number(i + 2 + end) + (how == "delta" ? w.side(c, static_cast<int>(end)) : 0);
-          w.lost[end][static_cast<std::size_t>(c)] = false;
+          w.lost[end][c] = false;
         }
         i += 4;
       } else if (how == "scale") {
@@ -403,7 +403,7 @@ void bond_coeff(Interpreter& in) {
     if (c.stiffness < 0 || c.rest < 0) throw Wrong(c.stiffness < 0 ? i : i + 1, "is negative; 0 or more is taken");
   } else if (style != "zero" && style != "none")
     throw Wrong(0, style.empty() ? "stands before bond_style" : in_quotes(style) + " is no bond style that is known here", true);
-  for (int t = types[0]; t <= types[1]; ++t) in.world.bond_coefficients[static_cast<std::size_t>(t - 1)] = c;
+  for (int t = types[0]; t <= types[1]; ++t) in.world.bond_coefficients[t - 1] = c;
 }
 
 void angle_coeff(Interpreter& in) {
@@ -424,7 +424,7 @@ void angle_coeff(Interpreter& in) {
   } else if (style != "zero" && style != "none")
     throw Wrong(0, style.empty() ? "stands before angle_style" : in_quotes(style) + " is no angle style that is known here", true);
   if (c.stiffness < 0) throw Wrong(i, "is negative; 0 or more is taken");
-  for (int t = types[0]; t <= types[1]; ++t) in.world.angle_coefficients[static_cast<std::size_t>(t - 1)] = c;
+  for (int t = types[0]; t <= types[1]; ++t) in.world.angle_coefficients[t - 1] = c;
 }
 
 void mass(Interpreter& in) {
@@ -432,8 +432,8 @@ void mass(Interpreter& in) {
   const auto types = in.range(1, in.world.atom_types);
   const double m = in.positive(2);
   for (const Atom& a : in.world.atoms)
-    in.world.change(a, !in.world.sphere && types[0] <= a.type && a.type <= types[1] && in.world.mass[static_cast<std::size_t>(a.type - 1)] != m);
-  for (int t = types[0]; t <= types[1]; ++t) in.world.mass[static_cast<std::size_t>(t - 1)] = m;
+    in.world.change(a, !in.world.sphere && types[0] <= a.type && a.type <= types[1] && in.world.mass[a.type - 1] != m);
+  for (int t = types[0]; t <= types[1]; ++t) in.world.mass[t - 1] = m;
   if (in.world.sphere) in.ignore("a sphere's mass follows from its diameter and density");
 }
 

@@ -12,7 +12,7 @@ void TableList::put(int run, Table t) {
   });
   Table& table = same == tables.end() ? tables.emplace_back(std::move(t)) : *same;
   table.in_run.resize(static_cast<std::size_t>(runs()));
-  table.in_run[static_cast<std::size_t>(run)] = true;
+  table.in_run[run] = true;
 }
 
 void TableList::note(const Where& w, const std::string& text) {
@@ -22,7 +22,7 @@ void TableList::note(const Where& w, const std::string& text) {
 }
 
 void TableList::refuse(const Where& w, const std::string& key, const std::string& what) const {
-  throw InputError({Mistake{reading.files[static_cast<std::size_t>(w.file)], w.line, 1, key, what}});
+  throw InputError({Mistake{reading.files[w.file], w.line, 1, key, what}});
 }
 
 }  // namespace elamin::script

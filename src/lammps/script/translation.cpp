@@ -35,7 +35,7 @@ class Translation : private TableList {
 
  private:
   bool staged() const { return runs() > 1; }
-  const Atom& atom(int i) const { return world.atoms[static_cast<std::size_t>(i)]; }
+  const Atom& atom(int i) const { return world.atoms[i]; }
 
   // Tables -------------------------------------------------------------------------------------------------------------------
 
@@ -44,7 +44,7 @@ class Translation : private TableList {
       refuse(world.not_in_motion[0].where, world.not_in_motion[0].command,
              world.not_in_motion[0].what + "is not followed in motion (--dynamics); equilibria do not need it");
     for (int k = 0; k < world.run_number(); ++k) {
-      const Run& run = world.runs[static_cast<std::size_t>(k)];
+      const Run& run = world.runs[k];
       supports(k, run);
       for (const Run::Active& a : run.fixes) {
         if (a.fix.kind == Fix::Kind::gravity || a.fix.kind == Fix::Kind::force) load(k, a);
@@ -111,7 +111,7 @@ class Translation : private TableList {
     protocol_.along.push_back(drives ? std::array{begin, end} : std::array{0.0, 1.0});
     at_ = end;
     for (const auto& [h, members] : run.held) {
-      const Fix* fix = h.fix < 0 ? nullptr : &run.fixes[static_cast<std::size_t>(h.fix)].fix;
+      const Fix* fix = h.fix < 0 ? nullptr : &run.fixes[h.fix].fix;
       const std::string group = groups.of(members, fix ? fix->group : "still", k);
       std::string body = fmt::format("group = \"{}\"\n", group), letters;
       for (std::size_t c = 0; c < 3; ++c)
@@ -139,10 +139,10 @@ class Translation : private TableList {
     const auto c = static_cast<std::size_t>(flat_.direction);
     std::vector<bool> held(world.atoms.size());
     for (const auto& [h, members] : run.held)
-      for (const int i : members) held[static_cast<std::size_t>(i)] = held[static_cast<std::size_t>(i)] || h.directions[c];
+      for (const int i : members) held[i] = held[i] || h.directions[c];
     Members free;
     for (const int i : run.atoms)
-      if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
+      if (!held[i]) free.push_back(i);
     if (free.empty()) return;
     put(k, {"support", "plane", fmt::format("group = \"{}\"\ndirections = \"{}\"\n", groups.of(free, "in_plane", k), "xyz"[c]), run.where,
             "these lie in a plane, and nothing pushes them out", 0, {}});
@@ -160,7 +160,7 @@ class Translation : private TableList {
   struct Parts { Vec3 fixed, rate; };
   /// Of a fix that goes on along the line of an earlier run, the same parts, so that its table goes on, too.
   Parts parts(int k, const Fix& fix, const Vec3& begin, const Vec3& end) {
-    const auto [from, to] = protocol_.along[static_cast<std::size_t>(k)];
+    const auto [from, to] = protocol_.along[k];
     const auto ends_at = [&](const Parts& p, double at, const Vec3& value) {
       const double size = (p.fixed.cwiseAbs() + at * p.rate.cwiseAbs()).maxCoeff();
       return (p.fixed + at * p.rate - value).cwiseAbs().maxCoeff() <= 8e-15 * size;   // rounding of a formula and of this
@@ -188,7 +188,7 @@ class Translation : private TableList {
       std::array<double, 6> key{};
       for (int c = 0; c < 6; ++c) {
         const Vec3 whole = (c < 3 ? a.fix.vector : a.fix.end) + a.own[i][c < 3 ? 0 : 1];
-        key[static_cast<std::size_t>(c)] = whole[c % 3];
+        key[c] = whole[c % 3];
       }
       by[key].push_back(a.members[i]);
     }
@@ -304,10 +304,10 @@ class Translation : private TableList {
   void sheets() {
     for (const auto& [file, members] : world.sheets) {
       std::vector<bool> in(world.atoms.size());
-      for (const int i : members) in[static_cast<std::size_t>(i)] = true;
+      for (const int i : members) in[i] = true;
       std::set<int> types;
       for (const auto& a : world.angles)
-        if (std::all_of(a.atoms.begin(), a.atoms.end(), [&](int i) { return in[static_cast<std::size_t>(i)]; })) types.insert(a.type);
+        if (std::all_of(a.atoms.begin(), a.atoms.end(), [&](int i) { return in[i]; })) types.insert(a.type);
       if (types.empty()) continue;
       const double factor = 3 * std::sqrt(3.0);
       if (options.correct)
@@ -386,7 +386,7 @@ class Translation : private TableList {
     const auto first = static_cast<int>(std::find(t.in_run.begin(), t.in_run.end(), true) - t.in_run.begin());
     if (first > 0) text += fmt::format("from_stage = \"{}\"\n", stage(first));
     for (int k = first + 1; k < runs(); ++k)
-      if (!t.in_run[static_cast<std::size_t>(k)])
+      if (!t.in_run[k])
         protocol_.off[k].push_back(quoted(t.name.empty() ? fmt::format("{}.{}", t.kind, number) : fmt::format("{}.{}", t.kind, t.name)));
     return text;
   }
@@ -418,7 +418,7 @@ std::vector<Translated> in_time(const Reading& reading, const Pass& pass, const 
       const auto number = static_cast<int>(k);
       for (const Atom& a : pass.world.atoms)
         if (number > 0 && (a.born == number || a.gone == number))
-          throw InputError({Mistake{reading.files[static_cast<std::size_t>(runs[k].where.file)], runs[k].where.line, 1, "run",
+          throw InputError({Mistake{reading.files[runs[k].where.file], runs[k].where.line, 1, "run",
                                     "atoms have come or gone since the run before, and a motion goes on with the same; run the one before, "
                                     "then import with --after"}});
       one.world.runs = {runs[k]};

@@ -22,7 +22,7 @@ int World::group(const std::string& name, std::size_t word) const {
 }
 
 char World::kind_of_side(int c, int end) const {
-  const std::string& b = boundary[static_cast<std::size_t>(c)];
+  const std::string& b = boundary[c];
   return end == 1 ? b.back() : b.front();
 }
 
@@ -31,7 +31,7 @@ void World::set_box(const std::array<Vec3, 2>& sides) {
   box = least_box = sides, room = 1e-4 * (box[1] - box[0]);
   for (int c = 0; c < 3; ++c)
     for (int end = 0; end < 2; ++end)
-      if (kind_of_side(c, end) == 's') box[static_cast<std::size_t>(end)][c] += end == 1 ? room[c] : -room[c];
+      if (kind_of_side(c, end) == 's') box[end][c] += end == 1 ? room[c] : -room[c];
 }
 
 void World::shrink_box() {
@@ -44,7 +44,7 @@ void World::shrink_box() {
     for (std::size_t end = 0; end < 2; ++end) {
       const char kind = kind_of_side(c, static_cast<int>(end));
       if (kind != 's' && kind != 'm') continue;
-      lost[end][static_cast<std::size_t>(c)] = !known;
+      lost[end][c] = !known;
       const double sign = end == 1 ? 1 : -1;
       double most = sign * here.front()->x[c];
       for (const Atom* a : here) most = std::max(most, sign * a->x[c]);
@@ -55,13 +55,13 @@ void World::shrink_box() {
 }
 
 double World::side(int c, int end) const {
-  if (lost[static_cast<std::size_t>(end)][static_cast<std::size_t>(c)]) throw NeedsPositions{last_run};
-  return box[static_cast<std::size_t>(end)][c];
+  if (lost[end][c]) throw NeedsPositions{last_run};
+  return box[end][c];
 }
 
 bool World::in_box(const Vec3& x) const {
   for (int c = 0; c < 3; ++c)
-    if ((!lost[0][static_cast<std::size_t>(c)] && x[c] < box[0][c]) || (!lost[1][static_cast<std::size_t>(c)] && x[c] >= box[1][c])) return false;
+    if ((!lost[0][c] && x[c] < box[0][c]) || (!lost[1][c] && x[c] >= box[1][c])) return false;
   return true;
 }
 
@@ -73,7 +73,7 @@ double World::mass_of(const Atom& a) const {
 namespace {
 
 Coefficient coefficient(const std::vector<Coefficient>& all, int type, const std::string& style, const std::string& what) {
-  const Coefficient& c = all[static_cast<std::size_t>(type - 1)];
+  const Coefficient& c = all[type - 1];
   if (style == "none") return {0, what == "angle" ? pi : 0, true};
   if (!c.set) throw Wrong(0, fmt::format("{}s of type {} have no coefficients; {}_coeff gives them", what, type, what));
   return c;
@@ -128,8 +128,8 @@ bool World::is_of_now(const Run& run) const {
 }
 
 int World::with_id(long long id, std::size_t word) const {
-  if (id >= 1 && id < static_cast<long long>(of_id.size()) && of_id[static_cast<std::size_t>(id)] >= 0)
-    return of_id[static_cast<std::size_t>(id)];
+  if (id >= 1 && id < static_cast<long long>(of_id.size()) && of_id[id] >= 0)
+    return of_id[id];
   throw Wrong(word, fmt::format("there is no atom {}", id));
 }
 
@@ -147,12 +147,12 @@ Atom& World::create(int type, const Vec3& x) {
 void World::new_glue(std::initializer_list<int> indices) const {
   if (runs.empty()) return;
   for (const int i : indices)
-    if (atoms[static_cast<std::size_t>(i)].born == run_number()) return;
+    if (atoms[i].born == run_number()) return;
   throw NeedsPositions{last_run};
 }
 
 void World::remove(Atom& a) {
-  of_id[static_cast<std::size_t>(a.id)] = -1;
+  of_id[a.id] = -1;
   a.gone = run_number();
 }
 
@@ -161,8 +161,7 @@ void World::remove(const std::vector<bool>& gone) {
     if (gone[i] && there(atoms[i])) remove(atoms[i]);
   const auto end = [&](auto& list) {
     for (auto& glue : list)
-      if (glue.gone == always &&
-          std::any_of(glue.atoms.begin(), glue.atoms.end(), [&](int i) { return gone[static_cast<std::size_t>(i)]; }))
+      if (glue.gone == always && std::any_of(glue.atoms.begin(), glue.atoms.end(), [&](int i) { return gone[i]; }))
         glue.gone = run_number();
   };
   end(bonds), end(angles);
