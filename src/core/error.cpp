@@ -1,5 +1,7 @@
 #include "core/error.hpp"
 
+#include "core/find.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace {
 std::string sentences(std::vector<Mistake>& mistakes) {
   std::vector<std::string> files;                      // in the order they come up
   for (const Mistake& m : mistakes)
-    if (std::find(files.begin(), files.end(), m.file) == files.end()) files.push_back(m.file);
+    if (!contains(files, m.file)) files.push_back(m.file);
   const auto place = [&](const Mistake& m) {
     return std::tuple(std::find(files.begin(), files.end(), m.file) - files.begin(), m.line, m.column);
   };

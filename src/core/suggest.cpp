@@ -1,5 +1,7 @@
 #include "core/suggest.hpp"
 
+#include "core/find.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -39,7 +41,7 @@ bool abbreviates(const std::string& word, const std::string& candidate) {
 /// "modulus" for "youngs_modulus".
 bool is_part(const std::string& word, const std::string& candidate) {
   const std::vector<std::string> whole = parts_of(candidate, between_parts);
-  return word.size() >= 3 && std::find(whole.begin(), whole.end(), word) != whole.end();
+  return word.size() >= 3 && contains(whole, word);
 }
 
 /// The letters of papers.

@@ -1,5 +1,6 @@
 #include "dynamics/edge_forces.hpp"
 
+#include "core/find.hpp"
 #include "energy/changes.hpp"
 #include "laws/cosine_angle.hpp"
 #include "laws/harmonic_bond.hpp"
@@ -238,7 +239,7 @@ void EdgeForces::build_pulls(const EdgeOrder& order, int particles) {
     if (order.edges[e].filler) continue;
     of[order.edges[e].from].push_back({e, 0}), of[order.edges[e].to].push_back({e, 1});
   }
-  const auto holds = [](const std::vector<Term>& list, const Term& t) { return std::find(list.begin(), list.end(), t) != list.end(); };
+  const auto holds = [](const std::vector<Term>& list, const Term& t) { return contains(list, t); };
   int pulled = 0;
   for (int p = 0; p < particles; p += 4) {
     std::array<std::vector<int>, 3> terms;

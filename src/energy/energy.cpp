@@ -1,5 +1,6 @@
 #include "energy/energy.hpp"
 
+#include "core/find.hpp"
 #include "core/sparse.hpp"
 #include "energy/body_groups.hpp"
 #include "energy/groups.hpp"
@@ -237,7 +238,7 @@ Vector Energy::shares(const State& state) {
       for (const int site : group.between(e)) {
         if (site < 0) continue;
         const int entity = site < model_.particles() ? site : model_.particles() + (site - model_.particles()) / 2;
-        if (std::find(between.begin(), between.end(), entity) == between.end()) between.push_back(entity);
+        if (!contains(between, entity)) between.push_back(entity);
       }
       for (const int entity : between) share[entity] += value[e] / static_cast<double>(between.size());
     }

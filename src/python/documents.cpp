@@ -1,4 +1,5 @@
 // A problem as Python puts it together: the tables of a problem file, from a file, a dict, or one by one.
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "input/document.hpp"
 #include "input/key_tree.hpp"
@@ -115,7 +116,7 @@ void update(Document& document, const std::string& key, const py::dict& values) 
 // All tables of that name go; one that is not there may be missing.
 void erase(Document& document, const std::string& key) {
   const std::vector<std::string> known = key_tree().names();
-  if (!find(document.root, key) && std::find(known.begin(), known.end(), key) == known.end())
+  if (!find(document.root, key) && !contains(known, key))
     throw InputError(fmt::format("clear: {} is no table; allowed: {}{}", in_quotes(key), listed(known), did_you_mean(key, known)));
   std::erase_if(document.root, [&](const Entry& e) { return e.key == key; });
   document.sha256.clear();

@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "input/key_tree.hpp"
 #include "input/read.hpp"
@@ -219,7 +220,7 @@ Problem with_solver(const System& s, const std::optional<std::string>& method, c
   Problem p = s.problem;
   const auto wrong = [](const char* key, const std::string& what) { return InputError({Mistake{{}, 0, 0, key, what}}); };
   const std::vector<std::string>& known = key_tree().find("solver")->find("method")->words;
-  if (method && std::find(known.begin(), known.end(), *method) == known.end())
+  if (method && !contains(known, *method))
     throw wrong("method", "must be " + quoted_choice(known) + ", is " + in_quotes(*method) + did_you_mean(*method, known));
   if (tolerance && !(*tolerance > 0 && *tolerance <= 1e-2))
     throw wrong("tolerance", fmt::format("must be a number above 0 and at most 0.01, is {}", *tolerance));
