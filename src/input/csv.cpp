@@ -1,5 +1,6 @@
 #include "input/csv.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
 
@@ -15,17 +16,12 @@ namespace {
 class NumberReader {
  public:
   NumberReader(const std::string& file, const std::vector<std::string>& needed, const std::vector<std::string>& others)
-      : file_(file), needed_(needed), others_(others), text_(read_data(file, fmt::format("table {}", fmt::join(needed.empty() ? others : needed, ",")))) {}
+      : needed_(needed), others_(others), rows_(file, fmt::format("table {}", fmt::join(needed.empty() ? others : needed, ","))) {}
 
   NumberTable read() {
-    for (std::size_t at = 0; at < text_.size() && mistakes_.size() < most_mistakes;) {
-      const std::size_t end = std::min(text_.find('\n', at), text_.size());
-      ++line_;
-      if (const auto cells = csv_cells(std::string_view(text_).substr(at, end - at)); !cells.empty()) row(cells);
-      at = end + 1;
-    }
-    if (table_.rows.empty() && mistakes_.empty()) mistake(1, "", fmt::format("holds no row of numbers; the columns are {}", listed(all())));
-    if (!mistakes_.empty()) throw InputError(mistakes_);
+    rows_.each([&](const auto& cells) { row(cells); });
+    if (table_.rows.empty() && rows_.sound()) rows_.mistake(1, "", fmt::format("holds no row of numbers; the columns are {}", listed(all())));
+    rows_.finish();
     return std::move(table_);
   }
 
@@ -35,7 +31,6 @@ class NumberReader {
     names.insert(names.end(), others_.begin(), others_.end());
     return names;
   }
-  void mistake(int column, const std::string& key, const std::string& what) { mistakes_.push_back({file_, std::max(line_, 1), column, key, what}); }
 
   void row(const std::vector<CsvCell>& cells) {
     if (table_.columns.empty()) {
@@ -45,43 +40,60 @@ class NumberReader {
       table_.columns = needed_;
     }
     if (cells.size() != table_.columns.size())
-      return mistake(1, "", fmt::format("{} columns, expected {}: {}", cells.size(), table_.columns.size(), fmt::join(table_.columns, ",")));
+      return rows_.mistake(1, "", fmt::format("{} columns, expected {}: {}", cells.size(), table_.columns.size(), fmt::join(table_.columns, ",")));
     std::vector<double> values;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::string& name = table_.columns[c];
-      std::string why;
-      const bool may_be_empty = std::find(others_.begin(), others_.end(), name) != others_.end();
-      const auto value = cells[c].text.empty() && may_be_empty ? std::numeric_limits<double>::quiet_NaN() : finite_number(cells[c].text, why);
-      if (!value) mistake(cells[c].column, name, why);
-      values.push_back(value.value_or(0));
+      const bool empty = cells[c].text.empty() && contains(others_, table_.columns[c]);
+      values.push_back(empty ? std::numeric_limits<double>::quiet_NaN() : rows_.number(cells[c], table_.columns[c]).value_or(0));
     }
-    table_.rows.push_back(std::move(values)), table_.lines.push_back(line_);
+    table_.rows.push_back(std::move(values)), table_.lines.push_back(rows_.line());
   }
 
   void names(const std::vector<CsvCell>& cells) {
     const std::vector<std::string> known = all();
     for (const CsvCell& cell : cells) {
       const std::string name(cell.text);
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        mistake(cell.column, "", in_quotes(name) + " is no column of this table; there are: " + listed(known) + did_you_mean(name, known));
+      if (!contains(known, name))
+        rows_.mistake(cell.column, "", in_quotes(name) + " is no column of this table; there are: " + listed(known) + did_you_mean(name, known));
       else if (table_.column(name) >= 0)
-        mistake(cell.column, "", in_quotes(name) + " is there twice; once is enough");
+        rows_.mistake(cell.column, "", in_quotes(name) + " is there twice; once is enough");
       table_.columns.push_back(name);
     }
     for (const std::string& name : needed_)
-      if (table_.column(name) < 0 && mistakes_.empty()) mistake(1, "", fmt::format("the column {} is missing", in_quotes(name)));
-    if (!mistakes_.empty()) line_ = 0, text_.clear();   // the columns are not known: nothing more can be read
+      if (table_.column(name) < 0 && rows_.sound()) rows_.mistake(1, "", fmt::format("the column {} is missing", in_quotes(name)));
+    if (!rows_.sound()) rows_.stop();                   // the columns are not known
   }
 
-  const std::string& file_;
   const std::vector<std::string>&needed_, &others_;
-  std::string text_;
-  int line_ = 0;
+  CsvRows rows_;
   NumberTable table_;
-  std::vector<Mistake> mistakes_;
 };
 
 }  // namespace
+
+CsvRows::CsvRows(const std::string& file, const std::string& kind) : file_(file), text_(read_data(file, kind)) {}
+
+void CsvRows::each(const std::function<void(const std::vector<CsvCell>&)>& row) {
+  for (std::size_t at = 0; at < text_.size() && mistakes_.size() < most_mistakes;) {
+    const std::size_t end = std::min(text_.find('\n', at), text_.size());
+    ++line_;
+    if (const auto cells = csv_cells(std::string_view(text_).substr(at, end - at)); !cells.empty()) row(cells);
+    at = end + 1;
+  }
+}
+
+void CsvRows::mistake(int column, const std::string& key, const std::string& what) { mistakes_.push_back({file_, std::max(line_, 1), column, key, what}); }
+
+std::optional<double> CsvRows::number(const CsvCell& cell, const std::string& key) {
+  std::string why;
+  const std::optional<double> value = finite_number(cell.text, why);
+  if (!value) mistake(cell.column, key, why);
+  return value;
+}
+
+void CsvRows::finish() const {
+  if (!sound()) throw InputError(mistakes_);
+}
 
 std::vector<CsvCell> csv_cells(std::string_view line) {
   line = line.substr(0, line.find('#'));

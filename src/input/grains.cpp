@@ -1,7 +1,6 @@
 #include "input/grains.hpp"
 
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "input/csv.hpp"
 #include "input/keys.hpp"
 #include "input/stiffness.hpp"
@@ -10,7 +9,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 namespace elamin {
 
@@ -20,52 +19,35 @@ constexpr const char* const columns[]{"x", "y", "z", "diameter"};
 
 class GrainReader {
  public:
-  explicit GrainReader(const std::string& file)
-      : file_(file), text_(read_data(file, "table x,y,z or x,y,z,diameter")) {}
+  explicit GrainReader(const std::string& file) : rows_(file, "table x,y,z or x,y,z,diameter") {}
 
   GrainRows read() {
-    for (std::size_t at = 0; at < text_.size() && mistakes_.size() < most_mistakes;) {
-      const std::size_t end = std::min(text_.find('\n', at), text_.size());
-      ++line_;
-      if (const auto cells = csv_cells(std::string_view(text_).substr(at, end - at)); !cells.empty()) row(cells);
-      at = end + 1;
-    }
-    if (rows_.position.empty() && mistakes_.empty())
-      mistakes_.push_back({file_, std::max(line_, 1), 1, {}, "holds no grain; a line x,y,z or x,y,z,diameter is one"});
-    if (!mistakes_.empty()) throw InputError(mistakes_);
-    return std::move(rows_);
+    rows_.each([&](const auto& cells) { row(cells); });
+    if (grains_.position.empty() && rows_.sound()) rows_.mistake(1, "", "holds no grain; a line x,y,z or x,y,z,diameter is one");
+    rows_.finish();
+    return std::move(grains_);
   }
 
  private:
-  void mistake(int column, const std::string& key, const std::string& what) {
-    mistakes_.push_back({file_, line_, column, key, what});
-  }
-
   void row(const std::vector<CsvCell>& cells) {
-    if (first_) {
-      first_ = false;
-      if (names(cells)) return;
-    }
+    if (std::exchange(first_, false) && names(cells)) return;
     const std::size_t n = cells.size();
-    if (n != 3 && n != 4)
-      return mistake(1, "", fmt::format("{} columns, expected x,y,z or x,y,z,diameter", n));
+    if (n != 3 && n != 4) return rows_.mistake(1, "", fmt::format("{} columns, expected x,y,z or x,y,z,diameter", n));
     if (width_ == 0) width_ = n;
-    if (n != width_)
-      return mistake(1, "", fmt::format("{} columns, but the lines before have {}", n, width_));
+    if (n != width_) return rows_.mistake(1, "", fmt::format("{} columns, but the lines before have {}", n, width_));
     Vec3 x = Vec3::Zero();
     bool good = true;
     for (int c = 0; c < 3; ++c) {
-      const auto value = number(cells[c], columns[c]);
+      const auto value = rows_.number(cells[c], columns[c]);
       good = good && value;
       x[c] = value.value_or(0);
     }
     if (n == 4) {
-      const auto d = number(cells[3], columns[3]);
-      if (d && !(*d > 0))
-        mistake(cells[3].column, columns[3], fmt::format("must be a positive number, is {}", *d));
-      rows_.diameter.push_back(d.value_or(0));
+      const auto d = rows_.number(cells[3], columns[3]);
+      if (d && !(*d > 0)) rows_.mistake(cells[3].column, columns[3], fmt::format("must be a positive number, is {}", *d));
+      grains_.diameter.push_back(d.value_or(0));
     }
-    if (good) rows_.position.push_back(x);
+    if (good) grains_.position.push_back(x);
   }
 
   /// Whether these are the names of the columns rather than a grain.
@@ -76,20 +58,10 @@ class GrainReader {
     return cells.size() >= 3;
   }
 
-  std::optional<double> number(const CsvCell& cell, const char* key) {
-    std::string why;
-    const std::optional<double> value = finite_number(cell.text, why);
-    if (!value) mistake(cell.column, key, why);
-    return value;
-  }
-
-  const std::string& file_;
-  std::string text_;
-  int line_ = 0;
+  CsvRows rows_;
   bool first_ = true;
   std::size_t width_ = 0;
-  GrainRows rows_;
-  std::vector<Mistake> mistakes_;
+  GrainRows grains_;
 };
 
 }  // namespace
