@@ -63,11 +63,9 @@ std::string stem_of_step(const std::string& directory, const std::string& step) 
 }
 
 Region wall_in(const NumberTable& walls, std::size_t row) {
-  static const std::map<std::string, Shape> shapes{
-      {"plane", Shape::plane}, {"block", Shape::block}, {"cylinder", Shape::cylinder}, {"sphere", Shape::sphere}, {"cone", Shape::cone}};
-  const auto shape = shapes.find(walls.text(row, "shape"));
+  const auto shape = std::find(shape_names.begin(), shape_names.end(), walls.text(row, "shape"));
   Region r;
-  r.shape = shape == shapes.end() ? Shape::plane : shape->second;
+  if (shape != shape_names.end()) r.shape = static_cast<Shape>(shape - shape_names.begin());
   if (r.shape == Shape::block) {
     r.lo = walls.vector(row, {"xlo", "ylo", "zlo"}), r.hi = walls.vector(row, {"xhi", "yhi", "zhi"});
     return r;

@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "input/parts.hpp"
 
 #include "input/stiffness.hpp"
@@ -238,7 +239,7 @@ void check_glued(const Problem& problem, const Model& model, Mistakes& mistakes)
         else if constexpr (requires { table.loop; }) return std::vector<std::string>{table.loop ? *table.loop : table.sheet.value_or("")};
         else return std::vector<std::string>{table.group};
       }();
-      if (table.place.broken || std::find(names.begin(), names.end(), name) == names.end()) continue;
+      if (table.place.broken || !contains(names, name)) continue;
       return mistakes.add(table.place, key, fmt::format("{} is carried by {}, {}", called(model, *glued),
                                                         called(model, model.particles() + model.glued[carrier[*glued]].body), what));
     }

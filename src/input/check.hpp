@@ -1,10 +1,13 @@
 #pragma once
 // What can be said of a problem before anything is built: names, references, and keys that go together or do not.
+#include "core/find.hpp"
+#include "core/text.hpp"
 #include "input/keys.hpp"
 #include "input/problem.hpp"
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace elamin {
@@ -28,6 +31,16 @@ std::vector<std::string> eigenvalue_columns(const Problem& problem);
 
 /// The `at` of an expectation about all runs of a sweep together: the threshold that a bisection finds.
 inline constexpr const char* at_sweep = "sweep";
+
+/// The finite number behind a word such as "lambda="; nothing where `at` is not that.
+std::optional<double> number_behind(std::string_view word, const std::string& at);
+
+/// Whether a word is one of these with a number behind a colon.
+template <class Words> bool is_numbered(const std::string& word, const Words& words) {
+  const std::size_t colon = word.find(':');
+  int number = 0;
+  return colon != std::string::npos && reads_as(std::string_view(word).substr(colon + 1), number) && number > 0 && contains(words, word.substr(0, colon));
+}
 
 /// The load factor of "lambda=0.5"; nothing of another `at`.
 std::optional<double> load_factor_of(const std::string& at);

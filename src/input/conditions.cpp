@@ -14,6 +14,12 @@ std::vector<Condition> conditions_of(const Problem& problem) {
   return all;
 }
 
+std::vector<std::string> labels_of(const std::vector<Condition>& conditions) {
+  std::vector<std::string> labels;
+  for (const Condition& c : conditions) labels.push_back(c.label());
+  return labels;
+}
+
 int find_condition(const std::vector<Condition>& conditions, const std::string& word) {
   const auto found = std::find_if(conditions.begin(), conditions.end(), [&](const Condition& c) { return c.answers_to(word); });
   return found == conditions.end() ? -1 : static_cast<int>(found - conditions.begin());

@@ -31,6 +31,8 @@ template <class Table> Condition condition_of(const std::string& kind, const std
 
 /// Supports, loads, gravity, pressures, changes, walls, each in the order of the file.
 std::vector<Condition> conditions_of(const Problem& problem);
+std::vector<std::string> labels_of(const std::vector<Condition>& conditions);
+
 /// Index of the condition that the word names, or −1.
 int find_condition(const std::vector<Condition>& conditions, const std::string& word);
 

@@ -1,5 +1,6 @@
 #include "input/constants.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "core/types.hpp"
 
@@ -194,7 +195,7 @@ const std::optional<double>* Constants::find(const std::string& name) const {
   return found == values_.end() ? nullptr : &found->second;
 }
 
-bool Constants::is_later(const std::string& name) const { return std::find(later_.begin(), later_.end(), name) != later_.end(); }
+bool Constants::is_later(const std::string& name) const { return contains(later_, name); }
 
 std::vector<std::string> Constants::names() const {
   std::vector<std::string> names;

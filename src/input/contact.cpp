@@ -13,7 +13,7 @@ namespace elamin {
 
 namespace {
 
-constexpr Word<const char*> law_words[]{{"hertz", "hertz"}, {"lj", "lj"}, {"rounded", "rounded"}};
+constexpr std::array law_words{"hertz", "lj", "rounded"};
 constexpr Word<CutoffStyle> cutoff_style_words[]{{"cut", CutoffStyle::cut}, {"shifted", CutoffStyle::shifted}, {"smooth", CutoffStyle::smooth}};
 constexpr Word<RoundedFormulation> formulation_words[]{
     {"multi", RoundedFormulation::multi}, {"closest", RoundedFormulation::closest}, {"lammps", RoundedFormulation::lammps}};

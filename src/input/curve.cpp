@@ -1,7 +1,9 @@
 #include "input/curve.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
+#include "input/check.hpp"
 #include "input/parts.hpp"
 
 #include <fmt/format.h>
@@ -16,14 +18,6 @@ namespace {
 
 constexpr std::array kinds_of_curve{"limit", "branch", "contact"};
 constexpr std::array labels_of_curve{"cusp", "turn", "symmetric", "hilltop", "double", "meeting", "contact"};
-
-/// Whether a word is one of these with a number behind a colon.
-template <class Words> bool is_numbered(const std::string& word, const Words& words) {
-  const std::size_t colon = word.find(':');
-  int number = 0;
-  return colon != std::string::npos && reads_as(std::string_view(word).substr(colon + 1), number) && number > 0 &&
-         std::find(words.begin(), words.end(), word.substr(0, colon)) != words.end();
-}
 
 }  // namespace
 
@@ -41,9 +35,7 @@ void describe(Keys& keys, CurveTable& t) {
 }
 
 std::optional<double> second_of(const std::string& at) {
-  double value = 0;
-  const bool is_one = at.starts_with("second=") && reads_as(std::string_view(at).substr(7), value) && std::isfinite(value);
-  return is_one ? std::optional(value) : std::nullopt;
+  return number_behind("second=", at);
 }
 
 bool is_of_curve(const std::string& at) { return at.starts_with("second=") || at.starts_with("curve."); }
@@ -69,8 +61,7 @@ void check_curve(Problem& p, Mistakes& mistakes) {
   if (!is_numbered(t.of, kinds_of_curve))
     mistakes.add(t.place, "of", "must be a limit point, a branch point or a contact, such as \"limit:1\", \"branch:1\" or \"contact:1\", " +
                                     ("is " + in_quotes(t.of)));
-  else if (const std::string kind = t.of.substr(0, t.of.find(':'));
-           std::find(p.path.locate.begin(), p.path.locate.end(), kind) == p.path.locate.end() && !p.path.place.broken)
+  else if (const std::string kind = t.of.substr(0, t.of.find(':')); !contains(p.path.locate, kind) && !p.path.place.broken)
     mistakes.add(t.place, "of", in_quotes(kind) + " is not among path.locate; only located events can be followed");
   for (const std::string& label : t.until)
     if (!is_numbered(label, labels_of_curve))

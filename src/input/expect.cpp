@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "input/check.hpp"
 
 #include "core/suggest.hpp"
@@ -60,9 +61,6 @@ std::vector<std::string> eigenvalue_columns(const Problem& p) {
 
 namespace {
 
-bool is_in(const std::vector<std::string>& list, const std::string& word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
 
 }  // namespace
 
@@ -81,10 +79,14 @@ std::vector<std::string> taken_columns(const Problem& p) {
   return columns;
 }
 
+std::optional<double> number_behind(std::string_view word, const std::string& at) {
+  double number = 0;
+  const bool is_one = at.starts_with(word) && reads_as(std::string_view(at).substr(word.size()), number) && std::isfinite(number);
+  return is_one ? std::optional(number) : std::nullopt;
+}
+
 std::optional<double> load_factor_of(const std::string& at) {
-  double lambda = 0;
-  const bool is_one = at.starts_with("lambda=") && reads_as(std::string_view(at).substr(7), lambda) && std::isfinite(lambda);
-  return is_one ? std::optional(lambda) : std::nullopt;
+  return number_behind("lambda=", at);
 }
 
 std::optional<int> step_of(const std::string& at) {
@@ -102,10 +104,10 @@ std::string wrong_observable(const Problem& p, const std::string& observable, co
   if (is_of_curve(at)) columns = {"second", "multiplicity", "asymmetry"};
   if (is_of_landscape(at)) columns = {"multiplicity", "barrier", "barrier_back", "minima", "saddles", "euler"};
   for (const std::string& c : columns_of(p))
-    if (!is_in(no_numbers, c) && (event || !is_in(of_events, c))) columns.push_back(c);
+    if (!contains(no_numbers, c) && (event || !contains(of_events, c))) columns.push_back(c);
   for (const ObserveTable& o : p.observe)
-    if (!o.name.empty() && !is_in(columns, o.name)) columns.push_back(o.name);
-  if (is_in(columns, observable)) return "";
+    if (!o.name.empty() && !contains(columns, o.name)) columns.push_back(o.name);
+  if (contains(columns, observable)) return "";
   return in_quotes(observable) + " is no column of numbers there; there are: " + listed(columns) + did_you_mean(observable, columns);
 }
 
@@ -146,7 +148,7 @@ std::string wrong_at(const Problem& p, const std::string& at) {
     return allowed + did_you_mean(at, labels);
   if (number.empty() || number.size() > 9 || number[0] == '0' || number.find_first_not_of("0123456789") != std::string::npos)
     return allowed;
-  if (!watched && kind != "jump" && kind != "deflated" && !p.path.place.broken && !is_in(p.path.locate, kind))
+  if (!watched && kind != "jump" && kind != "deflated" && !p.path.place.broken && !contains(p.path.locate, kind))
     return in_quotes(kind) + " is not among path.locate; only located events have a row";
   return "";
 }

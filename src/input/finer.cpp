@@ -1,5 +1,6 @@
 #include "input/finer.hpp"
 
+#include "core/find.hpp"
 #include "input/document.hpp"
 
 #include <fmt/format.h>
@@ -53,20 +54,18 @@ class Refined {
     int first = 0;
     for (const Structure& s : model.structures) {
       Part part{&s, {}, false, first};
-      for (const BeamTable& t : problem.beams)
-        if (t.name == s.name) {
-          const bool both = t.clamped == ClampedEnds::both;
-          part.row = Row{s.count, both || t.clamped == ClampedEnds::from, both || t.clamped == ClampedEnds::to, by, false};
-        }
-      for (const LoopTable& t : problem.loops)
-        if (t.name == s.name) part.row = Row{s.count, 0, 0, by, true};
+      if (const BeamTable* t = find_named(problem.beams, s.name)) {
+        const bool both = t->clamped == ClampedEnds::both;
+        part.row = Row{s.count, both || t->clamped == ClampedEnds::from, both || t->clamped == ClampedEnds::to, by, false};
+      }
+      if (find_named(problem.loops, s.name)) part.row = Row{s.count, 0, 0, by, true};
       int count = part.row ? part.row->fine_count() : s.count;
-      for (SheetTable t : problem.sheets)
-        if (t.name == s.name) {
-          part.lattice = true, t.spacing /= by;
-          const auto sheet = built(t, mistakes);
-          count = sheet ? sheet_particles(*sheet) : s.count;
-        }
+      if (const SheetTable* table = find_named(problem.sheets, s.name)) {
+        SheetTable fine = *table;
+        part.lattice = true, fine.spacing /= by;
+        const auto sheet = built(fine, mistakes);
+        count = sheet ? sheet_particles(*sheet) : s.count;
+      }
       parts_.push_back(part), first += count;
     }
     for (const SupportTable& s : problem.supports) held_.insert(s.group);
@@ -209,12 +208,6 @@ class Places {
   std::vector<int> order_;
 };
 
-const Group* group_of(const Model& model, const std::string& name) {
-  for (const Group& g : model.groups)
-    if (g.name == name) return &g;
-  return nullptr;
-}
-
 }  // namespace
 
 std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_model, const Problem& fine, const Model& fine_model, int by,
@@ -229,8 +222,7 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
     double within = 0;
     if (part.lattice) {
       places.emplace(fine_model, there);
-      for (const SheetTable& t : coarse.sheets)
-        if (t.name == s.name) within = 1e-6 * t.spacing / by;
+      within = 1e-6 * find_named(coarse.sheets, s.name)->spacing / by;
     }
     for (int i = 0; i < s.count; ++i)
       image[s.first + i] = places ? places->at(coarse_model.start.at(s.first + i).hi, within)
@@ -248,7 +240,7 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
       apart.insert(g.name);
       continue;
     }
-    const Group *before = group_of(coarse_model, g.name), *now = group_of(fine_model, g.name);
+    const Group *before = find_named(coarse_model.groups, g.name), *now = find_named(fine_model.groups, g.name);
     if (!before || !now) continue;
     const std::set<int> was(before->particles.begin(), before->particles.end()), is(now->particles.begin(), now->particles.end());
     for (int i = 0; i < coarse_model.particles(); ++i) {
@@ -264,7 +256,7 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
   }
   for (std::size_t k = 0; k < coarse.loads.size(); ++k) {
     const LoadTable &t = coarse.loads[k], &changed = fine.loads[k];
-    const Group *before = group_of(coarse_model, t.group), *now = group_of(fine_model, t.group);
+    const Group *before = find_named(coarse_model.groups, t.group), *now = find_named(fine_model.groups, t.group);
     if (!before || !now || t.force != changed.force || t.radial != changed.radial) continue;
     const auto count = [](const Group& group) { return static_cast<double>(group.particles.size() + group.bodies.size()); };
     const double part = count(*before) / count(*now);

@@ -1,5 +1,6 @@
 #include "input/key_tree.hpp"
 
+#include "core/find.hpp"
 #include "input/problem.hpp"
 #include "input/reader.hpp"
 #include "input/resolved.hpp"
@@ -74,7 +75,7 @@ class TreeMaker : public Keys {
                       : from.range;
     key.needed = from.needed, key.standard = from.needed ? "" : standard;
     for (const std::string& word : from.words)
-      if (std::find(key.words.begin(), key.words.end(), word) == key.words.end()) key.words.push_back(word);
+      if (!contains(key.words, word)) key.words.push_back(word);
   }
   static void append(std::string& to, const std::string& text, const char* between) {
     if (to.find(text) == std::string::npos) to += (to.empty() ? "" : between) + text;

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/types.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -56,7 +57,7 @@ template <class T> struct Word {
 };
 
 /// Films of a run's states, by the ends of their names.
-inline constexpr Word<const char*> film_words[]{{"lammpstrj", "lammpstrj"}, {"pvd", "pvd"}, {"xyz", "xyz"}};
+inline constexpr std::array film_words{"lammpstrj", "pvd", "xyz"};
 
 /// The rest angle of a structure's angles: "straight", "as_built", or degrees.
 struct Rest {
@@ -124,13 +125,21 @@ class Keys {
   template <class T, class W, std::size_t n> bool must_word(const char* key, T& value, const Word<W> (&known)[n], const char* means) {
     return word(key, value, known, means, true);
   }
-  /// Some of them, each once.
-  template <std::size_t n> void words(const char* key, std::vector<std::string>& list, const Word<const char*> (&known)[n], const char* means) {
-    value({key, means, false, {}, Kind::words, texts(known)}, &list, true);
+  /// The same of words that stand for themselves.
+  template <std::size_t n> bool word(const char* key, std::string& value, const std::array<const char*, n>& known, const char* means) {
+    const auto now = std::find(known.begin(), known.end(), value);
+    int at = now == known.end() ? -1 : static_cast<int>(now - known.begin());
+    if (!choose({key, means, false, {}, Kind::plain, {known.begin(), known.end()}}, at)) return false;
+    if (at >= 0) value = known[at];
+    return true;
   }
-  template <std::size_t n> void words(const char* key, std::optional<std::vector<std::string>>& list, const Word<const char*> (&known)[n], const char* means) {
+  /// Some of them, each once.
+  template <std::size_t n> void words(const char* key, std::vector<std::string>& list, const std::array<const char*, n>& known, const char* means) {
+    value({key, means, false, {}, Kind::words, {known.begin(), known.end()}}, &list, true);
+  }
+  template <std::size_t n> void words(const char* key, std::optional<std::vector<std::string>>& list, const std::array<const char*, n>& known, const char* means) {
     std::vector<std::string> held = list.value_or(std::vector<std::string>{});
-    if (value({key, means, false, {}, Kind::words, texts(known)}, &held, list.has_value())) list = std::move(held);
+    if (value({key, means, false, {}, Kind::words, {known.begin(), known.end()}}, &held, list.has_value())) list = std::move(held);
   }
 
   /// Any names that the file likes, each with a number.

@@ -1,7 +1,9 @@
 #include "input/landscape.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
+#include "input/check.hpp"
 #include "input/parts.hpp"
 
 #include <fmt/format.h>
@@ -43,11 +45,7 @@ std::optional<InLandscape> in_landscape(const std::string& at) {
     if (!reads_as(std::string_view(rest).substr(mark + 1), load) || !std::isfinite(load)) return {};
     place.load_factor = load;
   }
-  const std::size_t colon = place.label.find(':');
-  int number = 0;
-  const bool kind = std::find(labels_of_landscape.begin(), labels_of_landscape.end(), place.label.substr(0, colon)) != labels_of_landscape.end();
-  const bool node = kind && colon != std::string::npos && reads_as(std::string_view(place.label).substr(colon + 1), number) && number > 0;
-  return node || place.label == "graph" ? std::optional(place) : std::nullopt;
+  return is_numbered(place.label, labels_of_landscape) || place.label == "graph" ? std::optional(place) : std::nullopt;
 }
 
 std::string wrong_at_landscape(const Problem& p, const std::string& at) {
@@ -58,7 +56,7 @@ std::string wrong_at_landscape(const Problem& p, const std::string& at) {
                        "is {}",
                        fmt::join(labels_of_landscape, ":1\", \"landscape."), in_quotes(at));
   const std::vector<double> all = p.landscape->at.value_or(std::vector{p.path.to});
-  if (place->load_factor && std::find(all.begin(), all.end(), *place->load_factor) == all.end())
+  if (place->load_factor && !contains(all, *place->load_factor))
     return fmt::format("has a load factor, {}, that is none of landscape.at, {}", *place->load_factor, fmt::join(all, ", "));
   return "";
 }

@@ -1,5 +1,7 @@
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "energy/changes.hpp"
+#include "input/names.hpp"
 #include "input/parts.hpp"
 #include "input/conditions.hpp"
 #include "model/entities.hpp"
@@ -84,15 +86,8 @@ void check_load(const Problem& problem, LoadTable& l, Mistakes& mistakes) {
 }
 
 void check_pressure(const Problem& problem, PressureTable& p, Mistakes& mistakes) {
-  const auto is_one = [&](const char* key, const std::optional<std::string>& name, const auto& tables) {
-    if (!name) return;
-    std::vector<std::string> names;
-    for (const auto& t : tables) names.push_back(t.name);
-    if (std::find(names.begin(), names.end(), *name) == names.end())
-      mistakes.add(p.place, key, in_quotes(*name) + " is no [[" + key + "]]; " + there_are(names, *name));
-  };
-  is_one("loop", p.loop, problem.loops);
-  is_one("sheet", p.sheet, problem.sheets);
+  if (p.loop) must_be_one(problem.loops, "loop", p.place, "loop", *p.loop, mistakes);
+  if (p.sheet) must_be_one(problem.sheets, "sheet", p.place, "sheet", *p.sheet, mistakes);
 }
 
 /// Names of conditions are unique among their kind; walls have theirs among the groups.
@@ -105,13 +100,11 @@ void check_names(const Problem& problem, Mistakes& mistakes) {
 
 void check_parameter(Problem& problem, Mistakes& mistakes) {
   const std::vector<Condition> conditions = conditions_of(problem);
-  std::vector<std::string> labels;
-  for (const Condition& c : conditions) labels.push_back(c.label());
   std::set<int> chosen;
   for (const std::string& word : problem.path.parameter) {
     const int found = find_condition(conditions, word);
     if (found < 0)
-      mistakes.add(problem.path.place, "parameter", in_quotes(word) + " names no table that a load factor scales; " + there_are(labels, word));
+      mistakes.add(problem.path.place, "parameter", in_quotes(word) + " names no table that a load factor scales; " + there_are(labels_of(conditions), word));
     else if (!chosen.insert(found).second)
       mistakes.add(problem.path.place, "parameter", in_quotes(word) + " is there twice; once is enough");
   }
@@ -217,21 +210,18 @@ void add_pressures(const Problem& problem, Model& model, Mistakes& mistakes) {
   for (std::size_t t = 0; t < problem.pressures.size(); ++t) {
     const PressureTable& table = problem.pressures[t];
     const Scaling scaling = scaling_of(problem, condition_of("pressure", problem.pressures, t));
-    using Name = std::optional<std::string>;
-    const auto named = [](const Name& name) { return [&name](const auto& one) { return one.name == name; }; };
-    const auto built = [&](const char* kind, const Name& name) {
-      return std::find_if(model.structures.begin(), model.structures.end(), [&](const Structure& s) { return s.kind == kind && s.name == name; });
-    };
-    const auto loop = std::find_if(problem.loops.begin(), problem.loops.end(), named(table.loop));
-    const auto sheet = std::find_if(problem.sheets.begin(), problem.sheets.end(), named(table.sheet));
     if (table.place.broken) continue;
-    if (const auto s = built("loop", table.loop); loop != problem.loops.end() && s != model.structures.end()) {
+    const LoopTable* loop = table.loop ? find_named(problem.loops, *table.loop) : nullptr;
+    const SheetTable* sheet = table.sheet ? find_named(problem.sheets, *table.sheet) : nullptr;
+    const Structure* s = loop || sheet ? find_named(model.structures, loop ? loop->name : sheet->name) : nullptr;
+    if (!s) continue;
+    if (sheet) {
+      press_sheet(table, *sheet, *s, model, scaling, mistakes);
+    } else {
       Pressure p{*table.loop, {}, unit(loop->normal), table.pressure, scaling};
       for (int i = 0; i < s->count; ++i) p.particles.push_back(s->first + i);
       model.pressures.push_back(std::move(p));
     }
-    if (const auto s = built("sheet", table.sheet); sheet != problem.sheets.end() && s != model.structures.end())
-      press_sheet(table, *sheet, *s, model, scaling, mistakes);
   }
 }
 
@@ -252,9 +242,7 @@ void add_changes(const Problem& problem, Groups& groups, Model& model, Mistakes&
   const auto look = [&](const Kinds& kinds, const char* what, Parts parts) {
     for (const auto& [key, part] : parts) {
       for (std::size_t c = 0; c < tables.size(); ++c) {
-        const auto acts = [&](const std::vector<int>& on) {
-          return std::find(on.begin(), on.end(), static_cast<int>(c)) != on.end();
-        };
+        const auto acts = [&](const std::vector<int>& on) { return contains(on, static_cast<int>(c)); };
         if (model.changes[c].*part != 0 && std::none_of(kinds.changes.begin(), kinds.changes.end(), acts))
           mistakes.add(tables[c]->place, key, fmt::format("changes nothing: no {} has all its particles in \"{}\"", what,
                                                           model.changes[c].group));

@@ -1,5 +1,6 @@
 #include "input/names.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>
@@ -37,18 +38,15 @@ void Names::refer(TablePlace& place, const char* key, const std::string& name, b
   if (or_wall && is_wall(name)) return;
   std::vector<std::string> known{"all"};
   for (const auto& entry : groups_) known.push_back(entry.first);
-  for (const GroupTable& g : problem_.groups)
-    if (g.name == name)
-      return mistakes_.add(place, key, in_quotes(name) + " comes further down; a group is made of those before it");
-  for (const WallTable& w : problem_.walls)
-    if (w.name == name)
-      return mistakes_.add(place, key, in_quotes(name) + " is a wall, not a group; there are: " + listed(known));
+  if (find_named(problem_.groups, name))
+    return mistakes_.add(place, key, in_quotes(name) + " comes further down; a group is made of those before it");
+  if (find_named(problem_.walls, name))
+    return mistakes_.add(place, key, in_quotes(name) + " is a wall, not a group; there are: " + listed(known));
   if (problem_.lammps) known.push_back("type1");
   for (const auto& entry : walls_)
     if (or_wall) known.push_back(entry.first);
-  mistakes_.add(place, key,
-                in_quotes(name) + (or_wall && !walls_.empty() ? " names no group and no wall" : " names no group") +
-                    "; there are: " + listed(known) + did_you_mean(name, known));
+  const char* const what = or_wall && !walls_.empty() ? " names no group and no wall; there are: " : " names no group; there are: ";
+  mistakes_.add(place, key, in_quotes(name) + what + listed(known) + did_you_mean(name, known));
 }
 
 void Names::refer(TablePlace& place, const char* key, const std::array<std::string, 2>& names) {

@@ -1,5 +1,7 @@
 #pragma once
 // The names of what a problem file holds, and references to them.
+#include "core/find.hpp"
+#include "core/suggest.hpp"
 #include "input/keys.hpp"
 #include "input/problem.hpp"
 
@@ -15,6 +17,15 @@ bool is_type_group(const std::string& name);
 
 /// "support.2 of line 7", or without the line if it came from the command line.
 std::string named(const TablePlace& place);
+
+/// A mistake of a key that names none of these tables [[kind]].
+template <class Tables>
+void must_be_one(const Tables& tables, const std::string& kind, TablePlace& place, const char* key, const std::string& name, Mistakes& mistakes) {
+  if (find_named(tables, name)) return;
+  std::vector<std::string> names;
+  for (const auto& table : tables) names.push_back(table.name);
+  mistakes.add(place, key, in_quotes(name) + " is no [[" + kind + "]]; " + there_are(names, name));
+}
 
 /// Names of structures, groups and walls, as far as they have been entered.
 class Names {

@@ -1,5 +1,6 @@
 #include "input/observe.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "input/parts.hpp"
 #include "input/check.hpp"
@@ -23,37 +24,35 @@ struct Observed {
   Component component = Component::x;
   bool operator==(const Observed&) const = default;
 };
-constexpr Word<Observed> observed_words[]{
-    {"position.x", {Quantity::position, Component::x}}, {"position.y", {Quantity::position, Component::y}},
-    {"position.z", {Quantity::position, Component::z}}, {"position.norm", {Quantity::position, Component::norm}},
-    {"displacement.x", {Quantity::displacement, Component::x}}, {"displacement.y", {Quantity::displacement, Component::y}},
-    {"displacement.z", {Quantity::displacement, Component::z}}, {"displacement.norm", {Quantity::displacement, Component::norm}},
-    {"rotation.x", {Quantity::rotation, Component::x}}, {"rotation.y", {Quantity::rotation, Component::y}},
-    {"rotation.z", {Quantity::rotation, Component::z}}, {"rotation.norm", {Quantity::rotation, Component::norm}},
-    {"reaction.x", {Quantity::reaction, Component::x}}, {"reaction.y", {Quantity::reaction, Component::y}},
-    {"reaction.z", {Quantity::reaction, Component::z}}, {"reaction.norm", {Quantity::reaction, Component::norm}},
-    {"torque.x", {Quantity::torque, Component::x}}, {"torque.y", {Quantity::torque, Component::y}},
-    {"torque.z", {Quantity::torque, Component::z}}, {"torque.norm", {Quantity::torque, Component::norm}},
-    {"velocity.x", {Quantity::velocity, Component::x}}, {"velocity.y", {Quantity::velocity, Component::y}},
-    {"velocity.z", {Quantity::velocity, Component::z}}, {"velocity.norm", {Quantity::velocity, Component::norm}},
-    {"angular_velocity.x", {Quantity::angular_velocity, Component::x}}, {"angular_velocity.y", {Quantity::angular_velocity, Component::y}}, {"angular_velocity.z", {Quantity::angular_velocity, Component::z}},
-    {"angular_velocity.norm", {Quantity::angular_velocity, Component::norm}}, {"gap", {Quantity::gap}}, {"contacts", {Quantity::contacts}},
-    {"contact_force.x", {Quantity::contact_force, Component::x}}, {"contact_force.y", {Quantity::contact_force, Component::y}},
-    {"contact_force.z", {Quantity::contact_force, Component::z}}, {"contact_force.norm", {Quantity::contact_force, Component::norm}},
-    {"energy", {Quantity::energy}}, {"tension", {Quantity::tension}}, {"strain", {Quantity::strain}}, {"moment", {Quantity::moment}},
-    {"curvature", {Quantity::curvature}}, {"N.11", {Quantity::membrane_force, Component::c11}},
-    {"N.22", {Quantity::membrane_force, Component::c22}}, {"N.12", {Quantity::membrane_force, Component::c12}},
-    {"N.max", {Quantity::membrane_force, Component::most}}, {"N.min", {Quantity::membrane_force, Component::least}},
-    {"M.11", {Quantity::bending_moment, Component::c11}}, {"M.22", {Quantity::bending_moment, Component::c22}},
-    {"M.12", {Quantity::bending_moment, Component::c12}}, {"M.max", {Quantity::bending_moment, Component::most}},
-    {"M.min", {Quantity::bending_moment, Component::least}}, {"distance", {Quantity::distance}}, {"angle", {Quantity::angle}},
-    {"slope", {Quantity::slope}}, {"extent.x", {Quantity::extent, Component::x}}, {"extent.y", {Quantity::extent, Component::y}},
-    {"extent.z", {Quantity::extent, Component::z}}, {"end_to_end", {Quantity::end_to_end}}, {"area", {Quantity::area}},
-    {"difference", {Quantity::difference}}, {"derivative", {Quantity::derivative}}};
+namespace in_a_word {
+using enum Quantity;
+using enum Component;
+constexpr Word<Observed> all[]{
+    {"position.x", {position, x}}, {"position.y", {position, y}}, {"position.z", {position, z}}, {"position.norm", {position, norm}},
+    {"displacement.x", {displacement, x}}, {"displacement.y", {displacement, y}}, {"displacement.z", {displacement, z}},
+    {"displacement.norm", {displacement, norm}},
+    {"rotation.x", {rotation, x}}, {"rotation.y", {rotation, y}}, {"rotation.z", {rotation, z}}, {"rotation.norm", {rotation, norm}},
+    {"reaction.x", {reaction, x}}, {"reaction.y", {reaction, y}}, {"reaction.z", {reaction, z}}, {"reaction.norm", {reaction, norm}},
+    {"torque.x", {torque, x}}, {"torque.y", {torque, y}}, {"torque.z", {torque, z}}, {"torque.norm", {torque, norm}},
+    {"velocity.x", {velocity, x}}, {"velocity.y", {velocity, y}}, {"velocity.z", {velocity, z}}, {"velocity.norm", {velocity, norm}},
+    {"angular_velocity.x", {angular_velocity, x}}, {"angular_velocity.y", {angular_velocity, y}},
+    {"angular_velocity.z", {angular_velocity, z}}, {"angular_velocity.norm", {angular_velocity, norm}},
+    {"gap", {gap}}, {"contacts", {contacts}},
+    {"contact_force.x", {contact_force, x}}, {"contact_force.y", {contact_force, y}}, {"contact_force.z", {contact_force, z}},
+    {"contact_force.norm", {contact_force, norm}},
+    {"energy", {energy}}, {"tension", {tension}}, {"strain", {strain}}, {"moment", {moment}}, {"curvature", {curvature}},
+    {"N.11", {membrane_force, c11}}, {"N.22", {membrane_force, c22}}, {"N.12", {membrane_force, c12}}, {"N.max", {membrane_force, most}},
+    {"N.min", {membrane_force, least}},
+    {"M.11", {bending_moment, c11}}, {"M.22", {bending_moment, c22}}, {"M.12", {bending_moment, c12}}, {"M.max", {bending_moment, most}},
+    {"M.min", {bending_moment, least}},
+    {"distance", {distance}}, {"angle", {angle}}, {"slope", {slope}},
+    {"extent.x", {extent, x}}, {"extent.y", {extent, y}}, {"extent.z", {extent, z}},
+    {"end_to_end", {end_to_end}}, {"area", {area}}, {"difference", {difference}}, {"derivative", {derivative}}};
+}  // namespace in_a_word
 
 Keys::Names words_of(bool (*chosen)(Quantity)) {
   Keys::Names words;
-  for (const auto& w : observed_words)
+  for (const auto& w : in_a_word::all)
     if (chosen(w.value.quantity)) words.push_back(w.text);
   return words;
 }
@@ -64,7 +63,7 @@ void describe(Keys& keys, ObserveTable& t) {
   keys.about("A column of the results.");
   keys.name("name", t.name, "its name");
   Observed observed{t.quantity, t.component};
-  const bool known = keys.must_word("quantity", observed, observed_words, "what is observed, see docs/results.md");
+  const bool known = keys.must_word("quantity", observed, in_a_word::all, "what is observed, see docs/results.md");
   t.quantity = observed.quantity, t.component = observed.component;
   const auto group = [&] { keys.must("group", t.group, "of what; of a reaction, a gap and contacts a wall too"); };
   const auto reduce = [&] {
@@ -112,7 +111,7 @@ std::vector<std::size_t> made_of(const std::vector<ObserveTable>& all, std::size
   for (std::size_t k = number + 1; k-- > 0;) {
     if (!parts.count(k) || !of_observables(all[k].quantity)) continue;
     for (std::size_t i = 0; i < k; ++i)
-      if (all[i].name == all[k].by || std::find(all[k].of.begin(), all[k].of.end(), all[i].name) != all[k].of.end()) parts.insert(i);
+      if (all[i].name == all[k].by || contains(all[k].of, all[i].name)) parts.insert(i);
   }
   return {parts.begin(), parts.end()};
 }
@@ -131,19 +130,15 @@ class CheckObserved {
     if (!o.place.broken) directions(o);
     if (of_observables(o.quantity)) others(o);
     if (o.name.empty()) return;
-    if (is_in(columns_, o.name))
+    if (contains(columns_, o.name))
       mistakes_.add(o.place, "name", in_quotes(o.name) + " is a column of the results already; taken are: " + listed(columns_));
-    else if (is_in(before_, o.name))
+    else if (contains(before_, o.name))
       mistakes_.add(o.place, "name", in_quotes(o.name) + " is the name of another [[observe]]; names are unique");
     else
       before_.push_back(o.name);
   }
 
  private:
-  static bool is_in(const std::vector<std::string>& list, const std::string& word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-  }
-
   /// A wall is one thing: it has a reaction, a smallest gap and a number of contacts.
   void wall(ObserveTable& o) {
     if (o.quantity != Quantity::reaction && o.quantity != Quantity::gap && o.quantity != Quantity::contacts)
@@ -186,7 +181,7 @@ class CheckObserved {
   }
 
   void known(ObserveTable& o, const char* key, const std::string& name) {
-    if (!is_in(before_, name))
+    if (!contains(before_, name))
       return mistakes_.add(o.place, key, in_quotes(name) + " is no [[observe]] further up; " + there_are(before_, name));
     if (o.quantity != Quantity::derivative) return;
     for (std::size_t k = 0; k < p_.observe.size(); ++k)
@@ -260,8 +255,7 @@ void check_observed(const Problem& problem, Groups& groups, const Model& model, 
   };
   const bool bonds_known = from_start(problem.connections) && from_start(problem.bonds) && from_start(problem.angles);
   for (const ObserveTable& o : problem.observe) {
-    const bool wall = std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& w) { return w.name == o.group; });
-    if (o.place.broken || wall || of_observables(o.quantity)) continue;
+    if (o.place.broken || find_named(model.walls, o.group) || of_observables(o.quantity)) continue;
     for (const auto& [key, name] : {std::pair("to", o.to), {"through", o.through}})
       if (!name.empty()) groups.find(o.place, key, name);
     if (const Members* of = groups.find(o.place, "group", o.group))

@@ -1,4 +1,6 @@
+#include "core/find.hpp"
 #include "core/suggest.hpp"
+#include "input/names.hpp"
 #include "input/parts.hpp"
 #include "input/stages.hpp"
 
@@ -19,7 +21,7 @@ constexpr Word<StudyType> study_words[]{{"energy", StudyType::energy},
 constexpr Word<PathMethod> path_method_words[]{{"load_steps", PathMethod::load_steps}, {"arc_length", PathMethod::arc_length}};
 constexpr Word<WhenUnstable> when_unstable_words[]{
     {"jump", WhenUnstable::jump}, {"follow", WhenUnstable::follow}, {"stop", WhenUnstable::stop}};
-constexpr Word<const char*> event_words[]{{"limit", "limit"}, {"branch", "branch"}, {"contact", "contact"}};
+constexpr std::array event_words{"limit", "branch", "contact"};
 
 const char* const when_unstable_means =
     "snap to the next minimum, as an experiment does, stay on the branch, or stop; by default jump, of arc_length follow";
@@ -157,18 +159,16 @@ void check_path(Problem& problem, Mistakes& mistakes) {
     mistakes.add(problem.stages.front().place, "stages are parts of a path; give study.type = \"path\" or leave them out");
   check_stages(problem, mistakes);
 
-  std::vector<std::string> observables, names;
-  for (const ObserveTable& o : problem.observe) observables.push_back(o.name);
+  std::vector<std::string> names;
   for (EventTable& e : problem.events) {
     if (e.name.empty()) continue;
     const std::vector<std::string> taken{"branch", "limit", "contact", "jump", "deflated", "initial", "final"};
-    if (std::find(taken.begin(), taken.end(), e.name) != taken.end())
+    if (contains(taken, e.name))
       mistakes.add(e.place, "name", in_quotes(e.name) + " is reserved; taken are: " + listed(taken));
-    else if (std::find(names.begin(), names.end(), e.name) != names.end())
+    else if (contains(names, e.name))
       mistakes.add(e.place, "name", in_quotes(e.name) + " is the name of another [[event]]; names are unique");
     names.push_back(e.name);
-    if (e.observable.empty() || std::find(observables.begin(), observables.end(), e.observable) != observables.end()) continue;
-    mistakes.add(e.place, "observable", in_quotes(e.observable) + " is no [[observe]]; " + there_are(observables, e.observable));
+    if (!e.observable.empty()) must_be_one(problem.observe, "observe", e.place, "observable", e.observable, mistakes);
   }
 }
 

@@ -3,7 +3,7 @@
 namespace elamin {
 namespace {
 
-constexpr Word<const char*> plane_words[]{{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}};
+constexpr std::array plane_words{"xy", "xz", "yz"};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "input/reader.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +59,6 @@ std::string label(const Entries& entries, std::size_t index) {
   return name && is_name(*name) ? *name : std::to_string(index + 1);
 }
 
-bool contains(const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); }
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "input/region.hpp"
 
+#include "core/find.hpp"
 #include "input/keys.hpp"
 #include "input/stiffness.hpp"
 
@@ -15,16 +16,14 @@ namespace {
 constexpr Word<Shape> shape_words[]{
     {"plane", Shape::plane}, {"block", Shape::block}, {"cylinder", Shape::cylinder}, {"sphere", Shape::sphere}, {"cone", Shape::cone}};
 constexpr Word<int> axis_words[]{{"x", 0}, {"y", 1}, {"z", 2}};
-constexpr Word<const char*> block_faces[]{{"xlo", "xlo"}, {"xhi", "xhi"}, {"ylo", "ylo"}, {"yhi", "yhi"}, {"zlo", "zlo"}, {"zhi", "zhi"}};
-constexpr Word<const char*> round_faces[]{{"lo", "lo"}, {"hi", "hi"}, {"side", "side"}};   // cylinder, cone
 
 /// The faces of a region that are open, by name.
-template <std::size_t n> void describe_open(Keys& keys, Region& r, const Word<const char*> (&faces)[n]) {
+template <std::size_t n> void describe_open(Keys& keys, Region& r, const std::array<const char*, n>& faces) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < n; ++i)
-    if (r.open[i]) open.push_back(faces[i].text);
+    if (r.open[i]) open.push_back(faces[i]);
   keys.words("open", open, faces, "faces that are not there");
-  for (std::size_t i = 0; i < n; ++i) r.open[i] = std::find(open.begin(), open.end(), faces[i].text) != open.end();
+  for (std::size_t i = 0; i < n; ++i) r.open[i] = contains(open, faces[i]);
 }
 
 /// An end along the axis, infinite where it is not given.
@@ -42,12 +41,6 @@ void describe_axis(Keys& keys, Region& r) {
 
 }  // namespace
 
-const char* name_of(Shape shape) {
-  for (const auto& word : shape_words)
-    if (word.value == shape) return word.text;
-  return "";
-}
-
 void describe_region(Keys& keys, Region& r) {
   if (!keys.must_word("shape", r.shape, shape_words, "of the region")) return keys.skip_the_rest();   // other keys belong to other shapes
   keys.either("shape", {{{"plane"}, "a plane", r.shape == Shape::plane, [&] {
@@ -57,7 +50,7 @@ void describe_region(Keys& keys, Region& r) {
                         {{"block"}, "a block", r.shape == Shape::block, [&] {
                            keys.must("lo", r.lo, "the lower corner of a block");
                            keys.must("hi", r.hi, "its upper corner");
-                           describe_open(keys, r, block_faces);
+                           describe_open(keys, r, block_face_names);
                          }},
                         {{"sphere"}, "a sphere", r.shape == Shape::sphere, [&] {
                            keys.must("center", r.center, "a point of the axis, or the middle of a sphere");
@@ -68,7 +61,7 @@ void describe_region(Keys& keys, Region& r) {
                            keys.must("radius", r.radius, "[length]", range::positive);
                            describe_end(keys, "lo", r.axial_lo, "where it begins along the axis; by default nowhere");
                            describe_end(keys, "hi", r.axial_hi, "where it ends; by default nowhere");
-                           describe_open(keys, r, round_faces);
+                           describe_open(keys, r, round_face_names);
                          }},
                         {{"cone"}, "a cone", r.shape == Shape::cone, [&] {
                            describe_axis(keys, r);
@@ -76,7 +69,7 @@ void describe_region(Keys& keys, Region& r) {
                            keys.must("radius_hi", r.radius_hi, "at hi", range::not_negative);
                            keys.must("lo", r.axial_lo, "where it begins along the axis");
                            keys.must("hi", r.axial_hi, "where it ends");
-                           describe_open(keys, r, round_faces);
+                           describe_open(keys, r, round_face_names);
                          }}});
 }
 

@@ -15,7 +15,4 @@ void check_region(TablePlace& place, const Region& region, bool flat, Mistakes& 
 /// The region with a normal of length 1, if it has one.
 Region with_unit_normal(Region region);
 
-/// "plane", "block", …
-const char* name_of(Shape shape);
-
 }  // namespace elamin

@@ -14,20 +14,15 @@ namespace elamin {
 
 namespace {
 
-constexpr Word<const char*> solver_words[]{
-    {"auto", "auto"}, {"newton", "newton"}, {"ipopt", "ipopt"}, {"fire", "fire"}, {"nlopt:LD_LBFGS", "nlopt:LD_LBFGS"},
-    {"nlopt:LD_TNEWTON", "nlopt:LD_TNEWTON"}, {"nlopt:LD_TNEWTON_RESTART", "nlopt:LD_TNEWTON_RESTART"},
-    {"nlopt:LD_TNEWTON_PRECOND", "nlopt:LD_TNEWTON_PRECOND"}, {"nlopt:LD_TNEWTON_PRECOND_RESTART", "nlopt:LD_TNEWTON_PRECOND_RESTART"},
-    {"nlopt:LD_VAR1", "nlopt:LD_VAR1"}, {"nlopt:LD_VAR2", "nlopt:LD_VAR2"}, {"nlopt:LD_SLSQP", "nlopt:LD_SLSQP"},
-    {"nlopt:LD_MMA", "nlopt:LD_MMA"}, {"nlopt:LD_CCSAQ", "nlopt:LD_CCSAQ"}, {"nlopt:LN_COBYLA", "nlopt:LN_COBYLA"},
-    {"nlopt:LN_BOBYQA", "nlopt:LN_BOBYQA"}, {"nlopt:LN_NEWUOA", "nlopt:LN_NEWUOA"}, {"nlopt:LN_PRAXIS", "nlopt:LN_PRAXIS"},
-    {"nlopt:LN_NELDERMEAD", "nlopt:LN_NELDERMEAD"}, {"nlopt:LN_SBPLX", "nlopt:LN_SBPLX"}, {"nlopt:G_MLSL", "nlopt:G_MLSL"},
-    {"nlopt:G_MLSL_LDS", "nlopt:G_MLSL_LDS"}, {"nlopt:GN_DIRECT", "nlopt:GN_DIRECT"}, {"nlopt:GN_DIRECT_L", "nlopt:GN_DIRECT_L"},
-    {"nlopt:GN_CRS2_LM", "nlopt:GN_CRS2_LM"}, {"nlopt:GN_ISRES", "nlopt:GN_ISRES"}, {"nlopt:GN_ESCH", "nlopt:GN_ESCH"}};
+constexpr std::array solver_words{
+    "auto", "newton", "ipopt", "fire", "nlopt:LD_LBFGS", "nlopt:LD_TNEWTON", "nlopt:LD_TNEWTON_RESTART", "nlopt:LD_TNEWTON_PRECOND",
+    "nlopt:LD_TNEWTON_PRECOND_RESTART", "nlopt:LD_VAR1", "nlopt:LD_VAR2", "nlopt:LD_SLSQP", "nlopt:LD_MMA", "nlopt:LD_CCSAQ", "nlopt:LN_COBYLA",
+    "nlopt:LN_BOBYQA", "nlopt:LN_NEWUOA", "nlopt:LN_PRAXIS", "nlopt:LN_NELDERMEAD", "nlopt:LN_SBPLX", "nlopt:G_MLSL", "nlopt:G_MLSL_LDS",
+    "nlopt:GN_DIRECT", "nlopt:GN_DIRECT_L", "nlopt:GN_CRS2_LM", "nlopt:GN_ISRES", "nlopt:GN_ESCH"};
 Keys::Names nlopt_words() {
   Keys::Names words;
-  for (const auto& w : solver_words)
-    if (std::string_view(w.text).starts_with("nlopt:")) words.push_back(w.text);
+  for (const char* w : solver_words)
+    if (std::string_view(w).starts_with("nlopt:")) words.push_back(w);
   return words;
 }
 

@@ -1,7 +1,9 @@
 #include "input/staged_structure.hpp"
 
+#include "core/find.hpp"
 #include "model/connect.hpp"
 #include "model/entities.hpp"
+#include "input/names.hpp"
 #include "input/parts.hpp"
 #include "core/suggest.hpp"
 
@@ -14,15 +16,10 @@
 namespace elamin {
 namespace {
 
-const Group* group_named(const Model& model, const std::string& name) {
-  const auto found = std::find_if(model.groups.begin(), model.groups.end(), [&](const Group& g) { return g.name == name; });
-  return found == model.groups.end() ? nullptr : &*found;
-}
-
 // Of every particle, then of every body.
 std::vector<bool> members_of(const Model& model, const std::string& name) {
   std::vector<bool> of(entities(model));
-  if (const Group* group = group_named(model, name)) {
+  if (const Group* group = find_named(model.groups, name)) {
     for (const int p : group->particles) of[p] = true;
     for (const int b : group->bodies) of[model.particles() + b] = true;
   }
@@ -142,7 +139,7 @@ std::string connect_in(const Problem& problem, int stage, Model& all, const Stat
   const auto begins = [&](const auto& t) { return stage_number(problem, t.from_stage) == stage; };
   const auto members = [&](const std::string& name, bool those_there) {
     std::vector<int> particles;
-    if (const Group* group = group_named(all, name))
+    if (const Group* group = find_named(all.groups, name))
       std::copy_if(group->particles.begin(), group->particles.end(), std::back_inserter(particles), [&](int p) { return !those_there || !absent[p]; });
     return particles;
   };
@@ -184,14 +181,11 @@ void leave_out(const Problem& problem, int stage, Model& model, const State& now
   for (const RemoveTable& r : problem.removals)
     if (r.what != RemoveTable::What::particles && stage_number(problem, r.from_stage) <= stage) remove_glue(r, model);
   const std::vector<bool> absent = absent_in(problem, stage, model);
-  if (std::find(absent.begin(), absent.end(), true) != absent.end()) hold_absent(absent, model, now);
+  if (contains(absent, true)) hold_absent(absent, model, now);
 }
 
 void check_from_stage(const Problem& problem, TablePlace& place, const std::string& from, Mistakes& mistakes) {
-  std::vector<std::string> names;
-  for (const StageTable& s : problem.stages) names.push_back(s.name);
-  if (from.empty() || std::find(names.begin(), names.end(), from) != names.end()) return;
-  mistakes.add(place, "from_stage", in_quotes(from) + " is no [[stage]]; " + there_are(names, from));
+  if (!from.empty()) must_be_one(problem.stages, "stage", place, "from_stage", from, mistakes);
 }
 
 void check_staged_structure(Problem& problem, Mistakes& mistakes) {

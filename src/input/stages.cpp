@@ -1,5 +1,6 @@
 #include "input/stages.hpp"
 
+#include "core/find.hpp"
 #include "input/check.hpp"
 #include "input/staged_structure.hpp"
 #include "core/suggest.hpp"
@@ -188,7 +189,7 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
   const std::set<std::string> taken{"initial", "final", at_sweep};
   for (StageTable& s : problem.stages) {
     if (taken.count(s.name)) mistakes.add(s.place, "name", in_quotes(s.name) + " is reserved for the ends of a path");
-    else if (!s.name.empty() && std::find(names.begin(), names.end(), s.name) != names.end())
+    else if (!s.name.empty() && contains(names, s.name))
       mistakes.add(s.place, "name", in_quotes(s.name) + " is the name of another [[stage]]; names are unique");
     names.push_back(s.name);
   }
@@ -197,11 +198,8 @@ void check_stages(Problem& problem, Mistakes& mistakes) {
 
   const std::vector<Condition> tables = tables_of(problem), conditions = conditions_of(problem);
   const auto refer = [&](StageTable& s, const char* key, const std::vector<std::string>& words, const std::vector<Condition>& to) {
-    std::vector<std::string> labels;
-    for (const Condition& c : to) labels.push_back(c.label());
     for (const std::string& word : words)
-      if (find_condition(to, word) < 0)
-        mistakes.add(s.place, key, in_quotes(word) + " names no table; " + there_are(labels, word));
+      if (find_condition(to, word) < 0) mistakes.add(s.place, key, in_quotes(word) + " names no table; " + there_are(labels_of(to), word));
   };
   for (StageTable& s : problem.stages) {
     if (s.vary) refer(s, "vary", *s.vary, conditions);

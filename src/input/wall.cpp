@@ -1,5 +1,6 @@
 #include "input/wall.hpp"
 
+#include "core/find.hpp"
 #include "energy/kinematics.hpp"
 #include "input/conditions.hpp"
 #include "input/parts.hpp"
@@ -212,7 +213,7 @@ void check_sides(const Problem& problem, const Model& model, Mistakes& mistakes)
     first = model_in(problem, Stages(problem).enter(unclear), all, model.start);
   }
   for (const Wall& w : (first ? *first : model).walls) {
-    const auto table = std::find_if(problem.walls.begin(), problem.walls.end(), [&](const WallTable& t) { return t.name == w.name; });
+    const WallTable* table = find_named(problem.walls, w.name);
     for (const std::string& sentence : on_wrong_side(model, w, states)) mistakes.add(table->place, "side", sentence);
   }
 }

@@ -3,10 +3,17 @@
 #include "core/exact.hpp"
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace elamin {
 
 enum class Shape { plane, block, cylinder, sphere, cone };
+constexpr std::array<const char*, 5> shape_names{"plane", "block", "cylinder", "sphere", "cone"};
+inline const char* name_of(Shape shape) { return shape_names[static_cast<int>(shape)]; }
+/// The names of Region::open: of a block, of a cylinder or a cone.
+constexpr std::array<const char*, 6> block_face_names{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"};
+constexpr std::array<const char*, 3> round_face_names{"lo", "hi", "side"};
 
 /// A plane (the half-space that the normal points into), a block, a cylinder or a cone (a frustum) along x, y or z between
 /// lo and hi, or a sphere. Members that a shape does not have are not read.
@@ -30,6 +37,13 @@ struct Region {
   /// A lower bound of the distance from x to the nearest closed face, in doubles, with their rounding subtracted [length]; the distance itself to rounding, but for
   /// cones, where it may be less. Infinity where no face is closed.
   double least_distance(const Vec3& x) const;
+  /// The names of the faces that are not there.
+  std::vector<std::string> open_faces() const {
+    std::vector<std::string> names;
+    for (int k = 0; k < (shape == Shape::block ? 6 : 3); ++k)
+      if (open[k]) names.push_back(shape == Shape::block ? block_face_names[k] : round_face_names[k]);
+    return names;
+  }
   bool any_open() const { return open[0] || open[1] || open[2] || open[3] || open[4] || open[5]; }
   /// The same region moved by d and with its radius (of a cone: both) larger by `growth`.
   Region moved(const Vec3& d, double growth) const;

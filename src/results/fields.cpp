@@ -6,6 +6,9 @@
 #include "laws/harmonic_bond.hpp"
 #include "model/entities.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -149,22 +152,13 @@ void add_components(Row& row, const Vec3& v) {
   for (int c = 0; c < 3; ++c) row.emplace_back(v[c] + 0.0);                 // no negative zeros
 }
 
-std::string open_faces(const Region& region) {
-  static const std::array<const char*, 6> of_block{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"}, of_others{"lo", "hi", "side", "", "", ""};
-  std::string open;
-  for (std::size_t k = 0; k < 6; ++k)
-    if (region.open[k]) open.append(open.empty() ? "" : " ").append((region.shape == Shape::block ? of_block : of_others)[k]);
-  return open;
-}
-
 // What a shape does not have is empty.
 Table walls_of(const Model& model, double load_factor) {
-  static const std::array<const char*, 5> shapes{"plane", "block", "cylinder", "sphere", "cone"};       // as Shape
   Table walls{{"name", "shape", "x", "y", "z", "nx", "ny", "nz", "xlo", "ylo", "zlo", "xhi", "yhi", "zhi", "lo", "hi", "radius_lo", "radius_hi", "open"}, {}};
   for (const Wall& wall : model.walls) {
     const Region r = wall_at(wall, load_factor).region.rounded();
     const bool block = r.shape == Shape::block, along = r.shape == Shape::cylinder || r.shape == Shape::cone;
-    Row row{wall.name, shapes[static_cast<std::size_t>(r.shape)]};
+    Row row{wall.name, name_of(r.shape)};
     const auto add = [&](bool has, const Vec3& v) {
       if (has) add_components(row, v);
       else row.insert(row.end(), 3, Cell{});
@@ -174,7 +168,7 @@ Table walls_of(const Model& model, double load_factor) {
     for (const double end : {r.axial_lo, r.axial_hi}) row.push_back(along ? Cell(end) : Cell{});
     for (const double radius : {r.radius_lo, r.radius_hi})
       row.push_back(r.shape == Shape::cone ? Cell(radius) : along || r.shape == Shape::sphere ? Cell(r.radius) : Cell{});
-    row.emplace_back(open_faces(r));
+    row.emplace_back(fmt::format("{}", fmt::join(r.open_faces(), " ")));
     walls.rows.push_back(std::move(row));
   }
   return walls;

@@ -32,13 +32,10 @@ std::string escaped(const std::string& s) {
 std::string ordinal(int k) { return std::to_string(k) + (k == 1 ? "st" : k == 2 ? "nd" : k == 3 ? "rd" : "th"); }
 
 std::string region_text(const Region& r, bool inside) {
-  static constexpr const char* shapes[]{"plane", "block", "cylinder", "sphere", "cone"};
-  std::string t = fmt::format("shape = \"{}\"\n", shapes[static_cast<int>(r.shape)]);
+  std::string t = fmt::format("shape = \"{}\"\n", name_of(r.shape));
   if (!inside) t += "side = \"outside\"\n";
   std::vector<std::string> open;
-  static constexpr const char *of_block[]{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"}, *of_tube[]{"lo", "hi", "side"};
-  for (std::size_t f = 0; f < 6; ++f)
-    if (r.open[f]) open.push_back(quoted(r.shape == Shape::block ? of_block[f] : of_tube[std::min<std::size_t>(f, 2)]));
+  for (const std::string& face : r.open_faces()) open.push_back(quoted(face));
   switch (r.shape) {
     case Shape::plane: t += fmt::format("point = {}\nnormal = {}\n", vec(r.center), vec(r.normal)); break;
     case Shape::block: t += fmt::format("lo = {}\nhi = {}\n", vec(r.lo), vec(r.hi)); break;
