@@ -218,6 +218,8 @@ LammpsData read_lammps_data(const std::string& file, const LammpsReading& how) {
       if (static_cast<std::size_t>(data.type[i]) <= mass.size() && mass[data.type[i] - 1] >= 0)
         data.mass[i] = rows.masses[mass[data.type[i] - 1]].mass;
   }
+  const auto types = [&](const char* of) { return std::clamp(rows.count(of), 0, 1000000); };
+  data.header = {rows.lo, rows.hi, types("atom types"), types("bond types"), types("angle types")};
   take_notes(lines, rows, file, data);
   lines.finish();
   return data;

@@ -27,6 +27,10 @@ struct LammpsData {
   std::vector<Body> bodies;                // sorted by id
   Field body_position;                     // 3 × bodies, unwrapped [length]
   Field body_velocity, angular_momentum;   // 3 × bodies, or 3 × 0: none
+  struct Header {                          // the box; a million types at most
+    Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
+    int atom_types = 0, bond_types = 0, angle_types = 0;
+  } header;
   std::vector<std::string> notes;          // what was left out, in sentences
   std::string doubt;                       // of coefficients that write_data has rounded, "": none
 };

@@ -1,5 +1,6 @@
 #include "lammps/export.hpp"
 
+#include "core/find.hpp"
 #include "lammps/state.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ class ScriptMaker {
     text_ += fmt::format(format, std::forward<Values>(values)...) + "\n";
   }
   void refuse(const std::string& what) {
-    if (std::find(refused_.begin(), refused_.end(), what) == refused_.end()) refused_.push_back(what);
+    if (!contains(refused_, what)) refused_.push_back(what);
   }
 
   double longest_bond() const {

@@ -146,8 +146,7 @@ class TypeMaker {
     for (const int c : mixed) alone += members[c];
     if (alone + static_cast<long>(members.size() - mixed.size()) > most_) {
       types_.refused.push_back(fmt::format("contact of {} particles that leaves out pairs that are glued closely: LAMMPS's granular style "
-                                           "does not "
-                                           "know bonds, and a type for each of so many is too much (at most {})", alone, most_));
+                                           "does not know bonds, and a type for each of so many is too much (at most {})", alone, most_));
       for (auto& pairs : left_out_) pairs.clear();
       return;
     }

@@ -1,5 +1,6 @@
 #include "lammps/lines.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "core/text.hpp"
 
@@ -111,7 +112,7 @@ std::optional<double> LammpsLines::amount(const DataLine& line, std::size_t i, c
 
 bool LammpsLines::has_size(const DataLine& line, std::initializer_list<std::size_t> sizes, const std::string& section,
                            const std::string& meaning) {
-  if (std::find(sizes.begin(), sizes.end(), line.size()) != sizes.end()) return true;
+  if (contains(sizes, line.size())) return true;
   std::string allowed;
   for (const std::size_t n : sizes) allowed += (allowed.empty() ? "" : " or ") + std::to_string(n);
   mistake(line, 0, section, fmt::format("{} columns, expected {}: {}", line.size(), allowed, meaning));

@@ -1,5 +1,7 @@
 #include "lammps/reading.hpp"
 
+#include "core/find.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +22,7 @@ std::string owner_of(const std::string& section) {
 }
 
 bool LammpsReading::ignores(const std::string& section) const {
-  const auto named = [&](const std::string& name) { return std::find(ignore.begin(), ignore.end(), name) != ignore.end(); };
+  const auto named = [&](const std::string& name) { return contains(ignore, name); };
   return named(section) || named(owner_of(section));
 }
 

@@ -1,5 +1,6 @@
 #include "lammps/rows.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "laws/section.hpp"
 
@@ -62,12 +63,12 @@ std::optional<Columns> atom_columns(const std::string& style, std::string* why) 
     const auto own = own_columns(word);
     if (!own) return refuse("the atom style " + in_quotes(word) + " in " + in_quotes(style) + " is not available; " + styles_that_are);
     for (const AtomColumn c : *own) {
-      if (std::find(columns.begin(), columns.end(), c) != columns.end())
+      if (contains(columns, c))
         return refuse("two of the styles in " + in_quotes(style) + " have the same column; one of them is enough");
       columns.push_back(c);
     }
   }
-  const auto has = [&](AtomColumn c) { return std::find(columns.begin(), columns.end(), c) != columns.end(); };
+  const auto has = [&](AtomColumn c) { return contains(columns, c); };
   if (has(bodyflag) && has(diameter))
     return refuse(in_quotes(style) + " is not available: one column would be a density here and a mass there; put the particles "
                                   "into one file and the bodies into another");
@@ -180,18 +181,18 @@ class RowReader {
     const bool of_none = owner != section_ && !announced_.count(owner);
     if (pairs || labels || of_none) return rows_.passed_over.push_back(section_);
     if (unavailable_.empty()) first_unavailable_ = line.number;
-    if (std::find(unavailable_.begin(), unavailable_.end(), section_) == unavailable_.end()) unavailable_.push_back(section_);
+    if (!contains(unavailable_, section_)) unavailable_.push_back(section_);
   }
 
   void tell_unavailable() {
     for (const auto& [section, what] : announced_)
-      if (std::find(unavailable_.begin(), unavailable_.end(), section) == unavailable_.end() && !how_.ignores(section))
+      if (!contains(unavailable_, section) && !how_.ignores(section))
         lines_.mistake(what.line.number, what.line.words[0].column, what.kind,
                        fmt::format("{} are not available; 0 is allowed, or ignore = [\"{}\"] in [lammps]", what.kind, section));
     if (unavailable_.empty()) return;
     std::vector<std::string> owners;
     for (const std::string& section : unavailable_)
-      if (const std::string owner = owner_of(section); std::find(owners.begin(), owners.end(), owner) == owners.end())
+      if (const std::string owner = owner_of(section); !contains(owners, owner))
         owners.push_back(owner);
     const bool one = unavailable_.size() == 1;
     lines_.mistake(first_unavailable_, 1, fmt::format("\"{}\"", fmt::join(unavailable_, "\", \"")),
@@ -224,10 +225,8 @@ class RowReader {
     if (skip_) return;
     if (molecule_last && molecule_first && !example.empty())
       return refuse_section(section, fmt::format("\"hybrid\" alone fits two orders of columns here: {} is diameter, density and molecule "
-                                                 "of \"hybrid sphere "
-                                                 "angle\", or molecule, diameter and density of \"hybrid angle sphere\"; say which, as "
-                                                 "atom_style or behind "
-                                                 "\"Atoms #\"", example));
+                                                 "of \"hybrid sphere angle\", or molecule, diameter and density of \"hybrid angle "
+                                                 "sphere\"; say which, as atom_style or behind \"Atoms #\"", example));
     style_ = molecule_first && !molecule_last ? "hybrid angle sphere" : "hybrid sphere angle";
   }
 

@@ -58,15 +58,6 @@ template <class Element> InUse in_use(const std::vector<Element>& elements, std:
   return use;
 }
 
-/// In degrees, exactly 180 for π, and so that degrees · (π/180) gives the same angle back where one of the doubles does.
-double degrees(double angle) {
-  if (angle == pi) return 180;
-  const double near = angle * (180 / pi);
-  for (const double d : {near, std::nextafter(near, 0.0), std::nextafter(near, 360.0)})
-    if (d * (pi / 180) == angle) return d;
-  return near;
-}
-
 int largest(const std::vector<int>& values) { return *std::max_element(values.begin(), values.end()); }
 
 /// Numbers in lines of at most so many, as LAMMPS reads no long ones.
@@ -219,6 +210,14 @@ void write_particles(const std::string& file, const Model& model, const State& s
 }
 
 }  // namespace
+
+double degrees(double angle) {
+  if (angle == pi) return 180;
+  const double near = angle * (180 / pi);
+  for (const double d : {near, std::nextafter(near, 0.0), std::nextafter(near, 360.0)})
+    if (d * (pi / 180) == angle) return d;
+  return near;
+}
 
 bool straight_at_rest(const Model& model) {
   return std::all_of(model.angles.begin(), model.angles.end(), [&](const Angle& a) { return model.angle_types[a.type].rest == pi; });

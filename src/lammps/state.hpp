@@ -27,6 +27,9 @@ void write_state(const std::string& file, const Model& model, const State& state
 /// or 1 where that is not known), which more programs read: MDAnalysis and ASE among them. Throws OutputError if it cannot be written.
 void write_topology(const std::string& file, const Model& model, const State& state, const std::string& title);
 
+/// An angle in degrees, exactly 180 for π, and so that degrees · (π/180) gives the same angle back where one of the doubles does.
+double degrees(double angle);
+
 /// Whether all angles are straight at rest: then they are written as LAMMPS's cosine.
 bool straight_at_rest(const Model& model);
 

@@ -1,6 +1,7 @@
 // Commands that make and change particles and what glues them.
 #include "lammps/script/building.hpp"
 
+#include "core/find.hpp"
 #include "core/near_pairs.hpp"
 #include "core/suggest.hpp"
 #include "lammps/script/random.hpp"
@@ -139,10 +140,8 @@ void create_atoms(Interpreter& in) {
   const int type = static_cast<int>(in.integer(1, 1, w.atom_types));
   if (in.word(2) == "random") return create_random(in, type);
   if (in.word(2) != "single")
-    throw Wrong(2,
-                in_quotes(in.word(2)) +
-                    " of a lattice is not made; write atoms one by one (single), or let LAMMPS write a data file (write_data FILE)",
-                true);
+    throw Wrong(2, in_quotes(in.word(2)) + " of a lattice is not made; write atoms one by one (single), or let LAMMPS write a data file "
+                                           "(write_data FILE)", true);
   Vec3 x(in.value(3), in.value(4), in.value(5));
   bool box = false;
   for (std::size_t i = 6; i < in.size(); ++i)
@@ -183,9 +182,8 @@ std::set<std::pair<int, int>> left_out(const World& w, const std::vector<int>& a
       std::vector<int> after;
       for (const int f : front)
         for (const int t : to[f])
-          if (std::find(all.begin(), all.end(), t) == all.end()) all.push_back(t), after.push_back(t);
-      const auto c = static_cast<std::size_t>(k);
-      if (w.special_lj[c] == 0 && w.special_coul[c] == 0)
+          if (!contains(all, t)) all.push_back(t), after.push_back(t);
+      if (w.special_lj[k] == 0 && w.special_coul[k] == 0)
         for (const int a : after) pairs.insert({std::min(i, a), std::max(i, a)});
       front = std::move(after);
     }
@@ -308,7 +306,7 @@ void set(Interpreter& in) {
     const auto each = [&](const auto& put) {
       const Value v = each_value(in, i + 1);
       for (const int a : list) {
-        const double x = v.at(static_cast<std::size_t>(a));
+        const double x = v.at(a);
         if (!std::isfinite(x)) throw Wrong(i + 1, "is not finite");
         put(w.atoms[a], x);
       }
@@ -374,14 +372,13 @@ void set(Interpreter& in) {
       moving(in);
       for (int c = 0; c < 3; ++c, ++i) {
         const Value v = each_value(in, i + 1);
-        for (const int a : list) w.atoms[a].omega[c] = v.at(static_cast<std::size_t>(a));
+        for (const int a : list) w.atoms[a].omega[c] = v.at(a);
       }
       ++i;
     }
     else
-      throw Wrong(
-          i, in_quotes(k) + " is nothing that is set here; type, mol, x, y, z, diameter, density, mass, vx, vy, vz, bond and angle are",
-          true);
+      throw Wrong(i, in_quotes(k) + " is nothing that is set here; type, mol, x, y, z, diameter, density, mass, vx, vy, vz, bond and angle "
+                                    "are", true);
   }
 }
 
@@ -399,9 +396,8 @@ void velocity(Interpreter& in) {
   for (std::size_t i = 6; i + 1 < in.size(); i += 2)
     if (in.word(i) == "sum") sum = in.yes(i + 1);
   for (int c = 0; c < 3; ++c) {
-    const auto i = static_cast<std::size_t>(3 + c);
-    if (in.word(i) == "NULL") continue;
-    const Value v = each_value(in, i);
+    if (in.word(3 + c) == "NULL") continue;
+    const Value v = each_value(in, 3 + c);
     for (std::size_t k = 0; k < w.atoms.size(); ++k)
       if (World::there(w.atoms[k]) && w.in(w.atoms[k], g)) w.atoms[k].v[c] = unit * v.at(k) + (sum ? w.atoms[k].v[c] : 0);
   }
@@ -461,13 +457,13 @@ void compute(Interpreter& in) {
   Compute c;
   c.style = in.word(3), c.group = in.word(2);
   in.world.group(c.group, 2);
-  if (c.style != "reduce") in.ignore("output: a run of elamin writes its own");
+  if (c.style != "reduce") in.ignore(because::output);
   else {
     in.wants(6, "compute ID GROUP reduce MODE INPUT …");
     c.mode = in.word(4);
     for (std::size_t i = 5; i < in.size() && in.word(i) != "replace"; ++i) c.inputs.push_back(in.word(i));
     static const std::vector<std::string> modes{"min", "max", "sum", "ave", "sumsq", "avesq"};
-    if (std::find(modes.begin(), modes.end(), c.mode) == modes.end())
+    if (!contains(modes, c.mode))
       throw Wrong(4, in_quotes(c.mode) + " is no mode of reduce; there are: " + listed(modes));
   }
   in.names.computes[in.word(1)] = std::move(c);

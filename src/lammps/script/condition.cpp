@@ -1,12 +1,12 @@
 #include "lammps/script/formula.hpp"
 
 #include "core/suggest.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstring>
 
 namespace elamin::script {
@@ -92,9 +92,7 @@ class Condition {
     if (t.empty()) wrong(fmt::format("{} stands where a number or a word is wanted", in_quotes(std::string(1, text_[i_]))));
     i_ = j;
     Operand o;
-    const auto [last, error] = std::from_chars(t.data() + (t[0] == '+' ? 1 : 0), t.data() + t.size(), o.number);
-    if (error != std::errc{} || last != t.data() + t.size()) o = {0, t, true};
-    return o;
+    return reads_as(unsigned_word(t), o.number) ? o : Operand{0, t, true};
   }
 
   const std::string& text_;

@@ -12,6 +12,8 @@ namespace {
 
 using Law = PairCoefficient::Law;
 
+std::string between_keys(const std::string& a, const std::string& b) { return fmt::format("between = [\"{}\", \"{}\"]\n", a, b); }
+
 std::string contact_keys(TableList& list, const PairCoefficient& c, const PairStyle& style, const Run& run) {
   std::string keys;
   if (c.law == Law::hertz) {
@@ -29,22 +31,18 @@ std::string contact_keys(TableList& list, const PairCoefficient& c, const PairSt
       keys += fmt::format("formulation = \"lammps\"\ndelta_ua = {}\nmu = {}\nc_n = {}\nc_t = {}\n", style.delta_ua, style.mu, style.c_n,
                           style.c_t);
     else
-      list.note(
-          c.where,
-          "LAMMPS's forces of rounded bodies have no potential; equilibria are those of the sum over features (formulation = \"multi\")");
+      list.note(c.where, "LAMMPS's forces of rounded bodies have no potential; equilibria are those of the sum over features (formulation = "
+                         "\"multi\")");
     return keys;
   }
   if (list.world.bonds.empty()) return keys;
   bool partial = false;
   const int bonds = excluded(run.special_lj, run.special_coul, c.law == Law::hertz, partial);
   if (bonds < 0 || (partial && c.law == Law::lj))
-    list.refuse(
-        run.where, "special_bonds",
-        fmt::format("the weights {} {} {} cannot be said of such contacts; 0 for the first neighbours along bonds and 1 for the rest can",
-                    run.special_lj[0], run.special_lj[1], run.special_lj[2]));
+    list.refuse(run.where, "special_bonds", fmt::format("the weights {} {} {} cannot be said of such contacts; 0 for the first neighbours along "
+                                                        "bonds and 1 for the rest can", run.special_lj[0], run.special_lj[1], run.special_lj[2]));
   if (partial)
-    list.note(c.where,
-         "weights of special_bonds between 0 and 1 are ignored by granular contacts: LAMMPS takes them in full, and so does this");
+    list.note(c.where, "weights of special_bonds between 0 and 1 are ignored by granular contacts: LAMMPS takes them in full, and so does this");
   if (c.law == Law::hertz && bonds > 0)
     list.note(run.where, "granular contacts of LAMMPS (29 Sep 2021) do not know special_bonds: bonded particles that overlap push each other there. "
                     "Here they are left out; exclude_bonds = 0 in [[contact]] takes them in");
@@ -62,15 +60,8 @@ void exclusions(TableList& list, int k, const Run& run, const std::vector<const 
       if (law == Law::rounded) list.refuse(e.where, "neigh_modify", "pairs of rounded bodies are not left out here; exclude is of particles");
       PairCoefficient none;
       none.law = law, none.effective_modulus = 0, none.sigma = none.cutoff = 1, none.where = e.where;
-      list.put(k, {"contact",
-              "",
-              fmt::format("between = [\"{}\", \"{}\"]\n", list.groups.of(e.members[0], "excluded", k),
-                          list.groups.of(e.members[1], "excluded", k)) +
-                  contact_keys(list, none, *style_of(run, law), run),
-              e.where,
-              e.text,
-              behind,
-              {}});
+      const std::string between = between_keys(list.groups.of(e.members[0], "excluded", k), list.groups.of(e.members[1], "excluded", k));
+      list.put(k, {"contact", "", between + contact_keys(list, none, *style_of(run, law), run), e.where, e.text, behind, {}});
     }
 }
 
@@ -115,13 +106,7 @@ void put_contacts(TableList& list, int k, const Run& run) {
                         : "the energy of this cohesion jumps where it is cut off, as LAMMPS's does (cutoff_style = \"cut\"); \"shifted\" "
                           "and \"smooth\" do not");
     const auto add = [&](const std::vector<int>& a, const std::vector<int>& b) {
-      list.put(k, {"contact",
-              "",
-              fmt::format("between = [\"{}\", \"{}\"]\n", list.groups.of_types(a), list.groups.of_types(b)) + keys,
-              c.where,
-              c.text,
-              0,
-              {}});
+      list.put(k, {"contact", "", between_keys(list.groups.of_types(a), list.groups.of_types(b)) + keys, c.where, c.text, 0, {}});
     };
     // LAMMPS sets pairs I ≤ J; a table of two groups means both ways.
     bool symmetric = true;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -34,8 +33,7 @@ std::map<long long, double> numbers_of_atoms(const Interpreter& in, const std::s
     std::string number;
     if (!(words >> id >> number) || words >> more) wrong("a line is not `ID value`: " + in_quotes(line));
     double value = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value)) wrong(in_quotes(number) + " is no number");
+    if (!reads_as(number, value) || !std::isfinite(value)) wrong(in_quotes(number) + " is no number");
     of_id[id] = value, --count;
   }
   if (count != 0) wrong("ends before all its lines have come");
@@ -78,7 +76,7 @@ void label(Interpreter& in) { in.wants(2, "label ID", 2); }
 void quit(Interpreter& in) { in.ended = true; }
 
 void print(Interpreter& in) {
-  in.ignore("output: a run of elamin writes its own");
+  in.ignore(because::output);
   if (in.size() < 2) return;
   try {
     substituted(in.word(1), in.substitution());   // which may draw random numbers
@@ -111,8 +109,7 @@ void next(Interpreter& in) {
 
 void condition_of_if(Interpreter& in) {
   in.wants(4, "if CONDITION then COMMAND … [elif CONDITION COMMAND …] [else COMMAND …]");
-  const Substitution by{[&](const std::string& n) { return text_of(n, in.world, in.names); },
-                        [&](const std::string& f) { return immediate(f, in.world, in.names); }};
+  const Substitution by = in.substitution();
   const std::vector<Word> words = in.words;
   const Where where = in.where;
   const auto holds = [&](std::size_t i) { return condition(substituted(words[i].text, by), i); };
@@ -185,9 +182,8 @@ void variable(Interpreter& in) {
     in.wants(4, "variable NAME atomfile FILE", 4);
     v.style = Variable::Style::atomfile, v.of_id = numbers_of_atoms(in, in.word(3), 3);
   } else if (style == "getenv" || style == "world" || style == "universe" || style == "python" || style == "internal" || style == "timer" || style == "vector") {
-    throw Wrong(
-        2, fmt::format("variables of style {} come from outside of the script; write the value itself: variable {} string …", style, name),
-        true);
+    throw Wrong(2, fmt::format("variables of style {} come from outside of the script; write the value itself: variable {} string …", style,
+                               name), true);
   } else {
     const std::vector<std::string> known{"index", "file", "loop", "uloop", "string", "equal", "atom", "atomfile", "format", "delete"};
     throw Wrong(2, in_quotes(style) + " is no style of a variable; there are: " + listed(known) + did_you_mean(style, known), true);

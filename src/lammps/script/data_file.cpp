@@ -15,36 +15,6 @@ namespace elamin::script {
 namespace command {
 namespace {
 
-/// What the header of a data file says and LammpsData does not keep.
-struct Header {
-  Vec3 lo = Vec3::Constant(-0.5), hi = Vec3::Constant(0.5);
-  int atom_types = 0, bond_types = 0, angle_types = 0;
-};
-
-Header header_of(const std::string& file) {
-  Header h;
-  const std::string text = elamin::read_data(file, "LAMMPS data file");
-  int lines = 0;
-  for (std::size_t begin = 0; begin < text.size() && lines < 100; ++lines) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::vector<Word> words;
-    try {
-      words = split(without_comment(std::string_view(text).substr(begin, end - begin)));
-    } catch (const Wrong&) {                      // a title with a quote
-    }
-    begin = end + 1;
-    const auto number = [&](std::size_t i) { return std::strtod(words[i].text.c_str(), nullptr); };
-    for (int c = 0; c < 3; ++c)
-      if (words.size() == 4 && words[2].text == std::string(1, static_cast<char>('x' + c)) + "lo") h.lo[c] = number(0), h.hi[c] = number(1);
-    if (words.size() != 3 || words[2].text != "types") continue;
-    const int n = static_cast<int>(std::clamp(number(0), 0.0, 1e6));
-    if (words[1].text == "atom") h.atom_types = n;
-    if (words[1].text == "bond") h.bond_types = n;
-    if (words[1].text == "angle") h.angle_types = n;
-  }
-  return h;
-}
-
 bool six_digits(double v) { return std::strtod(fmt::format("{:.6g}", v).c_str(), nullptr) == v; }
 
 /// The rows of coefficients in a data file, as the commands that say the same of the script's styles: a row `1 …` of Pair Coeffs is
@@ -82,7 +52,7 @@ bool take_coefficients(Interpreter& in, const std::string& file, const std::arra
       }
       if (names || in.words.empty() || !section) continue;
       for (int t = 0; t < section->types; ++t)
-        in.words[t].text = std::to_string(in.integer(static_cast<std::size_t>(t), 1, most_atoms) + offset[section->offset]);
+        in.words[t].text = std::to_string(in.integer(t, 1, most_atoms) + offset[section->offset]);
       if (section->command == sections[0].command && section->types == 1) in.words.insert(in.words.begin(), in.words[0]);
       in.words.insert(in.words.begin(), Word{section->command, first});
       if (section->offset > 0)
@@ -142,7 +112,7 @@ void read_data(Interpreter& in) {
   }
   if (w.has_box && !add) throw Wrong(0, "there is a box already; `add append` adds to it");
   const LammpsData data = read_lammps_data(file, how);
-  const Header header = header_of(file);
+  const LammpsData::Header& header = data.header;
   in.reading.data_files.push_back(file);
   std::array<Vec3, 2> sides{header.lo + shift, header.hi + shift};
   for (int c = 0; c < 3 && w.has_box; ++c) sides[0][c] = std::min(sides[0][c], w.side(c, 0)), sides[1][c] = std::max(sides[1][c], w.side(c, 1));
@@ -154,8 +124,8 @@ void read_data(Interpreter& in) {
   grow(w.atom_types, std::max(largest, header.atom_types) + offset[0], extra[0]);
   grow(w.bond_types, header.bond_types + offset[1], extra[1]);
   grow(w.angle_types, header.angle_types + offset[2], extra[2]);
-  w.mass.resize(static_cast<std::size_t>(w.atom_types));
-  w.bond_coefficients.resize(static_cast<std::size_t>(w.bond_types)), w.angle_coefficients.resize(static_cast<std::size_t>(w.angle_types));
+  w.mass.resize(w.atom_types);
+  w.bond_coefficients.resize(w.bond_types), w.angle_coefficients.resize(w.angle_types);
   if (coefficients && take_coefficients(in, file, offset))
     in.note(
         "the coefficients in this data file have six digits, as write_data writes them: loads at which things buckle may be off by 0.3 %; "
@@ -177,7 +147,7 @@ void read_data(Interpreter& in) {
       throw Wrong(1, fmt::format("an id is above {}", most_atoms));
     a.id = id + id_offset.value_or(0), a.type = type + offset[0], a.x = a.start = x + shift, a.born = w.run_number();
     if (group_bit >= 0) a.groups |= 1u << group_bit;
-    if (a.id >= static_cast<int>(w.of_id.size())) w.of_id.resize(static_cast<std::size_t>(a.id) + 1, -1);
+    if (a.id >= static_cast<int>(w.of_id.size())) w.of_id.resize(a.id + 1, -1);
     if (w.of_id[a.id] >= 0) throw Wrong(1, fmt::format("holds an atom {}, which is there already", a.id));
     w.of_id[a.id] = static_cast<int>(w.atoms.size());
     return w.atoms.emplace_back(a);

@@ -1,4 +1,5 @@
 // Fixes.
+#include "core/find.hpp"
 #include "lammps/script/granular.hpp"
 #include "lammps/script/interpreter.hpp"
 
@@ -46,15 +47,14 @@ struct Making {
     fix.kind = Fix::Kind::move;
     if (in.word(4) != "linear") throw Wrong(4, fmt::format("move {} is not followed; linear is", in.word(4)), true);
     in.wants(8, "fix ID GROUP move linear VX VY VZ");
-    for (int c = 0; c < 3; ++c) fix.vector[c] = in.unit_of_length(8) * direction(static_cast<std::size_t>(5 + c), static_cast<std::size_t>(c));
+    for (int c = 0; c < 3; ++c) fix.vector[c] = in.unit_of_length(8) * direction(5 + c, c);
   }
 
   void setforce() {
     in.wants(7, "fix ID GROUP setforce FX FY FZ");
     fix.kind = Fix::Kind::hold;
     for (int c = 0; c < 3; ++c)
-      if (const auto i = static_cast<std::size_t>(4 + c); direction(i, static_cast<std::size_t>(c)) != 0)
-        throw Wrong(i, "a force that replaces all others is not taken; 0 holds, and addforce adds", true);
+      if (direction(4 + c, c) != 0) throw Wrong(4 + c, "a force that replaces all others is not taken; 0 holds, and addforce adds", true);
   }
 
   /// lineforce leaves the force along an axis, planeforce that across it.
@@ -63,7 +63,7 @@ struct Making {
     fix.kind = Fix::Kind::hold;
     int zeros = 0;
     for (int c = 0; c < 3; ++c) {
-      const bool zero = constant(static_cast<std::size_t>(4 + c)) == 0;
+      const bool zero = constant(4 + c) == 0;
       zeros += zero;
       fix.directions[c] = zero == (fix.style == "lineforce");
     }
@@ -99,7 +99,7 @@ struct Making {
   void addforce() {
     in.wants(7, "fix ID GROUP addforce FX FY FZ");
     fix.kind = Fix::Kind::force;
-    for (std::size_t c = 0; c < 3; ++c) fix.vector[static_cast<int>(c)] = number_or(fix.formulas[c], 4 + c, true);
+    for (std::size_t c = 0; c < 3; ++c) fix.vector[c] = number_or(fix.formulas[c], 4 + c, true);
     fix.end = fix.vector;
     if (in.size() > 7) throw Wrong(7, in_quotes(in.word(7)) + " is no keyword of addforce that is taken", true);
   }
@@ -124,9 +124,8 @@ struct Making {
       modulus = law.effective_modulus, fix.damping = law.damping();
       return i;
     }
-    throw Wrong(
-        i, in_quotes(in.word(i)) + " is no law of a wall that is known here; granular hertz, granular hertz/material and hertz/history are",
-        true);
+    throw Wrong(i, in_quotes(in.word(i)) + " is no law of a wall that is known here; granular hertz, granular hertz/material and "
+                                           "hertz/history are", true);
   }
 
   void add_wall(const Region& region, bool inside, double modulus, const std::string& suffix) {
@@ -162,8 +161,7 @@ struct Making {
       return add_wall(tube, true, modulus, "");
     }
     if (style != "xplane" && style != "yplane" && style != "zplane")
-      throw Wrong(std::min(i, in.size() - 1), in_quotes(style) + " is no wall that is known here; xplane, yplane, zplane and zcylinder are",
-                  true);
+      throw Wrong(std::min(i, in.size() - 1), in_quotes(style) + " is no wall that is known here; xplane, yplane, zplane and zcylinder are", true);
     const int c = style[0] - 'x';
     for (const std::size_t end : {i + 1, i + 2}) {
       if (end >= in.size()) throw Wrong(i, "two coordinates are wanted behind this, or NULL");
@@ -203,40 +201,25 @@ struct Making {
 };
 
 struct Style { const char* name; void (Making::*make)(); };
-constexpr Style styles[]{{"move", &Making::move},
-                         {"setforce", &Making::setforce},
-                         {"lineforce", &Making::along_axis},
-                         {"planeforce", &Making::along_axis},
-                         {"gravity", &Making::gravity},
-                         {"addforce", &Making::addforce},
-                         {"wall/gran/region", &Making::wall_region},
-                         {"wall/gran", &Making::wall_gran},
-                         {"wall/body/polyhedron", &Making::wall_body},
-                         {"viscous", &Making::viscous}};
+constexpr Style styles[]{{"move", &Making::move}, {"setforce", &Making::setforce}, {"lineforce", &Making::along_axis},
+                         {"planeforce", &Making::along_axis}, {"gravity", &Making::gravity}, {"addforce", &Making::addforce},
+                         {"wall/gran/region", &Making::wall_region}, {"wall/gran", &Making::wall_gran},
+                         {"wall/body/polyhedron", &Making::wall_body}, {"viscous", &Making::viscous}};
 
 struct Integrator { const char* name; const char* note; };
-constexpr const char* cold = "there is no temperature here: what it integrates moves, and comes to rest";
-constexpr Integrator integrators[]{{"nve", ""}, {"nve/sphere", ""}, {"nve/body", ""}, {"nve/limit", ""}, {"nvt", cold},
-                                   {"nvt/sphere", cold}, {"nvt/body", cold}, {"nve/asphere", ""}};
+constexpr const char* comes_to_rest = "there is no temperature here: what it integrates moves, and comes to rest";
+constexpr Integrator integrators[]{{"nve", ""}, {"nve/sphere", ""}, {"nve/body", ""}, {"nve/limit", ""}, {"nvt", comes_to_rest},
+                                   {"nvt/sphere", comes_to_rest}, {"nvt/body", comes_to_rest}, {"nve/asphere", ""}};
 
-struct Other { const char* name; const char* why; bool moves = false; };   // moves: matters in motion
-constexpr Other others[]{{"print", "output: a run of elamin writes its own"},
-                         {"ave/time", "output: a run of elamin writes its own"},
-                         {"ave/atom", "output: a run of elamin writes its own"},
-                         {"ave/chunk", "output: a run of elamin writes its own"},
-                         {"ave/histo", "output: a run of elamin writes its own"},
-                         {"ave/correlate", "output: a run of elamin writes its own"},
-                         {"vector", "output: a run of elamin writes its own"},
-                         {"store/state", "output: a run of elamin writes its own"},
-                         {"store/force", "output: a run of elamin writes its own"},
-                         {"balance", "how LAMMPS uses the machine"},
-                         {"langevin", "there is no temperature here", true},
-                         {"temp/rescale", "there is no temperature here", true},
-                         {"temp/berendsen", "there is no temperature here", true},
-                         {"dt/reset", "how LAMMPS minimises or steps: [solver] says how elamin does", true},
-                         {"recenter", "rigid motions are held by supports", true},
-                         {"momentum", "rigid motions are held by supports", true},
-                         {"halt", "how long LAMMPS runs"}};
+/// Fixes without effect here; `moves`: they matter in motion.
+struct Other { const char* why; std::vector<std::string> names; bool moves = false; };
+const std::vector<Other> others{
+    {because::output, {"print", "ave/time", "ave/atom", "ave/chunk", "ave/histo", "ave/correlate", "vector", "store/state", "store/force"}},
+    {because::machine, {"balance"}},
+    {because::cold, {"langevin", "temp/rescale", "temp/berendsen"}, true},
+    {because::stepping, {"dt/reset"}, true},
+    {"rigid motions are held by supports", {"recenter", "momentum"}, true},
+    {"how long LAMMPS runs", {"halt"}}};
 
 }  // namespace
 
@@ -273,25 +256,20 @@ void fix(Interpreter& in) {
   if (f.style == "freeze") f.kind = Fix::Kind::hold, found = true;
   if (f.style == "enforce2d") f.kind = Fix::Kind::plane, found = true;
   for (const Other& o : others)
-    if (f.style == o.name) {
+    if (contains(o.names, f.style)) {
       found = true;
       in.ignore(o.why);
       if (o.moves) in.not_in_motion();
     }
   if (!found)
-    throw Wrong(
-        3,
-        in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, nve/noforce, " + listed(known) +
-            did_you_mean(f.style, known),
-        true);
+    throw Wrong(3, in_quotes(f.style) + " is no fix that is known here; there are: freeze, enforce2d, nve/noforce, " + listed(known) +
+                       did_you_mean(f.style, known), true);
   if (f.kind == Fix::Kind::viscous) in.ignore("drag: matters in motion only (--dynamics)");
   f.serial = ++w.fix_serial;
   const auto same = std::find_if(w.fixes.begin(), w.fixes.end(), [&](const Fix& o) { return o.id == f.id; });
-  if (same == w.fixes.end()) w.fixes.push_back(std::move(f));
-  else {
-    if (same->style != f.style) throw Wrong(1, fmt::format("the fix {} is there already, of style {}", f.id, same->style));
-    *same = std::move(f);                        // as LAMMPS does
-  }
+  if (same == w.fixes.end()) return w.fixes.push_back(std::move(f));
+  if (same->style != f.style) throw Wrong(1, fmt::format("the fix {} is there already, of style {}", f.id, same->style));
+  *same = std::move(f);                          // as LAMMPS does
 }
 
 void unfix(Interpreter& in) {

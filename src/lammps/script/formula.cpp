@@ -1,6 +1,7 @@
 #include "lammps/script/formula.hpp"
 
 #include "core/suggest.hpp"
+#include "core/text.hpp"
 #include "laws/section.hpp"
 
 #include <fmt/format.h>
@@ -187,7 +188,7 @@ class Formula {
     Value value;
     if (i_ < text_.size() && text_[i_] == '[') {
       if (!v.of_atoms()) wrong(in_quotes("v_" + n) + " is not of style atom");
-      const auto i = static_cast<std::size_t>(atom(sub_number(arguments('[', ']').front())));
+      const int i = atom(sub_number(arguments('[', ']').front()));
       value.number = v.style == Variable::Style::atomfile ? from_file(v, world_.atoms[i])
                                                           : Formula(v.words.front(), world_, names_, word_, true, on_, operands_, depth_ + 1).whole().at(i);
       return value;
@@ -204,9 +205,7 @@ class Formula {
       return value;
     }
     const std::string text = text_of(n, world_, names_);
-    const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(), value.number);
-    if (error != std::errc{} || last != text.data() + text.size())
-      wrong(fmt::format("{} is {}, no number", in_quotes("v_" + n), in_quotes(text)));
+    if (!reads_as(unsigned_word(text), value.number)) wrong(fmt::format("{} is {}, no number", in_quotes("v_" + n), in_quotes(text)));
     return value;
   }
 
@@ -278,7 +277,7 @@ class Formula {
   Value of_atom(const std::string& w, const std::vector<std::string>& args) {
     Value v;
     if (w == "fx" || w == "fy" || w == "fz" || w == "q") needs_forces(word_, w);
-    if (!entry(w, world_.atoms.at(static_cast<std::size_t>(atom(sub_number(args.front())))), v.number))
+    if (!entry(w, world_.atoms.at(atom(sub_number(args.front()))), v.number))
       wrong(in_quotes(w) + " is no atom vector");
     return v;
   }
@@ -324,8 +323,7 @@ class Formula {
     const std::size_t n = args.size();
     const auto wants = [&](std::size_t least, std::size_t most) {
       if (n < least || n > most)
-        wrong(fmt::format("{}() has {} arguments, {} wanted", w, n,
-                          least == most ? std::to_string(least) : fmt::format("{} to {}", least, most)));
+        wrong(fmt::format("{}() has {} arguments, {} wanted", w, n, least == most ? std::to_string(least) : fmt::format("{} to {}", least, most)));
     };
     struct One { const char* name; double (*call)(double); };
     static constexpr One ones[]{{"sqrt", std::sqrt}, {"exp", std::exp},   {"ln", std::log},     {"log", std::log10}, {"abs", std::abs},

@@ -1,4 +1,5 @@
 // Groups, and commands that remove particles and what glues them.
+#include "core/find.hpp"
 #include "lammps/script/building.hpp"
 
 #include "core/suggest.hpp"
@@ -20,7 +21,7 @@ void mark(World& w, int bit, const auto& wanted) {
 void mark_numbers(Interpreter& in, int bit, const auto& number_of_atom) {
   World& w = in.world;
   static const std::vector<std::string> signs{"<", ">", "<=", ">=", "==", "!=", "<>"};
-  if (in.size() > 4 && std::find(signs.begin(), signs.end(), in.word(3)) != signs.end()) {
+  if (in.size() > 4 && contains(signs, in.word(3))) {
     const std::string& s = in.word(3);
     const long long a = in.integer(4, 0, largest_id), b = s == "<>" ? in.integer(5, 0, largest_id) : 0;
     return mark(w, bit, [&](const Atom& atom) {
@@ -82,10 +83,9 @@ void group(Interpreter& in) {
   if (name == "all") throw Wrong(1, "the group all stays as it is");
   static const std::vector<std::string> styles{"type",  "id",       "molecule",  "region",  "variable",
                                                "union", "subtract", "intersect", "include", "empty"};
-  if (std::find(styles.begin(), styles.end(), style) == styles.end())
-    throw Wrong(
-        2, in_quotes(style) + " is no style of a group; there are: " + listed(styles) + ", clear, delete" + did_you_mean(style, styles),
-        true);
+  if (!contains(styles, style))
+    throw Wrong(2, in_quotes(style) + " is no style of a group; there are: " + listed(styles) + ", clear, delete" +
+                       did_you_mean(style, styles), true);
   if (style != "empty") in.wants(4, "group NAME " + style + " …");
   // What it is made of comes first: a mistake leaves no half a group.
   std::vector<int> others;
@@ -187,7 +187,7 @@ void delete_bonds(Interpreter& in) {
   std::size_t i = 3;
   std::array<int, 2> types{1, always - 1};
   if (style == "bond" || style == "angle") types = in.range(i++, style == "bond" ? w.bond_types : w.angle_types);
-  else if (style == "stats") return in.ignore("output: a run of elamin writes its own");
+  else if (style == "stats") return in.ignore(because::output);
   else if (style != "multi")
     throw Wrong(2, in_quotes(style) + " is no way of choosing glue that is taken; multi, bond and angle are", true);
   bool any = false, special = false;

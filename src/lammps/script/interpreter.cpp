@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -150,11 +149,8 @@ class Reader {
       if (m.file == mistake.file && m.line == mistake.line && m.column == mistake.column) return;
     mistakes_.push_back(std::move(mistake));
     if (mistakes_.size() < most_mistakes) return;
-    mistakes_.push_back({mistakes_.back().file,
-                         mistakes_.back().line,
-                         mistakes_.back().column,
-                         {},
-                         fmt::format("{} mistakes; there may be more", most_mistakes)});
+    const Mistake& last = mistakes_.back();
+    mistakes_.push_back({last.file, last.line, last.column, {}, fmt::format("{} mistakes; there may be more", most_mistakes)});
     throw InputError(mistakes_);
   }
 
@@ -211,10 +207,8 @@ void Interpreter::wants(std::size_t least, const std::string& form, std::size_t 
 
 double Interpreter::number(std::size_t i) const {
   if (i >= size()) throw Wrong(size() - 1, "a number is missing behind this");
-  const std::string& w = word(i);
   double v = 0;
-  const auto [end, error] = std::from_chars(w.data() + (w.starts_with('+') ? 1 : 0), w.data() + w.size(), v);
-  if (error != std::errc{} || end != w.data() + w.size() || !std::isfinite(v)) throw Wrong(i, in_quotes(w) + " is not a number");
+  if (!reads_as(unsigned_word(word(i)), v) || !std::isfinite(v)) throw Wrong(i, in_quotes(word(i)) + " is not a number");
   return v;
 }
 
@@ -228,16 +222,13 @@ long long Interpreter::integer(std::size_t i, long long lo, long long hi) const 
   if (i >= size()) throw Wrong(size() - 1, "an integer is missing behind this");
   const std::string& w = word(i);
   long long v = 0;
-  const auto [end, error] = std::from_chars(w.data() + (w.starts_with('+') ? 1 : 0), w.data() + w.size(), v);
-  if (error == std::errc{} && end == w.data() + w.size()) {
+  if (reads_as(unsigned_word(w), v)) {
     if (v < lo || v > hi)
       throw Wrong(i, fmt::format("{} is out of range; {} is allowed", w, hi < lo ? "nothing" : fmt::format("{} to {}", lo, hi)));
     return v;
   }
   // LAMMPS's own formulas print large integers as numbers such as 1e+06.
-  double d = 0;
-  const auto [last, wrong] = std::from_chars(w.data(), w.data() + w.size(), d);
-  if (wrong == std::errc{} && last == w.data() + w.size() && d == std::floor(d))
+  if (double d = 0; reads_as(w, d) && d == std::floor(d))
     throw Wrong(i, in_quotes(w) + " is a floating-point number where an integer is wanted; LAMMPS takes none either");
   throw Wrong(i, in_quotes(w) + " is not an integer");
 }
@@ -277,8 +268,7 @@ std::array<int, 2> Interpreter::range(std::size_t i, int most) const {
   const auto part = [&](const std::string& text, int without) {
     if (text.empty()) return without;
     int v = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (error != std::errc{} || end != text.data() + text.size()) throw Wrong(i, in_quotes(w) + " is no number and no range such as 2*4");
+    if (!reads_as(text, v)) throw Wrong(i, in_quotes(w) + " is no number and no range such as 2*4");
     if (v < 1 || v > most) throw Wrong(i, most == 0 ? fmt::format("{} is out of range; create_box or read_data announces none", v)
                                                     : fmt::format("{} is out of range; 1 to {} is allowed", v, most));
     return v;
@@ -325,8 +315,7 @@ void Interpreter::run_command() {
     if (size() == 2 && word(1) == "none") return tell(Told::Fate::ignored, why);       // dihedral_style none
     throw Wrong(0, why, true);
   }
-  throw Wrong(0,
-              in_quotes(command) + " is no command that is known here" + did_you_mean(command, known_commands()) + "; --skip leaves it out",
+  throw Wrong(0, in_quotes(command) + " is no command that is known here" + did_you_mean(command, known_commands()) + "; --skip leaves it out",
               true);
 }
 

@@ -108,6 +108,13 @@ std::string refused_command(const std::string& command);
 /// All names that are known.
 std::vector<std::string> known_commands();
 
+/// Why something of a script has no effect here.
+namespace because {
+constexpr const char *output = "output: a run of elamin writes its own", *neighbours = "neighbour lists: elamin finds all pairs that touch",
+                     *machine = "how LAMMPS uses the machine", *stepping = "how LAMMPS minimises or steps: [solver] says how elamin does",
+                     *cold = "there is no temperature here";
+}  // namespace because
+
 // The commands, by what they are about.
 namespace command {
 // control.cpp

@@ -1,4 +1,5 @@
 // Pair styles and their coefficients.
+#include "core/find.hpp"
 #include "lammps/script/interpreter.hpp"
 #include "lammps/script/granular.hpp"
 
@@ -171,9 +172,7 @@ void pair_modify(Interpreter& in) {
   std::size_t first = 1;
   const std::string of = in.word(1) == "pair" && in.size() > 2 ? in.word(2) : "";
   if (!of.empty()) {                             // pair STYLE KEYWORD …
-    const auto& styles = in.world.pairs.styles;
-    if (std::none_of(styles.begin(), styles.end(), [&](const PairStyle& s) { return s.name == of; }))
-      throw Wrong(2, in_quotes(of) + " is none of the styles of pair_style");
+    if (!find_named(in.world.pairs.styles, of)) throw Wrong(2, in_quotes(of) + " is none of the styles of pair_style");
     first = 3;
   }
   for (std::size_t i = first; i < in.size();) {
@@ -213,10 +212,8 @@ void pair_coeff(Interpreter& in) {
     in.wants(4, "pair_coeff TYPES TYPES STYLE …");
     if (in.word(3) == "none") style = nullptr;
     else {
-      const auto found =
-          std::find_if(w.pairs.styles.begin(), w.pairs.styles.end(), [&](const PairStyle& s) { return s.name == in.word(3); });
-      if (found == w.pairs.styles.end()) throw Wrong(3, in_quotes(in.word(3)) + " is none of the styles of pair_style", !known_style(in.word(3)));
-      style = &*found;
+      style = find_named(w.pairs.styles, in.word(3));
+      if (!style) throw Wrong(3, in_quotes(in.word(3)) + " is none of the styles of pair_style", !known_style(in.word(3)));
     }
     ++i;
   }
@@ -284,7 +281,7 @@ void pair_coeff(Interpreter& in) {
 void neighbor(Interpreter& in) {
   in.wants(3, "neighbor SKIN STYLE", 3);
   in.world.skin = in.number(1);
-  in.ignore("neighbour lists: elamin finds all pairs that touch");
+  in.ignore(because::neighbours);
 }
 
 void neigh_modify(Interpreter& in) {
@@ -299,7 +296,7 @@ void neigh_modify(Interpreter& in) {
     const std::string& of = in.word(i + 1);
     if (k.starts_with("collection/")) break;
     if (k == "include" && of != "all") throw Wrong(i, "contacts within one group alone are not taken; exclude leaves pairs out", true);
-    if (k == "include" || std::find(lists.begin(), lists.end(), k) != lists.end()) {
+    if (k == "include" || contains(lists, k)) {
       i += 2;
       continue;
     }
@@ -320,7 +317,7 @@ void neigh_modify(Interpreter& in) {
     else
       throw Wrong(i + 1, in_quotes(of) + " says of no pairs that are left out here; type, group, molecule/intra and none do", true);
   }
-  if (!excludes) in.ignore("neighbour lists: elamin finds all pairs that touch");
+  if (!excludes) in.ignore(because::neighbours);
 }
 
 }  // namespace command

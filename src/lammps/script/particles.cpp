@@ -15,14 +15,6 @@ namespace {
 /// Glue that is in some run between atoms that are.
 template <int N> bool used(const Glue<N>& g, int runs) { return g.gone > g.born && g.born < std::max(1, runs) && g.gone > 0; }
 
-double degrees_of(double angle) {
-  if (angle == pi) return 180;
-  const double near = angle * (180 / pi);
-  for (const double d : {near, std::nextafter(near, 0.0), std::nextafter(near, 360.0)})
-    if (d * (pi / 180) == angle) return d;
-  return near;
-}
-
 }  // namespace
 
 Particles::Particles(const World& world) : world_(world), id_(world.atoms.size()) {
@@ -99,7 +91,7 @@ std::string Particles::data(const std::string& title, const std::map<int, double
     const auto factor = stiffer.find(type);
     const double B = c.stiffness * (factor == stiffer.end() ? 1 : factor->second);
     if (straight) put("{} {:.17g}\n", number, B);
-    else put("{} {:.17g} {:.17g}\n", number, 2 * B, degrees_of(c.rest));
+    else put("{} {:.17g} {:.17g}\n", number, 2 * B, degrees(c.rest));
   }
   const char* style = world_.sphere ? "hybrid sphere angle" : world_.molecular ? "angle" : "atomic";
   put("\nAtoms # {}\n\n", style);

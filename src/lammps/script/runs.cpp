@@ -1,6 +1,6 @@
 // Runs: what is in force in them, and what is known behind them.
+#include "lammps/script/building.hpp"
 #include "lammps/script/held.hpp"
-#include "lammps/script/interpreter.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,6 @@ namespace elamin::script::command {
 namespace {
 
 constexpr std::size_t most_runs = 1000;
-
-std::string kind_of(const World& w, std::size_t c) { return w.boundary[c]; }
 
 /// Where the steps of a run and those of its ramps begin and end.
 struct Span { bool minimize = false; long long steps = 0, before = 0, total = 0; };
@@ -65,23 +63,22 @@ void evaluate_formulas(Interpreter& in, Run::Active& a, const Span& span) {
   }
   for (std::size_t c = 0; c < 3 && f.kind == Fix::Kind::force; ++c) {
     if (f.formulas[c].empty()) continue;
-    const auto component = static_cast<Eigen::Index>(c);
     const bool each = in.names.of_atoms(f.formulas[c]);
     const auto values = over_run(in, f.formulas[c], each, span, what);
     if (!each) {
-      f.vector[component] = values[0][0], f.end[component] = values[1][0];
+      f.vector[c] = values[0][0], f.end[c] = values[1][0];
       continue;
     }
     a.own.resize(a.members.size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t k = 0; k < a.members.size(); ++k)
-      for (std::size_t end = 0; end < 2; ++end) a.own[k][end][component] = values[end][a.members[k]];
+      for (std::size_t end = 0; end < 2; ++end) a.own[k][end][c] = values[end][a.members[k]];
   }
   for (Fix::Wall& wall : f.walls)
     for (std::size_t c = 0; c < 4; ++c) {
       if (wall.formulas[c].empty()) continue;
       const auto values = over_run(in, wall.formulas[c], false, span, what + ", its region");
       for (std::size_t end = 0; end < 2; ++end) {
-        if (c < 3) wall.moved[end][static_cast<Eigen::Index>(c)] = values[end][0];
+        if (c < 3) wall.moved[end][c] = values[end][0];
         else wall.grown[end] = values[end][0] - wall.region.radius;
         if (c == 3 && !(values[end][0] > 0))
           throw Wrong(0, fmt::format("{}: the radius of its region is {}; it must be above 0", what, values[end][0]));
@@ -117,15 +114,11 @@ std::vector<Run::Excluded> excluded(const World& w, const std::vector<int>& atom
 /// The checks of a run, and what is in force in it.
 Run in_force(Interpreter& in, const Span& span) {
   World& w = in.world;
-  if (!w.has_box) throw Wrong(0, "stands before create_box or read_data");
-  const auto periodic = [&](int c) { return kind_of(w, static_cast<std::size_t>(c)).find('p') != std::string::npos; };
+  needs_box(in);
   for (int c = 0; c < 3; ++c)
-    if (periodic(c) && !(c == 2 && w.dimension == 2))
-      throw Wrong(
-          0, fmt::format(
-                 "the box is periodic along {}: elamin has no periodic boxes. Write `boundary f f f` (or s) before the box is made, or "
-                 "`change_box all boundary f f f` behind it, with walls or room around what there is",
-                 "xyz"[c]));
+    if (w.boundary[c].find('p') != std::string::npos && !(c == 2 && w.dimension == 2))
+      throw Wrong(0, fmt::format("the box is periodic along {}: elamin has no periodic boxes. Write `boundary f f f` (or s) before the box is "
+                                 "made, or `change_box all boundary f f f` behind it, with walls or room around what there is", "xyz"[c]));
   Run r;
   r.where = in.where, r.minimize = span.minimize, r.steps = span.steps, r.timestep = w.timestep;
   r.text = in.text();
@@ -158,7 +151,7 @@ Run in_force(Interpreter& in, const Span& span) {
   }
   for (const int k : r.atoms)
     for (std::size_t c = 0; c < 3; ++c)
-      if (w.atoms[k].v[static_cast<Eigen::Index>(c)] != 0) r.thrown[c] = true;
+      if (w.atoms[k].v[c] != 0) r.thrown[c] = true;
   r.held = held_in(w, r);
   for (const auto& [h, members] : r.held) {       // by fixes that let go on what moves
     if (h.fix < 0 || r.fixes[h.fix].fix.kind != Fix::Kind::hold || r.minimize) continue;

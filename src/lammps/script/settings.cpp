@@ -1,4 +1,5 @@
 // Commands that set up the box, regions and coefficients.
+#include "core/find.hpp"
 #include "lammps/script/building.hpp"
 
 #include "core/suggest.hpp"
@@ -15,10 +16,6 @@ namespace {
 
 constexpr int most_types = 1000000;
 constexpr double nowhere = 1e20;                // LAMMPS's INF
-
-void after_box(const Interpreter& in) {
-  if (!in.world.has_box) throw Wrong(0, "stands before create_box or read_data");
-}
 
 /// A coordinate of a region: a number, INF or EDGE.
 double coordinate(const Interpreter& in, std::size_t i, int axis, bool high) {
@@ -41,10 +38,8 @@ void units(Interpreter& in) {
   in.world.skin = in.word(1) == "lj" ? 0.3 : in.word(1) == "si" ? 0.001 : 0.1;
   in.ignore("numbers are taken as they are; elamin's units are any that go together");
   if (in.word(1) != "lj" && in.word(1) != "si" && in.word(1) != "cgs" && in.word(1) != "micro" && in.word(1) != "nano")
-    throw Wrong(1,
-                fmt::format("in units {} forces are not mass times acceleration in the same units; lj, si, cgs, micro and nano are taken",
-                            in.word(1)),
-                true);
+    throw Wrong(1, fmt::format("in units {} forces are not mass times acceleration in the same units; lj, si, cgs, micro and nano are taken",
+                               in.word(1)), true);
 }
 
 void dimension(Interpreter& in) {
@@ -83,10 +78,8 @@ void atom_style(Interpreter& in) {
       break;
     } else if (s.find_first_not_of("0123456789") == std::string::npos) continue;   // as `sphere 1` has
     else
-      throw Wrong(
-          i,
-          in_quotes(s) + " is no atom style that is known here; atomic, sphere, bond, angle, molecular, full, body and hybrids of them are",
-          true);
+      throw Wrong(i, in_quotes(s) + " is no atom style that is known here; atomic, sphere, bond, angle, molecular, full, body and hybrids of "
+                                    "them are", true);
     w.atom_style += (w.atom_style.empty() ? "" : " ") + s;
   }
 }
@@ -94,10 +87,8 @@ void atom_style(Interpreter& in) {
 void lattice(Interpreter& in) {
   in.wants(3, "lattice STYLE SCALE");
   if (in.word(1) != "none")
-    throw Wrong(
-        1,
-        "atoms on a lattice are not made; write them one by one (create_atoms … single), or let LAMMPS write a data file (write_data FILE)",
-        true);
+    throw Wrong(1, "atoms on a lattice are not made; write them one by one (create_atoms … single), or let LAMMPS write a data file "
+                   "(write_data FILE)", true);
   in.world.lattice = in.positive(2);
 }
 
@@ -158,7 +149,7 @@ void region(Interpreter& in) {
     numbers(6);
     s.shape = Shape::block;
     for (int c = 0; c < 3; ++c) {
-      const auto i = static_cast<std::size_t>(3 + 2 * c);
+      const std::size_t i = 3 + 2 * c;
       s.lo[c] = coordinate(in, i, c, false), s.hi[c] = coordinate(in, i + 1, c, true);
       if (s.lo[c] > s.hi[c]) throw Wrong(i, "the region ends before it begins");
     }
@@ -191,7 +182,7 @@ void region(Interpreter& in) {
     const double unit = in.unit_of_length(12);
     Vec3 lo, hi;
     for (int c = 0; c < 3; ++c) {
-      const auto i = static_cast<std::size_t>(3 + 2 * c);
+      const std::size_t i = 3 + 2 * c;
       lo[c] = unit * in.number(i), hi[c] = unit * in.number(i + 1);
       if (!(lo[c] < hi[c])) throw Wrong(i, "the region ends before it begins");
     }
@@ -211,9 +202,8 @@ void region(Interpreter& in) {
       r.parts.push_back(in.word(i));
     }
   } else
-    throw Wrong(
-        2, in_quotes(style) + " is no style of a region that is known here; block, prism, cylinder, cone, sphere, plane, union and intersect are",
-        true);
+    throw Wrong(2, in_quotes(style) + " is no style of a region that is known here; block, prism, cylinder, cone, sphere, plane, union and "
+                                      "intersect are", true);
   if ((style == "cylinder" || style == "sphere") && !(s.radius > 0)) throw Wrong(6, "the radius is not above 0");
   bool box_units = false;
   for (std::size_t i = next; i < in.size();) {
@@ -267,13 +257,13 @@ void create_box(Interpreter& in) {
   }
   w.atom_types = types, w.bond_types = bonds, w.angle_types = angles;
   w.set_box({r.lo, r.hi});
-  w.mass.resize(static_cast<std::size_t>(types));
-  w.bond_coefficients.resize(static_cast<std::size_t>(bonds)), w.angle_coefficients.resize(static_cast<std::size_t>(angles));
+  w.mass.resize(types);
+  w.bond_coefficients.resize(bonds), w.angle_coefficients.resize(angles);
 }
 
 void change_box(Interpreter& in) {
   in.wants(3, "change_box GROUP KEYWORD …");
-  after_box(in);
+  needs_box(in);
   World& w = in.world;
   const int g = w.group(in.word(1), 1);
   const double unit = in.unit_of_length(2);
@@ -382,7 +372,7 @@ void glue_style(Interpreter& in, std::string& style, std::vector<Coefficient>& c
   if (style == "hybrid") ++i;
   for (; i < in.size(); ++i)
     if (i > 1 && style != "hybrid" && in.word(i) != "nocoeff") throw Wrong(i, in_quotes(in.word(i)) + " is no word of this style");
-    else if (std::find(known.begin(), known.end(), in.word(i)) == known.end() && in.word(i) != "nocoeff")
+    else if (!contains(known, in.word(i)) && in.word(i) != "nocoeff")
       throw Wrong(i, in_quotes(in.word(i)) + " is no style that is known here; there are: " + listed(known), true);
 }
 

@@ -50,14 +50,8 @@ class Translation : private TableList {
         if (a.fix.kind == Fix::Kind::gravity || a.fix.kind == Fix::Kind::force) load(k, a);
         if (a.fix.kind == Fix::Kind::wall) wall(k, a);
         if (a.fix.kind == Fix::Kind::viscous && options.dynamics)
-          put(k, {"viscosity",
-                  "",
-                  fmt::format("group = \"{}\"\ncoefficient = {}\n", groups.of(a.members, a.fix.group, k), a.fix.coefficient),
-                  a.fix.where,
-                  a.fix.text,
-                  a.fix.serial,
-                  {},
-                  false});
+          put(k, {"viscosity", "", fmt::format("group = \"{}\"\ncoefficient = {}\n", groups.of(a.members, a.fix.group, k), a.fix.coefficient),
+                  a.fix.where, a.fix.text, a.fix.serial, {}, false});
       }
       if (options.dynamics) friction_rotates(run), frozen_are_heavy(run);
       put_contacts(*this, k, run);
@@ -242,8 +236,7 @@ class Translation : private TableList {
       if (!beyond.empty() && either)
         one_wall(k, a, w, defined, !w.inside, a.fix.id + w.suffix + "_back", groups.of(beyond, a.fix.id + w.suffix + "_behind", k));
       if (w.region.shape == Shape::cone && w.region.radius_lo != w.region.radius_hi)
-        note(a.fix.where,
-             "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
+        note(a.fix.where, "LAMMPS leaves out of the force at a cone that its curvature changes along it; here it is the force of the energy");
       const std::size_t ends = w.region.shape == Shape::cone && w.region.axis == 1 ? 2 : 0;      // that LAMMPS pushes along z at
       if (ends > 0 && !(w.region.open[0] && w.region.open[1]) && (w.region.axial_lo > -1e20 || w.region.axial_hi < 1e20))
         note(a.fix.where, "at the ends of a cone along y LAMMPS (29 Sep 2021) pushes along z; here it is along y");
@@ -251,9 +244,8 @@ class Translation : private TableList {
         note(a.fix.where, "LAMMPS (29 Sep 2021) makes the damping of a tsuji wall anew from itself in each run; here it stays that of its "
                           "restitution");
       if (a.fix.trap_modulus)
-        note(
-            a.fix.where,
-            "LAMMPS gives walls of hertz/material the modulus E/(2(1 - nu)), and contacts between particles E/(2(1 - nu^2)); that is kept");
+        note(a.fix.where, "LAMMPS gives walls of hertz/material the modulus E/(2(1 - nu)), and contacts between particles E/(2(1 - nu^2)); that "
+                          "is kept");
     }
   }
 
@@ -313,13 +305,10 @@ class Translation : private TableList {
       if (options.correct)
         for (const int t : types) stiffer_[t] = factor;
       if (!options.compat)
-        notes.push_back(
-            {{0, 0},
-             fmt::format("{}: the bending stiffness of such sheets of LAMMPSStructures is 3 sqrt(3) = 5.2 times smaller than its "
-                         "derivation has it; {}",
-                         file,
-                         options.correct ? "it is mended here (--correct)"
-                                          : "it is kept as it is (--compat lwp keeps it without this note, --correct mends it)")});
+        notes.push_back({{0, 0}, fmt::format("{}: the bending stiffness of such sheets of LAMMPSStructures is 3 sqrt(3) = 5.2 times smaller than "
+                                             "its derivation has it; {}", file,
+                                             options.correct ? "it is mended here (--correct)"
+                                                             : "it is kept as it is (--compat lwp keeps it without this note, --correct mends it)")});
     }
   }
 
@@ -343,10 +332,8 @@ class Translation : private TableList {
       for (const Run::Active& a : run.fixes)
         if (a.fix.kind == Fix::Kind::plane) plane = 2;
     if (plane >= 0)
-      t += fmt::format("plane = \"{}\"                       # all of it lies in this plane, and nothing pushes it out\n", plane == 0 ? "yz"
-                                                                                                                           : plane == 1
-                                                                                                                               ? "xz"
-                                                                                                                               : "xy");
+      t += fmt::format("plane = \"{}\"                       # all of it lies in this plane, and nothing pushes it out\n",
+                       std::array{"yz", "xz", "xy"}[plane]);
     t += "\n[lammps]\n";
     if (particles.particles() > 0) t += fmt::format("data = \"{}\"\n", data_name_);
     if (!world.body_file.empty()) t += fmt::format("bodies = \"{}\"\n", escaped(std::filesystem::absolute(world.body_file).string()));

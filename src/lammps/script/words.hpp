@@ -42,6 +42,9 @@ struct Substitution {
   std::function<std::string(const std::string&)> variable, formula;
 };
 
+/// A number without its sign +.
+inline std::string_view unsigned_word(std::string_view word) { return word.substr(word.starts_with('+') ? 1 : 0); }
+
 /// The text without its comment: from a # on that is in no quotes.
 std::string_view without_comment(std::string_view text);
 
