@@ -110,7 +110,7 @@ std::optional<double> number_in(const Row& row, int column) {
 }
 
 int needed(const Table& table, const std::string& name, const std::string& file) {
-  const int column = column_index(table.columns, name);
+  const int column = table.column(name);
   if (column < 0)
     throw InputError(fmt::format("{}: has no column {}; there are: {}{}", file, in_quotes(name), listed(table.columns), did_you_mean(name, table.columns)));
   return column;
@@ -126,7 +126,7 @@ bool changes(const Table& table, int column) {
 
 // The first of the columns from `first` up to `last` (left out) that changes.
 std::string first_changing(const Table& table, const std::string& first, const std::string& last) {
-  const int end = column_index(table.columns, last), begin = column_index(table.columns, first);
+  const int end = table.column(last), begin = table.column(first);
   for (int c = begin + 1; begin >= 0 && c < end; ++c)
     if (changes(table, c)) return table.columns[c];
   return "";
@@ -163,7 +163,7 @@ bool Diagram::empty() const {
 }
 
 Diagram path_diagram(const Table& path, const Axes& asked, const std::string& file) {
-  const auto column = [&](const char* name) { return column_index(path.columns, name); };
+  const auto column = [&](const char* name) { return path.column(name); };
   const auto if_changing = [&](const char* name) { return changes(path, column(name)) ? name : ""; };
   const Axes axes{asked.x.empty() ? "lambda" : asked.x,
                   first_of({asked.y, first_changing(path, "stable", "parent"), if_changing("negative"), "energy"})};
@@ -213,7 +213,7 @@ Diagram path_diagram(const Table& path, const Axes& asked, const std::string& fi
 Diagram curve_diagram(const Table& table, const Axes& asked, const std::string& file) {
   CurveColumns at{};
   Diagram d = begun(table, {first_of({asked.x, "second"}), first_of({asked.y, "lambda"})}, file, at);
-  const int label = column_index(table.columns, "label");
+  const int label = table.column("label");
   d.curves.emplace_back();
   for (const Row& row : table.rows) {
     const auto here = at.at(row);
@@ -227,7 +227,7 @@ Diagram curve_diagram(const Table& table, const Axes& asked, const std::string& 
 Diagram landscape_diagram(const Table& table, const Axes& asked, const std::string& file) {
   CurveColumns at{};
   Diagram d = begun(table, {first_of({asked.x, "lambda"}), first_of({asked.y, "energy"})}, file, at);
-  const int label = column_index(table.columns, "label");
+  const int label = table.column("label");
   for (const Row& row : table.rows) {
     const std::string name = text_in(row, label);
     const auto here = at.at(row);
@@ -257,7 +257,7 @@ Diagram tree_diagram(const std::string& file) {
 }
 
 Diagram motion_diagram(const Table& trajectory, const Axes& asked, const std::string& file) {
-  const int balance = column_index(trajectory.columns, "balance");
+  const int balance = trajectory.column("balance");
   std::string observed;
   for (std::size_t c = static_cast<std::size_t>(balance + 1); balance >= 0 && c < trajectory.columns.size() && observed.empty(); ++c)
     if (changes(trajectory, static_cast<int>(c))) observed = trajectory.columns[c];
@@ -286,7 +286,7 @@ Diagram sweep_diagram(const Table& sweep, const Axes& asked, const std::string& 
     if (!sweep.columns[c].starts_with("expect.") && changes(sweep, c)) keys.push_back(c);
   Axes axes = asked;
   if (axes.x.empty()) axes.x = keys.empty() ? sweep.columns.front() : sweep.columns[keys.front()];
-  const bool in_time = column_index(sweep.columns, "balance") >= 0;
+  const bool in_time = sweep.column("balance") >= 0;
   if (axes.y.empty())
     axes.y = first_of({first_changing(sweep, "status", "step"), first_changing(sweep, "stable", "parent"), in_time ? "kinetic" : "energy"});
   CurveColumns at{};

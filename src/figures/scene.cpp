@@ -31,7 +31,7 @@ class NumberTable {
 
  private:
   const Cell& cell(std::size_t row, const char* column) const {
-    const int c = column_index(table_.columns, column);
+    const int c = table_.column(column);
     if (c < 0) throw InputError(fmt::format("{}: has no column {}", file_, in_quotes(column)));
     return table_.rows[row][c];
   }
@@ -52,7 +52,7 @@ std::vector<std::string> states_in(const fs::path& directory) {
 // The state of a step of the path, without the end of its name.
 std::string stem_of_step(const std::string& directory, const std::string& step) {
   const StoredRun run = read_run(directory);
-  const int column = column_index(run.path.columns, "step");
+  const int column = run.path.column("step");
   std::vector<std::string> known;
   for (const StoredState& s : run.states) {
     if (column < 0 || s.row < 0 || !s.file.ends_with(".data")) continue;

@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "report/run_data.hpp"
 
 #include "core/error.hpp"
@@ -113,7 +114,7 @@ Json contacts_data(const std::vector<const Row*>& rows, const Model& model) {
     const auto number = [&](std::size_t c) { return as_number((*row)[c]).value_or(0); };
     int second = static_cast<int>(number(3));
     if (const std::string* name = std::get_if<std::string>(&(*row)[3]))
-      second = -1 - static_cast<int>(std::find_if(model.walls.begin(), model.walls.end(), [&](const Wall& w) { return w.name == *name; }) - model.walls.begin());
+      second = -1 - static_cast<int>(find_named(model.walls, *name) - model.walls.data());
     pairs.insert(pairs.end(), {static_cast<int>(number(2)), second});
     for (const std::size_t c : {4, 6, 7, 8, 9, 10, 11}) numbers.push_back(static_cast<float>(number(c)));
   }
@@ -130,7 +131,7 @@ Json modes_data(const StoredRun& run, const StoredState& stored, const Model& mo
   const std::vector<Field> vectors = read_displacements(null_vectors_file(stored.file), model);
   for (std::size_t k = 0; k < vectors.size(); ++k)
     all.push_back(displacement_data(vectors.size() > 1 ? fmt::format("null vector {}", k + 1) : "null vector", vectors[k], model));
-  const int eigenvalue = column_index(run.modes.columns, "eigenvalue");
+  const int eigenvalue = run.modes.column("eigenvalue");
   for (std::size_t k = 0; k < run.modes.rows.size() && eigenvalue >= 0; ++k)
     for (const Field& f : read_displacements(fmt::format("{}/modes/mode-{}.csv", run.directory, k + 1), model))
       all.push_back(displacement_data(fmt::format("mode {}, eigenvalue {:.6g}", k + 1, as_number(run.modes.rows[k][eigenvalue]).value_or(NAN)),

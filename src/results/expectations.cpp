@@ -13,14 +13,14 @@ namespace {
 struct Found { const Table* table = nullptr; const Row* row = nullptr; };
 
 Found labelled(const Table& table, const std::string& label) {
-  const int column = column_index(table.columns, "label");
+  const int column = table.column("label");
   for (const Row& row : table.rows)
     if (column >= 0 && row[column] == Cell(label)) return {&table, &row};
   return {};
 }
 
 Found at_value(const Table& table, const char* name, double wanted) {
-  const int column = column_index(table.columns, name);
+  const int column = table.column(name);
   Found found;
   for (const Row& row : table.rows)
     if (const auto value = as_number(row[column]); value && std::abs(*value - wanted) <= 1e-12 * std::abs(wanted))
@@ -29,7 +29,7 @@ Found at_value(const Table& table, const char* name, double wanted) {
 }
 
 std::string labels_in(const Table& table) {
-  const int column = column_index(table.columns, "label");
+  const int column = table.column("label");
   std::vector<std::string> labels;
   for (const Row& row : table.rows)
     if (const std::string label = csv_text(row[column]); !label.empty()) labels.push_back(label);
@@ -47,7 +47,7 @@ Found on_curve(const std::string& at, const Table* curve, std::string* why) {
 Found in_landscapes(const std::string& at, const Table* table, std::string* why) {
   const auto place = in_landscape(at);
   if (!table || table->rows.empty() || !place) return *why = "the run has no landscape", Found{};
-  const int label = column_index(table->columns, "label"), lambda = column_index(table->columns, "lambda");
+  const int label = table->column("label"), lambda = table->column("lambda");
   std::optional<double> load = place->load_factor;                 // by default that of the last graph
   if (!load && !place->label.starts_with("change:"))
     for (const Row& row : table->rows)
@@ -64,7 +64,7 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
   if (at == "initial") return {&path, &path.rows.front()};
   if (at == "final") return {&path, &path.rows.back()};
   if (const auto step = step_of(at)) {
-    const int column = column_index(path.columns, "step");
+    const int column = path.column("step");
     for (const Row& row : path.rows)
       if (row[column] == Cell(*step)) return {&path, &row};
     return *why = "the motion has no such step; the last one is " + csv_text(path.rows.back()[column]), Found{};
@@ -74,12 +74,12 @@ Found find(const std::string& at, const Table& path, const Table& events, std::s
     if (!lambda) return *why = "what follows \"lambda=\" is not a number", Found{};
     const Found found = at_value(path, "lambda", *lambda);
     if (!found.row) *why = fmt::format("no equilibrium of the path has this load factor; the last one has {}",
-                                       csv_text(path.rows.back()[column_index(path.columns, "lambda")]));
+                                       csv_text(path.rows.back()[path.column("lambda")]));
     return found;
   }
   for (const Table* table : {&events, &path})
     if (const Found found = labelled(*table, at); found.row) return found;
-  if (const int stage = column_index(path.columns, "stage"); stage >= 0)
+  if (const int stage = path.column("stage"); stage >= 0)
     for (auto row = path.rows.rbegin(); row != path.rows.rend(); ++row)
       if ((*row)[stage] == Cell(at)) return {&path, &*row};
   *why = "there is no such event; there are: " + labels_in(events);
@@ -104,7 +104,7 @@ std::optional<double> value_at(const std::string& name, const std::string& at, c
                       : is_of_landscape(at) ? in_landscapes(at, run.landscape, &why)
                                             : find(at, *run.path, *run.events, &why);
   if (!found.row) return std::nullopt;
-  const int column = column_index(found.table->columns, name);
+  const int column = found.table->column(name);
   if (column < 0) return why = "there is no such column; there are: " + listed(found.table->columns), std::nullopt;
   const auto value = as_number((*found.row)[column]);
   if (!value) why = "has no number there";

@@ -13,6 +13,11 @@ using Json = nlohmann::ordered_json;
 /// The number; null where it is not finite.
 inline Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+inline Json json_of(const std::optional<double>& value) { return value ? json_of(*value) : Json(nullptr); }
+
+/// The text of a file; what is no UTF-8 is replaced.
+inline std::string file_text(const Json& all) { return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 /// What the cell holds; null where it is empty, or a number that is not finite.
 inline Json json_of(const Cell& cell) {
   if (const bool* b = std::get_if<bool>(&cell)) return *b;

@@ -1,5 +1,6 @@
 #include "results/landscape.hpp"
 
+#include "core/find.hpp"
 #include "results/columns.hpp"
 
 #include <fmt/format.h>
@@ -42,8 +43,6 @@ std::array<std::optional<double>, 2> barriers(const Landscape& l, const Pass& p)
   return up;
 }
 
-Json maybe(const std::optional<double>& x) { return x ? json_of(*x) : Json(nullptr); }
-Cell cell_of(const std::optional<double>& x) { return x ? Cell(*x) : Cell{}; }
 
 Json image_of(const Landscape& l, const NodeImage& i) {
   return i.node < 0 ? Json(nullptr) : Json{{"node", l.node(i).label}, {"image", i.image + 1}};
@@ -74,7 +73,7 @@ Table landscape_table(const Landscapes& all, const std::vector<std::string>& obs
     return table.rows.emplace_back(std::move(row));
   };
   const auto put = [&](Row& row, const char* column, Cell value) {
-    row[column_index(table.columns, column)] = std::move(value);
+    row[table.column(column)] = std::move(value);
   };
   for (const Landscape& l : all.at) {
     Row& graph = short_row("graph", l.load_factor);
@@ -117,7 +116,7 @@ LandscapeTree tree_of(const Landscape& l) {
       for (const Part& p : parts) tree.leaves.push_back({p.leaves.front(), p.x, p.y});
     for (const Pass* p : passes) {
       const auto part_of = [&](const NodeImage& m) {
-        const auto has = [&](const Part& q) { return std::find(q.leaves.begin(), q.leaves.end(), m) != q.leaves.end(); };
+        const auto has = [&](const Part& q) { return contains(q.leaves, m); };
         return std::find_if(parts.begin(), parts.end(), has);
       };
       auto a = part_of(p->minima[0]), b = part_of(p->minima[1]);
@@ -151,7 +150,7 @@ Json landscape_json(const Landscapes& all, const std::function<std::string(const
     for (const Pass& p : l.passes) {
       const auto up = barriers(l, p);
       edges.push_back({{"saddle", image_of(l, p.saddle)}, {"minima", {image_of(l, p.minima[0]), image_of(l, p.minima[1])}},
-                       {"barrier", maybe(up[0])}, {"barrier_back", maybe(up[1])}});
+                       {"barrier", json_of(up[0])}, {"barrier_back", json_of(up[1])}});
     }
     j["landscapes"].push_back({{"load_factor", l.load_factor}, {"minima", l.minima()}, {"saddles", l.saddles()}, {"euler", l.euler()},
                                {"nodes", nodes}, {"edges", edges}, {"tree", tree_json(l, tree_of(l))}});

@@ -1,6 +1,7 @@
 #include "results/observables.hpp"
 
 #include "core/error.hpp"
+#include "core/find.hpp"
 #include "laws/rounded/rigid_step.hpp"
 #include "laws/rounded/rotation.hpp"
 #include "model/entities.hpp"
@@ -123,11 +124,9 @@ Observables::Subject Observables::subject_of(const ObserveTable& o, Mistakes& mi
     return entities;
   };
   const auto find = [&](const char* key, const std::string& name, std::vector<int>& entities) {
-    const auto group = std::find_if(model_.groups.begin(), model_.groups.end(), [&](const Group& g) { return g.name == name; });
-    if (group != model_.groups.end()) return entities = members(*group), true;
-    const auto wall = std::find_if(model_.walls.begin(), model_.walls.end(), [&](const Wall& w) { return w.name == name; });
-    if (wall != model_.walls.end() && &entities == &subject.entities)
-      return entities = members(*wall), subject.wall = static_cast<int>(wall - model_.walls.begin()), true;
+    if (const Group* group = find_named(model_.groups, name)) return entities = members(*group), true;
+    if (const Wall* wall = find_named(model_.walls, name); wall && &entities == &subject.entities)
+      return entities = members(*wall), subject.wall = static_cast<int>(wall - model_.walls.data()), true;
     std::string known;
     for (const Group& g : model_.groups) known += (known.empty() ? "" : ", ") + g.name;
     for (const Wall& w : model_.walls) known += ", " + w.name;

@@ -1,5 +1,6 @@
 #include "results/refinement.hpp"
 
+#include "core/find.hpp"
 #include "results/columns.hpp"
 #include "results/json.hpp"
 
@@ -64,7 +65,7 @@ namespace {
 
 std::vector<std::string> labels_of(const Table& events) {
   std::vector<std::string> labels;
-  for (const Row& row : events.rows) labels.push_back(csv_text(row[column_index(events.columns, "label")]));
+  for (const Row& row : events.rows) labels.push_back(csv_text(row[events.column("label")]));
   return labels;
 }
 
@@ -74,12 +75,12 @@ std::vector<std::string> common_events(const std::vector<RunTables>& runs, std::
   std::map<std::vector<std::size_t>, std::vector<std::string>> missing;    // by the levels where they are
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
     for (const std::string& label : labels_of(*run->events))
-      if (std::find(all.begin(), all.end(), label) == all.end()) all.push_back(label);
+      if (!contains(all, label)) all.push_back(label);
   for (const std::string& label : all) {
     std::vector<std::size_t> in;
     for (std::size_t k = 0; k < runs.size(); ++k) {
       const std::vector<std::string> labels = labels_of(*runs[k].events);
-      if (std::find(labels.begin(), labels.end(), label) != labels.end()) in.push_back(k + 1);
+      if (contains(labels, label)) in.push_back(k + 1);
     }
     if (in.size() < runs.size()) {
       missing[in].push_back(label);
@@ -106,7 +107,7 @@ std::vector<std::string> common_events(const std::vector<RunTables>& runs, std::
 /// The median of the sizes in a column.
 double usual_in(const Table& table, const std::string& column) {
   std::vector<double> sizes;
-  const int c = column_index(table.columns, column);
+  const int c = table.column(column);
   for (const Row& row : table.rows)
     if (const auto value = c < 0 ? std::nullopt : as_number(row[c])) sizes.push_back(std::abs(*value));
   if (sizes.empty()) return 0;
@@ -125,12 +126,12 @@ RefinedValues refined_values(const Problem& problem, const std::vector<RunTables
   for (const StageTable& s : problem.stages) rows.push_back(s.name);
   rows.push_back("final");
   for (const ExpectTable& e : continuum)
-    if (std::find(rows.begin(), rows.end(), e.at) == rows.end() && !is_event(e.at)) rows.push_back(e.at);
+    if (!contains(rows, e.at) && !is_event(e.at)) rows.push_back(e.at);
   for (const std::string& at : rows)
     for (const std::string& q : quantities)
       if (q != "lambda" || is_event(at)) wanted.emplace_back(at, q);
   for (const ExpectTable& e : continuum)
-    if (std::pair p{e.at, e.observable}; std::find(rows.begin(), rows.end(), e.at) != rows.end() && std::find(wanted.begin(), wanted.end(), p) == wanted.end())
+    if (std::pair p{e.at, e.observable}; contains(rows, e.at) && !contains(wanted, p))
       wanted.push_back(p);
   for (const auto& [at, quantity] : wanted) {
     RefinedValue value{at, quantity, {}, {}};
@@ -186,9 +187,8 @@ std::string value_and_error(const Extrapolated& limit) {
 Table refined_table(const RefinedValues& refined, std::size_t levels) {
   Table table{{"at", "quantity", "value", "error", "order", "approach"}, {}};
   for (std::size_t k = 1; k <= levels; ++k) table.columns.push_back(fmt::format("level_{}", k));
-  const auto cell = [](const std::optional<double>& x) { return x ? Cell(*x) : Cell{}; };
   for (const RefinedValue& v : refined.values) {
-    Row row{v.at, v.quantity, v.limit.value, cell(v.limit.error), cell(v.limit.order), std::string(name_of(v.limit.approach))};
+    Row row{v.at, v.quantity, v.limit.value, cell_of(v.limit.error), cell_of(v.limit.order), std::string(name_of(v.limit.approach))};
     row.insert(row.end(), v.levels.begin(), v.levels.end());
     table.rows.push_back(std::move(row));
   }
@@ -214,10 +214,9 @@ std::string closing_refined(const RefinedValues& refined) {
 Json refined_json(const RefinedValues& refined) {
   Json all;
   all["quantities"] = Json::array();
-  const auto number = [](const std::optional<double>& x) { return x ? json_of(*x) : Json(nullptr); };
   for (const RefinedValue& v : refined.values) {
     Json one;
-    one["at"] = v.at, one["quantity"] = v.quantity, one["value"] = json_of(v.limit.value), one["error"] = number(v.limit.error), one["order"] = number(v.limit.order);
+    one["at"] = v.at, one["quantity"] = v.quantity, one["value"] = json_of(v.limit.value), one["error"] = json_of(v.limit.error), one["order"] = json_of(v.limit.order);
     one["approach"] = name_of(v.limit.approach), one["levels"] = v.levels;
     all["quantities"].push_back(std::move(one));
   }

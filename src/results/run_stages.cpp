@@ -11,7 +11,7 @@ namespace elamin {
 namespace {
 
 std::string stage_name(const StoredRun& run, const StoredState& stored) {
-  const int column = column_index(run.path.columns, "stage");
+  const int column = run.path.column("stage");
   if (column < 0 || stored.row < 0) return "";
   return csv_text(run.path.rows[stored.row][column]);
 }

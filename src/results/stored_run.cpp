@@ -5,9 +5,9 @@
 #include "lammps/state.hpp"
 #include "input/state_supplement.hpp"
 #include "core/text.hpp"
+#include "results/json.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -18,7 +18,6 @@ namespace elamin {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 const std::set<std::string> columns_of_words{"label", "parent", "stage", "status", "what", "zero_mode"};
 
@@ -85,13 +84,13 @@ void read_summary(const std::string& file, StoredRun& run) {
 
 struct Columns {
   Table table;
-  int at(const std::string& name) const { return column_index(table.columns, name); }
+  int at(const std::string& name) const { return table.column(name); }
   double number(std::size_t row, int column) const { return as_number(table.rows[row][column]).value_or(0); }
   Vec3 vector(std::size_t row, int first) const { return {number(row, first), number(row, first + 1), number(row, first + 2)}; }
 };
 
 void find_states(StoredRun& run) {
-  const int label = column_index(run.path.columns, "label"), step = column_index(run.path.columns, "step");
+  const int label = run.path.column("label"), step = run.path.column("step");
   const int rows = static_cast<int>(run.path.rows.size());
   for (int k = 0; k < rows; ++k) {
     const Row& row = run.path.rows[k];

@@ -19,8 +19,6 @@ Json object(const Table& table, const Row& row) {
   return all;
 }
 
-std::string text_of(const Json& all) { return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }     // replace: text that is not UTF-8
-
 std::string unfinished(const std::string& title, const std::string& status, const std::string& message) {
   Json all;
   all["status"] = status;
@@ -29,7 +27,7 @@ std::string unfinished(const std::string& title, const std::string& status, cons
   all["process"] = getpid();
   all["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   all["version"] = version();
-  return text_of(all);
+  return file_text(all);
 }
 
 }  // namespace
@@ -64,7 +62,7 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   for (const Row& row : events.rows) all["events"].push_back(object(events, row));
   if (!curve.rows.empty()) {
     all["curve"] = {{"points", curve.rows.size()}, {"special", Json::array()}};
-    const auto label = static_cast<std::size_t>(column_index(curve.columns, "label"));
+    const auto label = static_cast<std::size_t>(curve.column("label"));
     for (const Row& row : curve.rows)
       if (row[label] != Cell("")) all["curve"]["special"].push_back(object(curve, row));
   }
@@ -84,7 +82,7 @@ void write_summary(const std::string& file, const Summary& summary, const Table&
   }
   if (summary.resumed > 0) all["resumed"] = summary.resumed;
   if (summary.imperfection > 0) all["imperfection"] = {{"max_displacement", json_of(summary.imperfection)}};
-  write_to_disk(file, text_of(all));
+  write_to_disk(file, file_text(all));
 }
 
 }  // namespace elamin

@@ -31,7 +31,7 @@ std::string csv_line(const Row& row, std::size_t columns, Digits digits = Digits
 
 }  // namespace
 
-int column_index(const std::vector<std::string>& columns, const std::string& name) {
+int Table::column(const std::string& name) const {
   const auto it = std::find(columns.begin(), columns.end(), name);
   return it == columns.end() ? -1 : static_cast<int>(it - columns.begin());
 }

@@ -28,10 +28,12 @@ using Row = std::vector<Cell>;
 struct Table {
   std::vector<std::string> columns;
   std::vector<Row> rows;
+
+  /// Index of a column, or −1.
+  int column(const std::string& name) const;
 };
 
-/// Index of a column, or -1.
-int column_index(const std::vector<std::string>& columns, const std::string& name);
+inline Cell cell_of(const std::optional<double>& number) { return number ? Cell(*number) : Cell{}; }
 
 /// A cell as a number (true 1, false 0); nothing for text, empty cells and what is not finite.
 std::optional<double> as_number(const Cell& cell);

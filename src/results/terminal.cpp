@@ -144,10 +144,10 @@ std::string shown(const Cell& cell, const char* format) {
 
 // The entries of a row by name; empty where the table has no such column.
 struct NamedCells {
-  const std::vector<std::string>& columns;
+  const Table& table;
   const Row& row;
   Cell operator[](const std::string& name) const {
-    const int i = column_index(columns, name);
+    const int i = table.column(name);
     return i < 0 ? Cell{} : row[i];
   }
 };
@@ -164,11 +164,11 @@ std::string closing_table(const Table& events, const Ink& ink) {
   if (events.rows.empty()) return "No events on the path.\n";
   const std::size_t count = events.rows.size() > most ? most - 5 : events.rows.size();
   std::size_t widest = 5;
-  for (std::size_t k = 0; k < count; ++k) widest = std::max(widest, csv_text(NamedCells{events.columns, events.rows[k]}["label"]).size());
+  for (std::size_t k = 0; k < count; ++k) widest = std::max(widest, csv_text(NamedCells{events, events.rows[k]}["label"]).size());
   constexpr auto line = "{:<{}}  {:>14}  {:>12}  {:>14}  {:>8}  {:<6}{}";
   std::string text = ink.strong(fmt::format(line, "event", widest, "load factor", "multiplicity", "energy", "negative", "stable", "")) + "\n";
   for (std::size_t k = 0; k < count; ++k) {
-    const NamedCells e{events.columns, events.rows[k]};
+    const NamedCells e{events, events.rows[k]};
     const Cell what = e["what"];
     const auto* words = std::get_if<std::string>(&what);
     text += trimmed(fmt::format(line, csv_text(e["label"]), widest, shown(e["lambda"], "{:.10g}"), shown(e["multiplicity"], "{:.0f}"),
@@ -182,7 +182,7 @@ std::string closing_table(const Table& events, const Ink& ink) {
 std::string closing_curve(const Table& curve, const std::string& second) {
   std::string text;
   for (const Row& row : curve.rows) {
-    const NamedCells e{curve.columns, row};
+    const NamedCells e{curve, row};
     const std::string label = csv_text(e["label"]), what = csv_text(e["what"]);
     if (!label.empty())
       text += fmt::format("{}: {} {}, load factor {}{}\n", label, second, shown(e["second"], "{:.10g}"), shown(e["lambda"], "{:.10g}"),
@@ -195,7 +195,7 @@ std::string closing_landscape(const Table& landscape, const Ink& ink) {
   constexpr auto line = "{:<14}  {:>8}  {:>14}  {:>12}  {:>14}  {}";
   std::string text = ink.strong(trimmed(fmt::format(line, "node", "negative", "energy", "multiplicity", "barrier", "")));
   for (const Row& row : landscape.rows) {
-    const NamedCells e{landscape.columns, row};
+    const NamedCells e{landscape, row};
     const std::string label = csv_text(e["label"]), lambda = shown(e["lambda"], "{:.10g}");
     const Cell cell = e["what"];
     const auto* words = std::get_if<std::string>(&cell);
@@ -213,9 +213,9 @@ std::string closing_landscape(const Table& landscape, const Ink& ink) {
 
 std::string closing_values(const Table& path, const std::vector<std::string>& observables, const Ink& ink) {
   if (path.rows.empty()) return "";
-  const NamedCells last{path.columns, path.rows.back()};
+  const NamedCells last{path, path.rows.back()};
   std::string text;
-  if (column_index(path.columns, "time") >= 0) {
+  if (path.column("time") >= 0) {
     for (const char* name : {"time", "kinetic", "energy"}) text += fmt::format("{}{} {}", text.empty() ? "" : "  ", name, shown(last[name], "{:.7g}"));
   } else {
     const bool stable = as_number(last["stable"]).value_or(0) != 0;

@@ -7,13 +7,13 @@
 #include "core/timing.hpp"
 #include "input/check.hpp"
 #include "results/columns.hpp"
+#include "results/json.hpp"
 #include "results/run_directory.hpp"
 #include "results/summary.hpp"
 #include "study/single.hpp"
 #include "study/sweep.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -170,7 +170,7 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
                                   keys, b.lo, name_of(at_lo), b.hi, name_of(at_hi))
                     : fmt::format("{} at {} is {} at both ends, {} = {:.10g} and {:.10g}; there is no threshold to find between",
                                   b.observable, b.at, name_of(at_lo), keys, b.lo, b.hi);
-  nlohmann::ordered_json all;
+  Json all;
   all["status"] = interrupted() ? "interrupted" : changes ? "done" : "not_converged";
   all["message"] = message;
   all["key"] = b.keys, all["observable"] = b.observable, all["at"] = b.at, all["level"] = b.level;
@@ -182,7 +182,7 @@ RunResult run_bisection(const PreparedRuns& prepared, const RunOptions& options)
   all["times"] = {{"total", watch.seconds()}};
   all["version"] = version();
   all["input"] = options.file, all["input_sha256"] = prepared.runs.front().problem.sha256;
-  write_text(runs.directory().file("summary.json"), all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(runs.directory().file("summary.json"), file_text(all));
   if (!interrupted()) remove_checkpoint(options.directory);
   if (!options.quiet)
     say("{}\n{} runs in {:.2f} s\nwritten: {}/sweep.csv\n", message, runs.count(), watch.seconds(), options.directory);

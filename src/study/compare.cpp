@@ -9,6 +9,7 @@
 #include "energy/hard_gaps.hpp"
 #include "model/entities.hpp"
 #include "input/read.hpp"
+#include "results/json.hpp"
 #include "results/terminal.hpp"
 #include "results/summary.hpp"
 #include "study/imperfection.hpp"
@@ -16,7 +17,6 @@
 #include "study/trace.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -98,14 +98,13 @@ std::string table(const std::vector<Compared>& rows) {
   return text;
 }
 
-nlohmann::ordered_json json(const std::vector<Compared>& rows) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  const auto maybe = [](const std::optional<double>& x) { return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr); };
+Json json(const std::vector<Compared>& rows) {
+  Json all = Json::array();
   for (const Compared& r : rows)
     if (!r.refused.empty()) all.push_back({{"method", r.method}, {"status", "refused"}, {"message", r.refused}});
     else
       all.push_back({{"method", r.method}, {"status", r.out_of_time ? "out_of_time" : status_name(r.status)}, {"message", r.why}, {"energy", r.energy},
-                     {"energy_difference", maybe(r.energy_difference)}, {"state_difference", maybe(r.state_difference)},
+                     {"energy_difference", json_of(r.energy_difference)}, {"state_difference", json_of(r.state_difference)},
                      {"residual", r.residual}, {"points", r.points}, {"iterations", r.iterations}, {"evaluations", r.evaluations}, {"seconds", r.seconds}});
   return all;
 }

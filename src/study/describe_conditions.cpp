@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "dynamics/timestep.hpp"
 #include "energy/changes.hpp"
@@ -41,10 +42,7 @@ std::string describe_pressure(const Problem& problem, const Model& model, const 
 std::string describe_change(const Model& model, int change, const Kinds& bonds, const Kinds& angles) {
   const Change& c = model.changes[change];
   const auto count = [&](const Kinds& kinds) {
-    return std::count_if(kinds.of.begin(), kinds.of.end(), [&](int k) {
-      const std::vector<int>& on = kinds.changes[k];
-      return std::find(on.begin(), on.end(), change) != on.end();
-    });
+    return std::count_if(kinds.of.begin(), kinds.of.end(), [&](int k) { return contains(kinds.changes[k], change); });
   };
   std::string text = fmt::format("change of '{}', {}:", c.group, word(c.scaling));
   const auto part = [&](double by, const char* what, const Kinds& kinds, const char* of) {

@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "study/describe.hpp"
 
 #include "core/dense.hpp"
@@ -81,9 +82,8 @@ std::string own_values(const Model& model, const Structure& s, const std::string
 // That file, "" if there is none.
 std::string values_of(const Problem& problem, const Structure& s) {
   const auto in = [&](const auto& tables) {
-    for (const auto& t : tables)
-      if (t.name == s.name) return t.values;
-    return std::string();
+    const auto* table = find_named(tables, s.name);
+    return table ? table->values : "";
   };
   return s.kind == "beam" ? in(problem.beams) : s.kind == "loop" ? in(problem.loops) : s.kind == "sheet" ? in(problem.sheets)
                           : s.kind == "grains" ? in(problem.grains) : "";
@@ -116,12 +116,11 @@ std::string describe_beam(const Problem& problem, const Model& model, const Stru
   const double K = bond.stiffness, q0 = bond.rest_length, B = s.angle_type < 0 ? 0 : model.angle_types[s.angle_type].stiffness;
   std::string line;
   bool at_from = false, at_to = false;                 // clamped at the end itself
-  for (const BeamTable& t : problem.beams)
-    if (t.name == s.name && s.kind == "beam") {
-      line = line_of(t);
-      at_from = t.clamped == ClampedEnds::from || t.clamped == ClampedEnds::both;
-      at_to = t.clamped == ClampedEnds::to || t.clamped == ClampedEnds::both;
-    }
+  if (const BeamTable* t = find_named(problem.beams, s.name); t && s.kind == "beam") {
+    line = line_of(*t);
+    at_from = t->clamped == ClampedEnds::from || t->clamped == ClampedEnds::both;
+    at_to = t->clamped == ClampedEnds::to || t->clamped == ClampedEnds::both;
+  }
   std::string text = line + stiffnesses(problem, model, s);
   const End a = end_of(s, kinematics, false), b = end_of(s, kinematics, true);
   if (a.held == s.count) return text + "  all of its particles are held\n";
@@ -138,10 +137,8 @@ std::string describe_beam(const Problem& problem, const Model& model, const Stru
 }
 
 std::string describe_loop(const Problem& problem, const Model& model, const Structure& s) {
-  std::string text;
-  for (const LoopTable& t : problem.loops)
-    if (t.name == s.name) text = fmt::format("  radius {:.10g}, chord {:.10g}\n", t.radius, 2 * t.radius * std::sin(pi / s.count));
-  return text + stiffnesses(problem, model, s);
+  const double radius = find_named(problem.loops, s.name)->radius;
+  return fmt::format("  radius {:.10g}, chord {:.10g}\n", radius, 2 * radius * std::sin(pi / s.count)) + stiffnesses(problem, model, s);
 }
 
 std::string describe_sheet(const Problem& problem, const Model& model, const Structure& s) {
@@ -202,9 +199,8 @@ std::string describe_connection(const ConnectTable& t, const Model& model) {
   std::array<std::vector<bool>, 2> member;
   for (int side = 0; side < 2; ++side) {
     member[side].resize(model.particles());
-    for (const Group& g : model.groups)
-      if (g.name == t.between[side])
-        for (const int p : g.particles) member[side][p] = true;
+    if (const Group* group = find_named(model.groups, t.between[side]))
+      for (const int p : group->particles) member[side][p] = true;
   }
   Range lengths;
   int bonds = 0;
@@ -255,8 +251,8 @@ std::string describe_structures(const Problem& problem, const Model& model, cons
                          : fmt::format("over the bonds that meet in '{}' at {:.10g} degrees or more", *t.over, t.least.value_or(0)),
                         t.angle_stiffness ? fmt::format(", B = {:.10g}", *t.angle_stiffness) : "");
   for (const GlueTable& t : problem.glue)
-    for (const Group& g : model.groups)
-      if (g.name == t.group) text += fmt::format("glue: '{}' carries {} particles of '{}'\n", t.body, g.particles.size(), t.group);
+    if (const Group* g = find_named(model.groups, t.group))
+      text += fmt::format("glue: '{}' carries {} particles of '{}'\n", t.body, g->particles.size(), t.group);
   return text;
 }
 

@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "study/commands.hpp"
 
 #include "core/error.hpp"
@@ -82,7 +83,7 @@ void export_command(const ExportOptions& options) {
     const Stage stage = stages.enter(unclear);
     const double load_factor = starting_load_factor(problem);
     const std::vector<bool> absent = absent_in(problem, stage.number, all);
-    if (connects_before(problem, stage.number) || std::find(absent.begin(), absent.end(), true) != absent.end())
+    if (connects_before(problem, stage.number) || contains(absent, true))
       study.refused.push_back(fmt::format("stage '{}': what is added or taken away as it begins", stage.name));
     const double from = !path ? load_factor : k == 0 ? load_factor : stage.path.from;
     study.stages.push_back({stage.name, model_in(problem, stage, all, study.start), from, path ? stage.path.to : load_factor});

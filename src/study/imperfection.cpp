@@ -1,5 +1,6 @@
 #include "study/imperfection.hpp"
 
+#include "core/find.hpp"
 #include "core/suggest.hpp"
 #include "input/build.hpp"
 #include "model/imperfection.hpp"
@@ -113,9 +114,8 @@ class Maker {
   /// What is not of the group, what leads out of the plane, what a body carries.
   void keep_still(Field& by) const {
     std::vector<bool> moved(model_.particles());
-    for (const Group& g : model_.groups)
-      if (g.name == t_.group)
-        for (const int p : g.particles) moved[p] = true;
+    if (const Group* group = find_named(model_.groups, t_.group))
+      for (const int p : group->particles) moved[p] = true;
     for (const Glued& g : model_.glued) moved[g.particle] = false;
     for (int p = 0; p < model_.particles(); ++p)
       if (!moved[p]) by.col(p).setZero();

@@ -26,7 +26,7 @@ namespace {
 
 // "final", "branch:1" or "step=12", of a frame.
 const StoredState& stored_at(const StoredRun& run, const std::string& at) {
-  const int column = column_index(run.path.columns, "step");
+  const int column = run.path.column("step");
   std::vector<std::string> known;
   for (const StoredState& s : run.states) {
     if (!s.file.ends_with(".data")) continue;

@@ -51,7 +51,7 @@ void leave_out_ends(const std::vector<RunTables>& runs, const std::string& at, R
   for (const RunTables& run : runs) {
     std::string why;
     const Row& last = run.path->rows.back();
-    labels.insert(at == "final" ? csv_text(last[column_index(run.path->columns, "label")]) : at);
+    labels.insert(at == "final" ? csv_text(last[run.path->column("label")]) : at);
     ends.push_back(value_at("lambda", at, run, why).value_or(0));
   }
   const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
@@ -108,7 +108,7 @@ std::vector<Verdict> finish_refinement(const PreparedRuns& prepared, const std::
     all["levels"].push_back(std::move(level));
   }
   all.update(refined_json(refined));
-  write_text(directory.file("refine.json"), all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(directory.file("refine.json"), file_text(all));
   write_csv(directory.file("refine.csv"), refined_table(refined, tables.size()));
   if (!quiet) say("{}", closing_refined(refined));
   std::vector<Verdict> verdicts;

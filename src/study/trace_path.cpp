@@ -1,3 +1,4 @@
+#include "core/find.hpp"
 #include "core/interrupt.hpp"
 #include "input/check.hpp"
 #include "input/staged_structure.hpp"
@@ -30,7 +31,7 @@ std::vector<double> stops_of(const Problem& problem) {
 }
 
 PathOptions options_of(const Problem& problem, const PathTable& t, const Model& model) {
-  const auto locates = [&](const char* kind) { return std::find(t.locate.begin(), t.locate.end(), kind) != t.locate.end(); };
+  const auto locates = [&](const char* kind) { return contains(t.locate, kind); };
   return {.method = t.method, .from = t.from, .to = t.to, .steps = t.steps,
           .when_unstable = t.when_unstable.value_or(WhenUnstable::jump), .start = t.start_lambda,
           .stops = stops_of(problem), .limits = locates("limit"), .branch_points = locates("branch"),

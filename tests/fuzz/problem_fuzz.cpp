@@ -175,7 +175,7 @@ class Inputs {
     for (const Row& row : result.path.rows)
       for (std::size_t c = 0; c < row.size(); ++c)
         if (const bool* stable = std::get_if<bool>(&row[c]); stable && *stable && result.path.columns[c] == "stable")
-          if (const int energy = column_index(result.path.columns, "energy"); energy >= 0 && !as_number(row[static_cast<std::size_t>(energy)])) std::abort();
+          if (const int energy = result.path.column("energy"); energy >= 0 && !as_number(row[static_cast<std::size_t>(energy)])) std::abort();
     ++tally.ran;
   }
   static std::string key_in(const std::string& text, Mutations& mutations) {

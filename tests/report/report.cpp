@@ -148,11 +148,11 @@ TEST_CASE("a page holds the numbers of a run's files", "[report]") {
     std::string bonds = run.states[k].file;
     const Table table = read_table(bonds.replace(bonds.rfind(".data"), 5, ".bonds.csv"));
     const std::vector<float> tension = floats(state["fields"]["tension"]);
-    for (std::size_t b : {0, 1}) CHECK(tension[b] == Approx(*as_number(table.rows[b][column_index(table.columns, "tension")])).margin(1e-12));
+    for (std::size_t b : {0, 1}) CHECK(tension[b] == Approx(*as_number(table.rows[b][table.column("tension")])).margin(1e-12));
   }
 
   int frames = 0;                                                 // beside the states that have a label
-  const int z = column_index(run.path.columns, "z");
+  const int z = run.path.column("z");
   for (const StoredState& s : run.states) {
     CHECK(*as_number(run.path.rows[static_cast<std::size_t>(s.row)][static_cast<std::size_t>(z)]) == read_lammps_data(s.file).position(2, 2));
     frames += s.label.empty();
@@ -198,7 +198,7 @@ TEST_CASE("a page has of every stage what was there", "[report]") {
         CHECK(tension[b] == 0);
         continue;
       }
-      const auto number = [&](const char* column) { return *as_number(bonds.rows[row][column_index(bonds.columns, column)]); };
+      const auto number = [&](const char* column) { return *as_number(bonds.rows[row][bonds.column(column)]); };
       CHECK(number("first") == id[pairs[2 * b]]);
       CHECK(number("second") == id[pairs[2 * b + 1]]);
       CHECK(tension[b] == Approx(number("tension")).margin(1e-9));     // 1e6 times the rounding of a length

@@ -102,7 +102,7 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
   path.rows.push_back(path_row(p, {0.75, -2}));
   events.rows.push_back(event_row(p, {0.75, -2}));
   const auto cell = [](const Table& t, const std::string& name) {
-    return t.rows.at(0).at(column_index(t.columns, name));
+    return t.rows.at(0).at(t.column(name));
   };
   for (const Table* t : {&path, &events}) {
     REQUIRE(t->rows[0].size() == t->columns.size());
@@ -130,7 +130,7 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
   CHECK(cell(events, "negative_after") == Cell(6));
   CHECK(cell(events, "what") == Cell(std::string("1 touches 2")));
   CHECK(cell(events, "multiplicity") == Cell(2));
-  CHECK(column_index(path.columns, "multiplicity") == -1);
+  CHECK(path.column("multiplicity") == -1);
 
   // A path in stages says of which at the very end.
   CHECK(path_columns(names, true).back() == "stage");
@@ -145,12 +145,12 @@ TEST_CASE("columns of path.csv, events.csv and sweep.csv fit their rows", "[tabl
   const auto columns = sweep_columns({"beam.column.particles"}, problem);
   const Row row = sweep_row({14}, "done", path, events, problem);
   REQUIRE(row.size() == columns.size());
-  CHECK(row[column_index(columns, "beam.column.particles")] == Cell(14));
-  CHECK(row[column_index(columns, "status")] == Cell(std::string("done")));
-  CHECK(row[column_index(columns, "branch:1")] == Cell(0.25));
-  CHECK(row[column_index(columns, "limit:1")] == Cell());
-  CHECK(row[column_index(columns, "aside:1")] == Cell());
-  CHECK(row[column_index(columns, "push")] == Cell(-2.0));
+  CHECK(row[Table{columns, {}}.column("beam.column.particles")] == Cell(14));
+  CHECK(row[Table{columns, {}}.column("status")] == Cell(std::string("done")));
+  CHECK(row[Table{columns, {}}.column("branch:1")] == Cell(0.25));
+  CHECK(row[Table{columns, {}}.column("limit:1")] == Cell());
+  CHECK(row[Table{columns, {}}.column("aside:1")] == Cell());
+  CHECK(row[Table{columns, {}}.column("push")] == Cell(-2.0));
   CHECK(sweep_row({14}, "not_converged", {path.columns, {}}, {events.columns, {}}, problem).size() == columns.size());
   CHECK(is_event("limit:2"));
   CHECK(!is_event("final"));
