@@ -127,15 +127,16 @@ bool comes_to_limit(const Kinematics& kinematics, const Equilibrium& from, doubl
   return w > locate::work_rounding * load.norm() && w * std::abs(change) > locate::of_limit * std::abs(value) * way;
 }
 
-// turns: of the load factor on the segment; nothing: it does not tell. from, value: where the segment begins, and the eigenvalue there.
-Event finish(Newton& newton, const Equilibrium& from, double value, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known,
+// turns: of the load factor on the segment; nothing: it does not tell. lower, upper: its ends, of which one may be on a branch that passes by, as beside a
+// pitchfork that a small force has unfolded.
+Event finish(Newton& newton, const Sample& lower, const Sample& upper, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known,
              std::optional<bool> turns) {
   Event event;
   event.modes = critical_modes(newton, at, index, scale, known);
   newton.energy().evaluate(at.point.state);
   const Vector load = newton.energy().load_derivative();
-  const bool works = work_along(event.modes, load) > locate::orthogonal ||
-                     comes_to_limit(newton.energy().kinematics(), from, value, at, event.modes, load);
+  const auto limit_from = [&](const Sample& end) { return comes_to_limit(newton.energy().kinematics(), end.e, end.f, at, event.modes, load); };
+  const bool works = work_along(event.modes, load) > locate::orthogonal || limit_from(lower) || limit_from(upper);
   const bool limit = turns.value_or(works);
   if (!limit && works) event.modes.resize(event.modes.rows(), 0);       // nor a branch point: two branches pass by each other
   event.kind = limit && event.modes.cols() == 1 ? EventKind::limit : EventKind::branch;
@@ -215,7 +216,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   };
   Sample lower{segment.a, eigenvalue(newton, first, index), first};
   if (std::abs(lower.f) <= newton.factors().zero_level() && a.point.stability.critical > 0)       // a is the event itself
-    return done(finish(newton, first, lower.f, first, index, newton.factors().zero_level(), known, told), segment.a);
+    return done(finish(newton, lower, lower, first, index, newton.factors().zero_level(), known, told), segment.a);
   Sample upper{segment.b, eigenvalue(newton, second, index), second};
   if (std::abs(lower.f) <= 1e-8 * std::abs(upper.f) || (lower.f < 0) == (upper.f < 0)) return {};
   const double scale = std::max(std::abs(lower.f), std::abs(upper.f));
@@ -281,7 +282,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     return zero;
   };
   const auto finished = [&](const Sample& zero, std::optional<bool> limit) {
-    return finish(newton, first, lower.f, zero.e, index, std::max(1e-7 * scale, 4 * std::abs(zero.f)), known, limit);
+    return finish(newton, lower, upper, zero.e, index, std::max(1e-7 * scale, 4 * std::abs(zero.f)), known, limit);
   };
   std::optional<Sample> zero = search(told.value_or(false));
   if (!zero) return {};

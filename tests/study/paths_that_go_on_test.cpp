@@ -1495,3 +1495,7 @@ TEST_CASE("two branch points on a step that ends on a contact are found, though 
     same_events(first, run);
   }
 }
+
+TEST_CASE("a limit point of the branch beside an unfolded pitchfork is no branch point", "[paths][column_pitchfork_unfolded_in_contact]") {
+  same_in_steps("column_pitchfork_unfolded_in_contact", 1, "branch", 0, {13, 5, 40, 80}, {by_arcs, snaps});
+}
