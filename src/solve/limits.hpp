@@ -74,6 +74,8 @@ constexpr double exact = 1.0 / 16;
 /// A residual that is rounding: a few hundred ε. And a rotation of bonds that is, of a chain of 10³ links [rad]: what is left of the forces makes
 /// 10⁻¹² there, and 10⁻² or more where it is all that tells one branch of an unfolded pitchfork from the other.
 constexpr double sharp = 1e-13, unbent = 1e-10;
+/// What a correction that converges leaves of a residual at most, where contacts bear forces.
+constexpr double contracting = 0.25;
 /// A saddle is left along its lowest mode where no force acts along it or along those up to so many more whose eigenvalues are at least
 /// such a part of the lowest: two that buckle alike, in space, of which one has been left already.
 constexpr int modes_looked_at = 3;

@@ -290,13 +290,17 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
   };
   State previous;
   std::vector<double> sizes;                                    // of every correction
+  double before_step = 0;                                       // the residual
   for (double moved = 0; ; ++report.iterations) {
     energy_.evaluate(state, true, {.from = from});
     ++report.evaluations;
     record(report, moved, 0);
     if (guided) report.residual = energy_.relative(free_gradient());
     see(state);
-    const bool settled = report.residual <= options_.tolerance && std::abs(off) <= (plane ? plane->close : 0.0);
+    // A residual that bounces comes below the tolerance by chance, as behind a limit point where a contact has hardly closed: there is no equilibrium.
+    const bool bounces = !settled_at && report.iterations > 0 && report.residual > std::max(limits::sharp, limits::contracting * before_step) && touches(energy_.last_terms());
+    const bool settled = report.residual <= options_.tolerance && std::abs(off) <= (plane ? plane->close : 0.0) && !bounces;
+    before_step = report.residual;
     if (!settled || !std::isfinite(report.energy))
       if (const auto halt = must_halt(state, report, most)) return end(halt->status, halt->why);
     if (!factors_.factorize_resolving(held)) {
@@ -312,9 +316,10 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
           const Factors::Bordered step = rounded_correction(next);
           return move(next, step, 1), infinity_norm(step.p);
         });
-      // Where contacts bear forces, their stiffness changes with every step, and what is left is rounding; a place where one is made or lost is found exactly.
+      // Where contacts bear forces, their stiffness changes with every step, and what is left is rounding; not after a step so short that its forces were below the
+      // tolerance to begin with, and a place where one is made or lost is found exactly.
       const bool locates = plane && plane->condition;
-      if (guided || (touches(energy_.last_terms()) && !locates) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
+      if (guided || (touches(energy_.last_terms()) && !locates && report.iterations > 0) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
         return end(Status::converged, below(options_.tolerance));
       }

@@ -1499,3 +1499,7 @@ TEST_CASE("two branch points on a step that ends on a contact are found, though 
 TEST_CASE("a limit point of the branch beside an unfolded pitchfork is no branch point", "[paths][column_pitchfork_unfolded_in_contact]") {
   same_in_steps("column_pitchfork_unfolded_in_contact", 1, "branch", 0, {13, 5, 40, 80}, {by_arcs, snaps});
 }
+
+TEST_CASE("a residual that bounces below its tolerance is no equilibrium, so that a limit point right behind a contact is not passed", "[paths][column_turns_behind_contact]") {
+  same_in_steps("column_turns_behind_contact", 1, "limit", 10, {13, 5, 20, 50}, {by_arcs, follows});
+}
