@@ -163,16 +163,11 @@ bool is_onward(Energy& energy, const Segment& segment, const ContactKey& key, co
   });
 }
 
-// The gap at which a contact of what floats is as good as closed.
-double least_gap(const Energy& energy, const ContactKey& key, const State& state) {
-  return std::max(contact_event::next_to_none * size_of(energy.model(), key.particle), coordinate_rounding(key, state));
-}
-
 // Where what floats is pushed until a gap is next to nothing, by the secant from the side where it is open: beyond, the gap stays none, and no Newton's
 // method finds where that begins. beyond: a load factor at which it has closed; guess: where it may close.
 std::optional<Equilibrium> pushed_until(Newton& newton, const ContactKey& key, const Equilibrium& from, double beyond, double guess) {
   const Energy& energy = newton.energy();
-  const double wanted = least_gap(energy, key, from.point.state);
+  const double wanted = std::max(contact_event::next_to_none * size_of(energy.model(), key.particle), coordinate_rounding(key, from.point.state));
   double open = from.point.state.load_factor, left = gap(energy, key, from.point.state), rate = left / (guess - open);
   for (int k = 0; k < contact_event::most_closing; ++k) {
     double load = open + (left - wanted) / rate;
@@ -190,36 +185,23 @@ std::optional<Equilibrium> pushed_until(Newton& newton, const ContactKey& key, c
 // apart since, is told again only where it is the last one, which catches what floats.
 ContactChange first_pushed(Newton& newton, const Segment& segment, ContactSet now, const ContactSet& before, const std::vector<ContactKey>& made,
                            const Equilibrium& a, const Equilibrium& b) {
-  const Energy& energy = newton.energy();
   const double from = a.point.state.load_factor, to = b.point.state.load_factor;
-  struct Closing {
-    ContactKey key;
-    double guess;      // the load factor, as the tangent tells it
-    Equilibrium at;
-    double way;        // to the load factor of `at`
-  };
-  std::vector<Closing> closing;
-  for (const ContactKey& key : made) {
-    const std::optional<State> ahead = where_tangent_closes(energy, key, a, b);
-    closing.push_back({key, ahead ? ahead->load_factor : to, {}, std::numeric_limits<double>::infinity()});
-  }
-  std::stable_sort(closing.begin(), closing.end(), [&](const Closing& c, const Closing& d) { return std::abs(c.guess - from) < std::abs(d.guess - from); });
-  const bool again = std::any_of(made.begin(), made.end(), [&](const ContactKey& key) { return before.count(key) > 0; });
-  const Closing* first = nullptr;
+  std::vector<Equilibrium> at;
   double last = 0;
-  for (Closing& c : closing) {
-    // What is open yet where another one closes closes later.
-    if (!again && first && gap(energy, c.key, first->at.point.state) >= least_gap(energy, c.key, a.point.state)) continue;
-    std::optional<Equilibrium> at = pushed_until(newton, c.key, a, to, c.guess);
-    if (!at) return {};
-    c.at = std::move(*at), c.way = std::abs(c.at.point.state.load_factor - from), last = std::max(last, c.way);
-    if (!again && (!first || c.way < first->way)) first = &c;
+  for (const ContactKey& key : made) {
+    const std::optional<State> ahead = where_tangent_closes(newton.energy(), key, a, b);
+    std::optional<Equilibrium> e = pushed_until(newton, key, a, to, ahead ? ahead->load_factor : to);
+    if (!e) return {};
+    at.push_back(std::move(*e));
+    last = std::max(last, std::abs(at.back().point.state.load_factor - from));
   }
-  for (const Closing& c : closing) {
-    if (before.count(c.key) && c.way < (1 - contact_event::together_in_step) * last) now.insert(c.key);
-    else if (!first || c.way < first->way) first = &c;
+  std::size_t first = made.size();
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    const double way = std::abs(at[k].point.state.load_factor - from);
+    if (before.count(made[k]) && way < (1 - contact_event::together_in_step) * last) now.insert(made[k]);
+    else if (first == made.size() || way < std::abs(at[first].point.state.load_factor - from)) first = k;
   }
-  ContactChange change{true, segment.parameter(first->at.point.state), first->at, {}, {}};
+  ContactChange change{true, segment.parameter(at[first].point.state), at[first], {}, {}};
   std::vector<ContactKey> together;
   for (const ContactKey& key : closed_contacts(newton.energy(), change.at))
     if (!now.count(key)) together.push_back(key);
