@@ -318,8 +318,8 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
         });
       // Where contacts bear forces, their stiffness changes with every step, and what is left is rounding; not after a step so short that its forces were below the
       // tolerance to begin with, and a place where one is made or lost is found exactly.
-      const bool locates = plane && plane->condition;
-      if (guided || (touches(energy_.last_terms()) && !locates && report.iterations > 0) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
+      const bool finer = (plane && plane->condition) || (report.iterations == 0 && !energy_.slack());
+      if (guided || (touches(energy_.last_terms()) && !finer) || report.residual <= limits::sharp || (settled_at && report.residual > least / 2)) {
         if (settled_at && report.residual > least) state = *settled_at;
         return end(Status::converged, below(options_.tolerance));
       }
