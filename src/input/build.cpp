@@ -1,5 +1,6 @@
 #include "input/build.hpp"
 
+#include "core/find.hpp"
 #include "input/check.hpp"
 #include "input/parts.hpp"
 #include "input/group.hpp"
@@ -60,7 +61,7 @@ class Builder {
   void add_own(const std::vector<OwnLaw>& own) {
     const std::vector<std::string> taken = taken_columns(p_);
     for (const OwnLaw& law : own) {
-      if (std::find(taken.begin(), taken.end(), law.term) != taken.end())
+      if (contains(taken, law.term))
         mistakes_.add(fmt::format("the law \"{}\": there is a column of this name already; give it another one", law.term));
       std::optional<int> wrong;
       for (const std::vector<int>& element : law.elements)

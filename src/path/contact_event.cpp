@@ -1,5 +1,6 @@
 #include "path/contact_event.hpp"
 
+#include "core/find.hpp"
 #include "energy/body_touches.hpp"
 #include "model/entities.hpp"
 #include "path/arc.hpp"
@@ -60,7 +61,7 @@ void tell(Newton& newton, ContactChange& change, const ContactSet& before, std::
   std::vector<std::string> sentences;
   for (const ContactKey& key : changed) {
     const std::string sentence = told(newton.energy().model(), key, change.after.count(key) > 0);
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
+    if (!contains(sentences, sentence)) sentences.push_back(sentence);
   }
   for (std::size_t k = 0; k < std::min(contact_event::most_told, sentences.size()); ++k) change.what += (k ? ", " : "") + sentences[k];
   if (sentences.size() > contact_event::most_told) change.what += fmt::format(" and {} more", sentences.size() - contact_event::most_told);
@@ -323,7 +324,7 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   std::erase_if(changed, [&](const ContactKey& key) { return key != met && !near(key, found); });
   std::vector<ContactKey> unloaded;
   for (const ContactKey& key : just_touching(energy, found, now))
-    if (key.feature < 0 && std::find(changed.begin(), changed.end(), key) == changed.end() && near(key, found)) unloaded.push_back(key);
+    if (key.feature < 0 && !contains(changed, key) && near(key, found)) unloaded.push_back(key);
   tell(newton, change, now, changed, chord, load_change, a.point.state.load_factor, a.point.stability.negative, unloaded);
   return change;
 }

@@ -1,5 +1,6 @@
 #include "path/continuation.hpp"
 
+#include "core/find.hpp"
 #include "model/entities.hpp"
 #include "path/cause.hpp"
 #include "path/family.hpp"
@@ -174,7 +175,7 @@ void Continuation::show(Waypoint waypoint) {
   if (waypoint.stop) {
     const double stop = *waypoint.stop;
     if (stop == options_.to) return end_reached();
-    if (std::find(options_.stops.begin(), options_.stops.end(), stop) == options_.stops.end())
+    if (!contains(options_.stops, stop))
       return end(Status::converged, fmt::format("the branch leaves the range of load factors at {:.10g}", stop));
   }
   if (closes_loop(waypoint)) end(Status::converged, fmt::format("the branch closes to a loop at load factor {:.10g}", load));

@@ -1,5 +1,6 @@
 #include "path/curve.hpp"
 
+#include "core/find.hpp"
 #include "core/interrupt.hpp"
 #include "path/arc.hpp"
 #include "path/limits.hpp"
@@ -161,7 +162,7 @@ class CurveTracer {
       point.label = fmt::format("{}:{}", point.label, ++numbers_[point.label]);
       point.threshold.at.point.label = point.label;
       found_(point);
-      if (std::find(options_.until.begin(), options_.until.end(), point.label) == options_.until.end()) continue;
+      if (!contains(options_.until, point.label)) continue;
       until_ = point.label;
       break;
     }

@@ -1,5 +1,6 @@
 #include "path/equilibrium.hpp"
 
+#include "core/find.hpp"
 #include "model/entities.hpp"
 #include "model/rigid_motion.hpp"
 #include "path/arc.hpp"
@@ -168,7 +169,7 @@ void see_floating(const Newton& newton, Energy& energy, Equilibrium& e) {
   if (std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return t.force.norm() > most; })) return;
   const std::vector<bool> free = free_sites(energy, e.point.state);
   const auto is_free = [&](int entity) { return entity >= 0 && free[is_body(model, entity) ? energy.kinematics().place_of(entity - model.particles()) : entity]; };
-  e.floats = std::find(free.begin(), free.end(), true) != free.end();
+  e.floats = contains(free, true);
   e.pushed = std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return is_free(t.particle) || is_free(t.other); });
 }
 

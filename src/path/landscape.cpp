@@ -1,5 +1,6 @@
 #include "path/landscape.hpp"
 
+#include "core/find.hpp"
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
 #include "model/entities.hpp"
@@ -160,7 +161,7 @@ class Explorer {
       const std::vector<NodeImage> minima = found_.images(0);
       const std::vector<int> part = parts(minima);
       std::size_t i = 1;
-      while (i < minima.size() && (part[i] == part[0] || std::find(tried_.begin(), tried_.end(), minima[i]) != tried_.end())) ++i;
+      while (i < minima.size() && (part[i] == part[0] || contains(tried_, minima[i]))) ++i;
       if (i >= minima.size()) break;
       tried_.push_back(minima[i]);
       const Equilibrium a = found_.at(minima[0]), b = found_.at(minima[i]);
