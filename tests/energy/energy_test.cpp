@@ -137,9 +137,11 @@ TEST_CASE("same bits for any number of threads", "[energy]") {
   const Vector g = energy.gradient();
   const SparseMatrix H = energy.hessian();
   const double e = energy.last_terms().total();
-  set_threads(2);
-  energy.evaluate(state);
-  CHECK(e == energy.last_terms().total());
-  CHECK(g == energy.gradient());
-  CHECK(std::equal(H.valuePtr(), H.valuePtr() + H.nonZeros(), energy.hessian().valuePtr()));
+  for (const int threads : {2, 4}) {
+    set_threads(threads);
+    energy.evaluate(state);
+    CHECK(e == energy.last_terms().total());
+    CHECK(g == energy.gradient());
+    CHECK(std::equal(H.valuePtr(), H.valuePtr() + H.nonZeros(), energy.hessian().valuePtr()));
+  }
 }

@@ -9,17 +9,16 @@
 #include "core/timing.hpp"
 #include "input/grains.hpp"
 #include "input/state_supplement.hpp"
+#include "mutations.hpp"
 #include "scratch_directory.hpp"
 #include "study/prepare.hpp"
 #include "study/single.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
-#include <random>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -48,70 +47,6 @@ long number_in(const char* name, long otherwise) {
   return text ? std::atol(text) : otherwise;
 }
 
-const std::vector<std::string> odd_words{
-    "0", "-1", "1", "-0.0", "nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "1e-30", "9223372036854775807", "2147483648", "1000000000", "\"\"", "\"all\"", "\"xyz\"", "[]", "[0, 0, 0]",
-    "[1e300, 0, 0]", "[[]]", "{}", "true", "1979-05-27", "\"..\"", "\"/dev/zero\"", "\"/etc/passwd\"", "\"{}\"", "[nan, 0, 0]", "'''", "\\", "=", "\"\\u0000\"", "\"lj\"", "\"hertz\"",
-    "\"rounded\"", "\"path\"", "\"dynamics\"", "\"arc_length\"", "0.5", "1e3", "3", "100"};
-
-class Mutations {
- public:
-  explicit Mutations(std::uint64_t seed) : random_(seed) {}
-  std::size_t pick(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
-
-  /// One to four changes: of a letter, a number, the value of a key, a line, the end; or lines of another text.
-  void change(std::string& text, const std::vector<std::string>& others) {
-    for (std::size_t changes = 1 + pick(4); changes > 0; --changes) {
-      if (text.empty()) text = "\n";
-      const std::size_t at = pick(text.size());
-      switch (pick(8)) {
-        case 0: text[at] = static_cast<char>(random_()); break;
-        case 1: case 2: number(text, at); break;
-        case 3: case 4: value(text, at); break;
-        case 5: {
-          const auto [begin, end] = line(text, at);
-          if (pick(2)) text.erase(begin, end - begin);
-          else text.insert(begin, text.substr(begin, end - begin));
-          break;
-        }
-        case 6:
-          if (pick(8) == 0) text.resize(at);
-          break;
-        default: {
-          const std::string& other = others[pick(others.size())];
-          std::size_t begin = line(other, pick(other.size())).first, end = begin;
-          for (std::size_t lines = 1 + pick(5); lines > 0 && end < other.size(); --lines) end = line(other, end).second;
-          text.insert(line(text, at).first, other.substr(begin, end - begin));
-        }
-      }
-    }
-  }
-  std::string odd() { return odd_words[pick(odd_words.size())]; }
-
- private:
-  static std::pair<std::size_t, std::size_t> line(const std::string& text, std::size_t at) {
-    const std::size_t before = at == 0 ? std::string::npos : text.rfind('\n', at - 1), end = text.find('\n', at);
-    return {before == std::string::npos ? 0 : before + 1, end == std::string::npos ? text.size() : end + 1};
-  }
-  void number(std::string& text, std::size_t at) {
-    const auto in_number = [&](std::size_t k) { return std::isdigit(static_cast<unsigned char>(text[k])) || text[k] == '.' || text[k] == '-' || text[k] == 'e'; };
-    while (at < text.size() && !std::isdigit(static_cast<unsigned char>(text[at]))) ++at;
-    std::size_t end = at;
-    while (end < text.size() && in_number(end)) ++end;
-    while (at > 0 && in_number(at - 1)) --at;
-    if (at >= text.size()) return;
-    const std::string now = text.substr(at, end - at);
-    static const std::vector<std::string> factors{"0.1", "10", "-1", "1e-6", "1e6", "2"};
-    text.replace(at, end - at, pick(2) ? odd() : std::to_string(std::atof(now.c_str()) * std::atof(factors[pick(factors.size())].c_str())));
-  }
-  void value(std::string& text, std::size_t at) {
-    const auto [begin, end] = line(text, at);
-    const std::size_t equals = text.find('=', begin);
-    if (equals < end) text.replace(equals + 1, end - equals - 1, " " + odd() + "\n");
-  }
-
-  std::mt19937_64 random_;
-};
-
 /// Seeds, and what becomes of the damaged ones.
 class Inputs {
  public:
@@ -122,8 +57,8 @@ class Inputs {
     std::sort(files_.begin(), files_.end());
     for (const std::string& file : files_) problems_.push_back(text_of(file));
     grains_.push_back(text_of(std::string(ELAMIN_ROOT) + "/problems/helix_8.csv"));
-    states_.push_back(R"({"load_factor": 0.5, "low": [[0, 0, 0], [1e-20, 0, 0]], "path": {"varied": ["support.top"], "rising": true, "before": -1, "after": -1, "label": "",
-"modes": [], "tangent": [0.5, 1], "direction": [], "load": 0, "length": 1, "step": 0.1, "shortest": 1e-3, "closed": [[0, 1, -1]]}})");
+    for (const auto& entry : fs::directory_iterator(std::string(ELAMIN_ROOT) + "/tests/fuzz/states")) states_.push_back(text_of(entry.path().string()));
+    std::sort(states_.begin(), states_.end());
   }
 
   void operator()(long number, Tally& tally) {
@@ -152,7 +87,7 @@ class Inputs {
     read_grains(scratch_.file("grains.csv", text));
   }
   void state(Mutations& mutations) {
-    std::string text = states_[0];
+    std::string text = states_[mutations.pick(states_.size())];
     mutations.change(text, states_);
     scratch_.file("state.json", text);
     read_supplement(scratch_.file("state.data", ""));
@@ -161,7 +96,7 @@ class Inputs {
     const std::size_t seed = mutations.pick(files_.size());
     std::string text = problems_[seed];
     std::vector<Setting> settings;
-    if (number % 10 == 2) settings = {parse_setting(key_in(text, mutations) + "=" + mutations.odd())};
+    if (number % 10 == 2) settings = {parse_setting(mutations.setting(text))};
     else mutations.change(text, problems_);
     if (number_in("ELAMIN_FUZZ", 0) == 1) scratch_.file("../elamin_fuzz.toml", text + (settings.empty() ? "" : "\n# --set " + settings[0].key + "=" + settings[0].value));
     const PreparedRuns runs = prepare_runs(parse_document(text, files_[seed]), settings);
@@ -177,15 +112,6 @@ class Inputs {
         if (const bool* stable = std::get_if<bool>(&row[c]); stable && *stable && result.path.columns[c] == "stable")
           if (const int energy = result.path.column("energy"); energy >= 0 && !as_number(row[static_cast<std::size_t>(energy)])) std::abort();
     ++tally.ran;
-  }
-  static std::string key_in(const std::string& text, Mutations& mutations) {
-    const std::size_t at = text.find("\n[", mutations.pick(text.size()));
-    if (at == std::string::npos) return "path.steps";
-    const std::size_t begin = text.find_first_not_of("[\n", at), end = text.find(']', begin), line = text.find('\n', end), equals = text.find('=', line);
-    if (equals == std::string::npos) return "solver.tolerance";
-    std::string key = text.substr(begin, end - begin) + "." + text.substr(line + 1, equals - line - 1);
-    std::erase_if(key, [](unsigned char c) { return std::isspace(c); });
-    return key;
   }
 
   std::vector<std::string> files_, problems_, grains_, states_;
