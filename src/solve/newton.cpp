@@ -111,6 +111,8 @@ void Newton::polish(State& state, Report& report, const std::function<double(Sta
   }
 }
 
+Newton::Halt Newton::a_minimum() const { return {Status::converged, below(options_.tolerance) + " and the Hessian has no negative eigenvalue"}; }
+
 Report Newton::minimise(State& state, Pace pace, int most) {
   const Effort effort(factors_);
   Descent descent{.pace = pace, .most = most, .step_bound = extent_};
@@ -124,6 +126,7 @@ Report Newton::minimise(State& state, Pace pace, int most) {
   }
   iterations += before;
   effort.tell(descent.report);
+  if (descent.settled_at && halt->status == Status::not_converged) state = *descent.settled_at, halt = a_minimum();
   if (halt->status == Status::not_converged)
     if (const std::string what = obstacle(energy_, state); !what.empty()) halt->why += "; " + what;
   return finish(state, descent.report, *halt);
@@ -136,8 +139,13 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   if (std::isfinite(descent.report.energy))
     if (const auto halt = no_factor()) return halt;
   const bool stays = descent.pace == Pace::stationary;
-  if (settled && (is_minimum(state, descent) || stays))
-    return Halt{Status::converged, below(options_.tolerance) + (stays ? "" : " and the Hessian has no negative eigenvalue")};
+  bool bends = false;
+  if (settled) {
+    const bool minimum = is_minimum(state, descent);
+    if (stays) return Halt{Status::converged, below(options_.tolerance)};
+    bends = minimum && still_bends(state, descent);
+    if (minimum && !bends) return a_minimum();
+  }
   if (const auto halt = must_halt(state, descent.report, descent.most)) return halt;
   if (stays && (descent.rises >= limits::most_rises || !contracts(descent.report.history)))
     return Halt{Status::not_converged, fmt::format("Newton's method does not contract; the residual is {:.2g}", descent.report.residual)};
@@ -149,10 +157,10 @@ std::optional<Newton::Halt> Newton::iterate(State& state, Descent& descent) {
   if (!convex) return without_factor();
   descent.shift = *convex;
   if (left) {
-    descent.left = true, descent.linearised = false;
+    descent.left = true, descent.linearised = false, descent.settled_at.reset();
     return {};
   }
-  if (settled) return Halt{Status::not_converged, "a saddle could not be left along its negative curvature"};
+  if (settled && !bends) return Halt{Status::not_converged, "a saddle could not be left along its negative curvature"};
   std::optional<Step> step = step_within(descent.step_bound, g, descent.shift);
   if (!step) return without_factor();
   if (!resolve_softest(g, descent, *step)) return without_factor();
@@ -187,6 +195,19 @@ bool Newton::is_minimum(State& state, Descent& descent) {
   // With a zero mode the exact factor would fill the steps with its rounding.
   if (factors_.make_positive_from(inertia.zero > 0 ? limits::hold_zero_modes * factors_.zero_level() : 0.0))
     polish(state, descent.report, by_factor);
+  return true;
+}
+
+// Whether the forces that are left at a minimum, below the tolerance, would still bend the structure: then they may be all that tells how far it has buckled, and
+// Newton's method goes on as long as it halves them. Else the state is the best so far. Where contacts bear forces, what is left is rounding.
+bool Newton::still_bends(State& state, Descent& descent) {
+  const double residual = descent.report.residual, least = descent.settled_at ? descent.least : infinity;
+  if (residual > least) state = *descent.settled_at;
+  if (residual <= limits::sharp || residual > least / 2) return false;
+  energy_.evaluate(state);
+  if (touches(energy_.last_terms()) || !factors_.make_positive_from(0)) return false;
+  if (distortion(energy_, state, factors_.cholesky().solve(energy_.gradient())) <= limits::unbent) return false;
+  descent.settled_at = state, descent.least = residual, descent.linearised = false;
   return true;
 }
 

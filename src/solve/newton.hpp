@@ -108,6 +108,8 @@ class Newton {
     bool left = false;           // a saddle, in the last iteration
     bool linearised = false;     // previous holds where the last step came from
     State previous = {};
+    std::optional<State> settled_at = {};   // a minimum by the tolerance, whose forces still bend the structure …
+    double least = 0;                       // … and its residual
     Report report = {};
     const State* from() const { return linearised ? &previous : nullptr; }
   };
@@ -117,6 +119,8 @@ class Newton {
   [[nodiscard]] std::optional<Halt> iterate(State& state, Descent& descent);
   void look(const State& state, Descent& descent);
   bool is_minimum(State& state, Descent& descent);
+  [[nodiscard]] bool still_bends(State& state, Descent& descent);
+  Halt a_minimum() const;
   [[nodiscard]] std::optional<Halt> advance(State& state, Descent& descent, Step step);
   [[nodiscard]] std::optional<Step> shorter_step(const State& state, Descent& descent, const Step& step, double alpha);
   Part part_of(const State& state, const Step& step) const;
