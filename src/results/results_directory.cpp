@@ -57,6 +57,15 @@ std::string holds(const std::string& directory, const std::vector<std::string>& 
   return fmt::format("{}{}", fmt::join(found.begin(), found.begin() + shown, ", "), std::ssize(found) > shown ? ", …" : "");
 }
 
+// Throws where a file would be written through a symbolic link; what a run that was killed had not finished of it goes.
+void refuse_links(const std::string& directory, const std::string& name) {
+  std::error_code error;
+  fs::path part = directory;
+  for (const fs::path& each : fs::path(name))
+    if (part /= each; fs::is_symlink(part, error)) throw OutputError(part.string() + ": is a symbolic link, through which nothing is written; remove it, or choose another directory by -o");
+  remove_unfinished(part.string());
+}
+
 const std::string unfinished_list = list_name + std::string(".new");      // of a run that was killed at once
 
 }  // namespace
@@ -97,9 +106,9 @@ ResultsDirectory::ResultsDirectory(std::string directory, bool force, const File
   if (!force) require_results(directory_);
   create(directory_);
   lock_.emplace(directory_);
+  for (const char* own : {list_name, checkpoint_name}) refuse_links(directory_, own);
   std::error_code error;
   fs::remove(checkpoint_file(directory_), error);
-  remove_unfinished(checkpoint_file(directory_));
   Files folders;
   for (const std::string& name : listed_in(directory_).value_or(std::vector<std::string>{})) {
     const fs::path file = place(directory_, name);
@@ -119,6 +128,7 @@ ResultsDirectory::ResultsDirectory(std::string directory, bool force, const File
 
 ResultsDirectory::ResultsDirectory(std::string directory, const Files& kept, std::optional<std::uintmax_t> bytes) : directory_(std::move(directory)), kept_(kept) {
   lock_.emplace(directory_);
+  for (const char* own : {list_name, checkpoint_name}) refuse_links(directory_, own);
   const std::string list = place(directory_, list_name);
   std::error_code error;
   const std::uintmax_t listed = bytes.value_or(fs::file_size(list, error));
@@ -129,7 +139,6 @@ ResultsDirectory::ResultsDirectory(std::string directory, const Files& kept, std
     remove_unfinished(file);
     if (!listed_.count(name) && !kept_.count(located(file)) && !fs::is_directory(fs::symlink_status(file, error))) fs::remove(file, error);
   }
-  remove_unfinished(list), remove_unfinished(checkpoint_file(directory_));
   fs::resize_file(list, listed, error);                         // last: what is not on it any more is no longer there
 }
 
@@ -141,6 +150,7 @@ void ResultsDirectory::list(const std::string& name) {
 }
 
 std::string ResultsDirectory::file(const std::string& name) {
+  refuse_links(directory_, name);
   list(name);
   const fs::path path = fs::path(directory_) / name;
   create(path.parent_path().string());

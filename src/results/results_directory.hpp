@@ -41,7 +41,8 @@ class ResultsDirectory {
   /// The directory of a run that was stopped, as it was when its list had so many bytes: files that came later are removed; none: as it is.
   ResultsDirectory(std::string directory, const Files& kept, std::optional<std::uintmax_t> listed = {});
 
-  /// The path of a file that is going to be written, and its folder made: "states/final.data" → DIR/states/final.data.
+  /// The path of a file that is going to be written, and its folder made: "states/final.data" → DIR/states/final.data. Throws OutputError where one of them is a
+  /// symbolic link: nothing is written through it.
   std::string file(const std::string& name);
 
   /// Removes what has been written under names that begin so, but for the files kept.

@@ -66,3 +66,24 @@ TEST_CASE("a sweep stops at a directory that holds something else, or takes --fo
   CHECK(text_of(scratch / "other/states/states/final.data") == "mine");
   CHECK(elamin_says(run + " --force").status == 0);
 }
+
+TEST_CASE("nothing is written through symbolic links in a directory of results", "[study][directories]") {
+  const ScratchDirectory scratch;
+  const std::string run = "'" + scratch.file("p.toml", grain_and_body + in_time) + "' --quiet -o '" + (scratch / "out") + "'", mine = scratch.file("mine", "mine");
+  REQUIRE(elamin_says(run).status == 0);
+  const std::string named = GENERATE(".elamin", ".elamin.new", ".gitignore.new", "summary.json", "summary.json.new", "states", "states/final.data", "states/final.data.new", "trajectory.csv");
+  CAPTURE(named);
+  const std::filesystem::path link = scratch / ("out/" + named);
+  const bool folder = named == "states";
+  if (folder) std::filesystem::create_directory(scratch / "elsewhere");
+  std::filesystem::remove_all(link);
+  std::filesystem::create_symlink(folder ? scratch / "elsewhere" : mine, link);
+  for (const char* again : {"", " --force"}) {
+    const Answer answer = elamin_says(run + again);
+    INFO(answer.text);
+    CHECK((answer.status == 0 || answer.text.find("is a symbolic link, through which nothing is written; remove it") != std::string::npos ||
+           answer.text.find("is not empty and not the results of a run") != std::string::npos));
+    CHECK(text_of(mine) == "mine");
+    if (folder) CHECK(std::filesystem::is_empty(scratch / "elsewhere"));
+  }
+}

@@ -1503,3 +1503,7 @@ TEST_CASE("a limit point of the branch beside an unfolded pitchfork is no branch
 TEST_CASE("a residual that bounces below its tolerance is no equilibrium, so that a limit point right behind a contact is not passed", "[paths][column_turns_behind_contact]") {
   same_in_steps("column_turns_behind_contact", 1, "limit", 10, {13, 5, 20, 50}, {by_arcs, follows});
 }
+
+TEST_CASE("a snap that begins hardly behind its branch point ends in one minimum, whatever the steps", "[paths][column_snaps_beside_branch]") {
+  same_in_steps("column_snaps_beside_branch", 0.035246465239896947, "jump", 1, {14, 5, 30}, {by_load_steps, snaps});
+}
