@@ -135,9 +135,16 @@ double Arc::load_rate(const Equilibrium& e) const {
   return d.load / std::max(cosine(d, direction_, metric_), arc::least_cosine);
 }
 
+// A column that is all but free to spin about its line is spun by the forces that are out of balance on the way: then its motions as a rigid part are held there, and
+// follow at the end.
 Equilibrium Arc::at(double s, const Equilibrium& nearest) const {
   State state;
-  const Report report = correct(state, s, nearest);
+  Report report = correct(state, s, nearest);
+  if (report.status == Status::not_converged && nearest.zero_modes.cols() == 0) {
+    Equilibrium held = nearest;
+    held.zero_modes = free_motions(newton_.energy(), nearest.point.state);
+    if (held.zero_modes.cols() > 0 && correct(state, s, held).converged()) report = settle(state, {});
+  }
   if (!report.converged()) {
     Equilibrium failed;
     failed.point.state = state, failed.point.report = report;

@@ -163,7 +163,7 @@ std::optional<Branch::Candidate> ArcSteps::attempt(double s, const Direction& to
     if (ends_on_event && shifts++ < arc_steps::most_shifts) return better = 0.87 * s, std::nullopt;      // by chance: let it be inside of a step
   }
   if (negative_ < 0 && !look_beyond(arc, *c)) return better = arc_steps::just_beyond * s, std::nullopt;
-  const Segment segment = fading ? *fading : beside({0, c->parameter, [&](double t, const Equilibrium& nearest) { return arc.at(t, nearest); },
+  const Segment segment = fading ? *fading : beside({0, c->parameter, [&](double t, const Equilibrium& nearest) { return on(arc, t, nearest); },
                                   [&](State& state, const Eigen::MatrixXd& held) { return arc.settle(state, held); },
                                   [&](const State& state) { return arc.position(state); }, [&](const Equilibrium& e) { return arc.load_rate(e); },
                                   [&](const Equilibrium& from, const Equilibrium& to) { return joins(arc, from, to); }}, *c);
@@ -211,7 +211,7 @@ bool ArcSteps::stays_on_branch(const Arc& arc, double s, const Equilibrium& e, s
 // Of a branch that leaves a branch point: whether the index and the sign of dλ/ds are the same right behind it as at the candidate. There rounding may be more than
 // the rate, of slender structures; then it is not what the change of the load factor tells:  s dλ/ds = m Δλ, m = 1 of a line, 2 of a parabola, 4 of a symmetric cusp.
 bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
-  const Equilibrium near = arc.at(arc_steps::just_beyond * c.parameter, current_);
+  const Equilibrium near = on(arc, arc_steps::just_beyond * c.parameter, current_);
   if (!near.point.report.converged()) return false;
   const auto rises = [&](const Equilibrium& e) { return direction_of(e, metric_, arc.direction()).load >= 0; };
   const auto told = [&](const Equilibrium& e) {
@@ -221,6 +221,12 @@ bool ArcSteps::look_beyond(const Arc& arc, const Candidate& c) {
   if (near.point.stability.negative != c.e.point.stability.negative || (rises(near) != rises(c.e) && (told(near) || !told(c.e)))) return false;
   negative_ = near.point.stability.negative, sign_ = rises(c.e) ? 1 : -1;
   return true;
+}
+
+Equilibrium ArcSteps::on(const Arc& arc, double t, const Equilibrium& nearest) {
+  Equilibrium e = arc.at(t, nearest);
+  if (e.point.report.converged()) carry_neutral(e);
+  return e;
 }
 
 // As long as it is next to nothing beside the next stiffness, what is neutral stays so, and held.

@@ -59,6 +59,8 @@ class ArcSteps final : public Branch {
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
   [[nodiscard]] bool look_beyond(const Arc& arc, const Candidate& c);
   void carry_neutral(Equilibrium& e);
+  /// The equilibrium at a place of an arc, neutral where the branch is.
+  [[nodiscard]] Equilibrium on(const Arc& arc, double t, const Equilibrium& nearest);
   bool joins(const Arc& arc, const Equilibrium& start, const Equilibrium& end) const;
   double apart(const State& a, const State& b) const;
   double next_load(double part) const;

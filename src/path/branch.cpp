@@ -263,12 +263,15 @@ std::optional<Branch::Candidate> Branch::before_it_leaves(const Along& at, doubl
   return Candidate{.parameter = before, .e = std::move(e)};
 }
 
-// Whether contacts are closed, or open, at a change that is none of theirs, and were not where the step begins.
+// Whether contacts are closed, or open, at a change that is none of theirs, and were not where the step begins. There what has just changed has next to no gap.
 bool Branch::changes_before(const ContactChange& change) {
-  ContactSet others = difference(closed_contacts(newton_.energy(), change.at), change.after);
+  Energy& energy = newton_.energy();
+  ContactSet others = difference(closed_contacts(energy, change.at), change.after);
   for (const ContactKey& key : difference(change.after, closed_)) others.erase(key);
-  const ContactSet here = closed_contacts(newton_.energy(), current_);
-  return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) { return (here.count(key) > 0) == (change.after.count(key) > 0); });
+  const ContactSet here = closed_contacts(energy, current_);
+  return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) {
+    return (here.count(key) > 0) == (change.after.count(key) > 0) || std::abs(gap(energy, key, change.at.point.state)) > contact_event::together * size_of(energy.model(), key.particle);
+  });
 }
 
 bool Branch::contact_may_explain(const Candidate& c) const { return c.e.point.stability.negative != negative_ && may_touch(newton_.energy().model()); }

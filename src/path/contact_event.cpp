@@ -127,7 +127,8 @@ bool bears_nothing(Energy& energy, const ContactKey& key, const State& state) {
 // what particles bear there tells it of stiff ones.
 bool vanishes(Energy& energy, const ContactKey& key, double before, const State& there) {
   const double size = size_of(energy.model(), key.particle), none = contact_event::together * size;
-  const double left = std::max(contact_event::faded * std::abs(before), contact_event::exact_rounding * size);
+  const double overlap = std::abs(before), rounded = std::max(contact_event::together_in_step * overlap, contact_event::rounding * size);
+  const double left = std::max(std::min(contact_event::faded * overlap, rounded), contact_event::exact_rounding * size);
   return std::abs(gap(energy, key, there)) <= (before < 0 && key.feature < 0 ? std::min(none, left) : none) && bears_nothing(energy, key, there);
 }
 

@@ -363,6 +363,15 @@ double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixX
   return std::isfinite(far) ? far : 0;
 }
 
+Eigen::MatrixXd free_motions(const Energy& energy, const State& state) {
+  const Kinematics& kinematics = energy.kinematics();
+  const std::vector<RigidMotion> motions = free_rigid_motions(energy.model(), state);
+  if (motions.empty() || motions.size() > equilibrium::most_held) return Eigen::MatrixXd(energy.dofs(), 0);
+  Eigen::MatrixXd all(energy.dofs(), static_cast<Eigen::Index>(motions.size()));
+  for (std::size_t k = 0; k < motions.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = kinematics.restrict(motions[k].velocity_field(kinematics.sites()));
+  return orthonormal(all);
+}
+
 Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(std::max(a.rows(), b.rows()), a.cols() + b.cols());
   if (a.cols() > 0) both.leftCols(a.cols()) = a;

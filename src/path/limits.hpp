@@ -14,6 +14,7 @@ namespace elamin::limits {
 namespace equilibrium {
 constexpr int most_iterations = 12;  // of a corrector that stays on its branch
 constexpr int most_in_contact = 40;  // an overlap that the tangent runs into shrinks to a third a step: 21 for ten decades of stiffness
+constexpr std::size_t most_held = 6;  // rigid motions that are held while an equilibrium is sought: of one part
 constexpr std::size_t most_motions = 600;  // of parts against each other, among which zero modes are looked for: a dense matrix
 constexpr int most_unstable = 40;  // negative eigenvalues up to which zero modes are looked for, in one block with them; only where a solver has given up there are more
 constexpr std::size_t most_names = 20;  // of loose particles that are told

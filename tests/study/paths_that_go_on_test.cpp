@@ -1507,3 +1507,24 @@ TEST_CASE("a residual that bounces below its tolerance is no equilibrium, so tha
 TEST_CASE("a snap that begins hardly behind its branch point ends in one minimum, whatever the steps", "[paths][column_snaps_beside_branch]") {
   same_in_steps("column_snaps_beside_branch", 0.035246465239896947, "jump", 1, {14, 5, 30}, {by_load_steps, snaps});
 }
+
+TEST_CASE("an oval of a ring is neutral between the ends of its first step, too", "[paths][ring_hardly_oval]") {
+  same_in_steps("ring_hardly_oval", 1.7186168952469987, "branch", 1, {4, 6, 20}, {by_arcs, follows});
+}
+
+TEST_CASE("contacts that are lost at load factors 3e-7 apart are two events, whatever the steps", "[paths][column_leaves_twice]") {
+  same_in_steps("column_leaves_twice", 9.4625058141230003, "contact", 47, {132, 4, 40}, {by_arcs, follows});
+}
+
+TEST_CASE("a contact that has just been made is lost before another one is made, whatever the steps", "[paths][column_leaves_and_returns]") {
+  same_in_steps("column_leaves_and_returns", 23.872070030084327, "contact", 44, {30, 9, 15}, {by_arcs, follows});
+}
+
+TEST_CASE("a column that is all but free to spin about its line is followed in few steps", "[paths][column_all_but_free_to_spin]") {
+  for (const int n : {34, 20, 45}) {
+    const Run run("column_all_but_free_to_spin", {in_steps(n), by_arcs, snaps});
+    CHECK_ENDS_AT(run, 21.069287367090411);
+    CHECK(run.events.empty());
+    CHECK(run.path.size() < 300);
+  }
+}
