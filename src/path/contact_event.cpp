@@ -127,9 +127,14 @@ bool bears_nothing(Energy& energy, const ContactKey& key, const State& state) {
 // what particles bear there tells it of stiff ones.
 bool vanishes(Energy& energy, const ContactKey& key, double before, const State& there) {
   const double size = size_of(energy.model(), key.particle), none = contact_event::together * size;
-  const double overlap = std::abs(before), rounded = std::max(contact_event::together_in_step * overlap, contact_event::rounding * size);
-  const double left = std::max(std::min(contact_event::faded * overlap, rounded), contact_event::exact_rounding * size);
+  const double left = std::max(contact_event::faded * std::abs(before), contact_event::exact_rounding * size);
   return std::abs(gap(energy, key, there)) <= (before < 0 && key.feature < 0 ? std::min(none, left) : none) && bears_nothing(energy, key, there);
+}
+
+// Whether a gap is so small at another one's change that it changes with it: of what was closed, beside its overlap before, but for rounding.
+bool is_none(const Energy& energy, const ContactKey& key, double before, const State& there) {
+  const double most = std::max(-contact_event::together_in_step * before, contact_event::rounding * size_of(energy.model(), key.particle));
+  return before >= 0 || key.feature >= 0 || std::abs(gap(energy, key, there)) <= most;
 }
 
 // Whether a contact is closed at an equilibrium by no more of a force than is left there.
@@ -267,13 +272,14 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
     const double moves = ga < 0 && key.feature < 0 ? 0.0 : std::abs(gap(key, b.point.state) - ga);
     return vanishes(energy, key, ga, state) || (std::abs(gap(key, state)) <= contact_event::together_in_step * moves && bears_nothing(energy, key, state));
   };
+  const auto with_it = [&](const ContactKey& key, const State& state) { return near(key, state) && is_none(energy, key, gap(key, a.point.state), state); };
   for (std::size_t round = 0; round <= changed.size(); ++round) {
     // The one that changes first, as far as straight lines tell, of those that change before.
     const ContactKey* first = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const ContactKey& key : changed) {
       const double ga = gap(key, a.point.state), gu = gap(key, found);
-      if ((ga < 0) == (gu < 0) || (round > 0 && near(key, found))) continue;
+      if ((ga < 0) == (gu < 0) || (round > 0 && with_it(key, found))) continue;
       if (const double part = ga / (ga - gu); part < least) least = part, first = &key;
     }
     if (!first) break;
@@ -322,10 +328,10 @@ std::optional<ContactChange> locate_contact(Newton& newton, const Segment& segme
   change.at = at ? std::move(*at) : assess(newton, found, report);
   const Vector chord = kinematics.difference(a.point.state, b.point.state);    // it may be where the segment begins
   const double load_change = b.point.state.load_factor - a.point.state.load_factor;
-  std::erase_if(changed, [&](const ContactKey& key) { return key != met && !near(key, found); });
+  std::erase_if(changed, [&](const ContactKey& key) { return key != met && !with_it(key, found); });
   std::vector<ContactKey> unloaded;
   for (const ContactKey& key : just_touching(energy, found, now))
-    if (key.feature < 0 && !contains(changed, key) && near(key, found)) unloaded.push_back(key);
+    if (key.feature < 0 && !contains(changed, key) && with_it(key, found)) unloaded.push_back(key);
   tell(newton, change, now, changed, chord, load_change, a.point.state.load_factor, a.point.stability.negative, unloaded);
   return change;
 }
@@ -401,7 +407,8 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
     const double here = gap(energy, key, state);
     const bool closed = before.count(key) > 0;
     if (key == first || !std::isfinite(here)) continue;
-    if (!vanishes(energy, key, closed ? gap(energy, key, from) : 0.0, state)) {
+    const double before_it = closed ? gap(energy, key, from) : 0.0;
+    if (!vanishes(energy, key, before_it, state) || (here > 0 && !is_none(energy, key, before_it, state))) {
       if ((here < 0) != closed) return {};
     } else if ((gap(energy, key, ahead) < 0) != closed) {
       changed.push_back(key);
