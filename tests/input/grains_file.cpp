@@ -4,6 +4,8 @@
 #include "input/grains.hpp"
 #include "input/model_of.hpp"
 
+#include <sys/stat.h>
+
 using namespace elamin;
 
 TEST_CASE("A table of grains") {
@@ -44,7 +46,9 @@ TEST_CASE("A table of grains") {
   scratch.file("g.csv", "0,0,0,1\n3,0,0,2\n");
   CHECK(problem("") == "");
   CHECK(problem("diameter = 1") == "4:12: grains.a.diameter: stands in the fourth column of the file; leave it out");
-  for (const std::string file : {"/tmp", "/dev/zero"})
+  const std::string pipe = scratch / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);                     // to read it would wait for ever
+  for (const std::string& file : {std::string("/tmp"), std::string("/dev/zero"), pipe})
     CHECK(said_of("[[grains]]\nname = \"a\"\nfile = \"" + file + "\"\n[[support]]\ngroup = \"b\"\n") ==
           "3:8: grains.a.file: \"" + file + "\" is a folder or a device; it must be a file\n"
           "5:9: support.1.group: \"b\" names no group; there are: all, a");
