@@ -52,7 +52,7 @@ Equilibrium continue_to(Newton& newton, const Equilibrium& from, double load_fac
 /// the eigenvalue that is nearest to zero, but for held directions. 0: it cannot be told.
 [[nodiscard]] double left_by_rounding(Newton& newton, const State& state, const Eigen::MatrixXd& held);
 
-/// The motions of glued parts as rigid ones that no support forbids, orthonormal (dofs × count); none where there are more than a few.
+/// The motions of glued parts as rigid ones that no support forbids, orthonormal (dofs × count); none where there are more than six.
 Eigen::MatrixXd free_motions(const Energy& energy, const State& state);
 
 /// The columns of both, for what is held together.
