@@ -12,7 +12,7 @@ namespace elamin {
 
 class Mutations {
  public:
-  explicit Mutations(std::uint64_t seed) : random_(seed) {}
+  explicit Mutations(long number) : random_(static_cast<std::uint64_t>(number) * 0x9E3779B97F4A7C15u + 19) {}
   std::size_t pick(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
 
   /// One to four changes: of a letter, a number, the value of a key, a line, the end; or lines of another text.

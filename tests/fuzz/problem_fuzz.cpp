@@ -62,7 +62,7 @@ class Inputs {
   }
 
   void operator()(long number, Tally& tally) {
-    Mutations mutations(static_cast<std::uint64_t>(number) * 0x9E3779B97F4A7C15u + 19);
+    Mutations mutations(number);
     try {
       switch (number % 10) {
         case 0: grains(mutations); break;

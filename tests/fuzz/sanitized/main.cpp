@@ -53,7 +53,7 @@ int main(int count, char** arguments) {
 
   long refusals = 0;
   for (now = from; now < from + texts; ++now) {
-    Mutations mutations(static_cast<std::uint64_t>(now) * 0x9E3779B97F4A7C15u + 19);
+    Mutations mutations(now);
     const std::size_t seed = mutations.pick(seeds.size());
     std::string text = seeds[seed];
     if (name == "setting") text.insert(0, mutations.setting(text) + "\n");
