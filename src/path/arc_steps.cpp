@@ -2,6 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
+#include "model/entities.hpp"
 #include "path/fading_contact.hpp"
 #include "path/family.hpp"
 #include "path/limits.hpp"
@@ -267,9 +268,24 @@ std::optional<Segment> ArcSteps::fades(const ContactChange& change, const Equili
   for (const ContactKey& key : closed_) {
     if (key.feature >= 0 || change.after.count(key) || !(gap(newton_.energy(), key, current_.point.state) < 0)) continue;
     Segment segment = segment_of_fading(newton_, key, current_, options_.load_step);
-    if (segment.leads(current_, lost)) return segment;
+    if (!segment.leads(current_, lost)) continue;
+    segment.at = [this, at = std::move(segment.at)](double t, const Equilibrium& nearest) {
+      Equilibrium e = at(t, nearest);
+      if (e.point.report.converged() && others_change(e)) e.point.report.status = Status::not_converged, e.point.report.why = "another contact changes on the way";
+      return e;
+    };
+    return segment;
   }
   return {};
+}
+
+// Whether contacts are closed there, or open, and were not where the step begins, beyond rounding.
+bool ArcSteps::others_change(const Equilibrium& e) const {
+  Energy& energy = newton_.energy();
+  const ContactSet others = difference(closed_contacts(energy, e), closed_);
+  return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) {
+    return std::abs(gap(energy, key, e.point.state)) > contact_event::together * size_of(energy.model(), key.particle);
+  });
 }
 
 // A step and its two parts meet.

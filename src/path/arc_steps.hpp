@@ -56,6 +56,7 @@ class ArcSteps final : public Branch {
   [[nodiscard]] std::optional<Candidate> reach(const Arc& arc, double s, std::string& why);
   [[nodiscard]] std::optional<Candidate> reach_kink(const Arc& arc, double s, std::optional<Segment>& fading);
   [[nodiscard]] std::optional<Segment> fades(const ContactChange& change, const Equilibrium& lost);
+  bool others_change(const Equilibrium& e) const;
   bool stays_on_branch(const Arc& arc, double s, const Equilibrium& e, std::string& why) const;
   [[nodiscard]] bool look_beyond(const Arc& arc, const Candidate& c);
   void carry_neutral(Equilibrium& e);

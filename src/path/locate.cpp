@@ -288,8 +288,11 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   if (!zero) return {};
   Event event = finished(*zero, told);
   // Of a limit point what was held has kept a force that a branch point does not have.
-  if (event.kind == EventKind::limit && !told)
-    if (std::optional<Sample> free = search(true)) event = finished(*free, true), zero = std::move(free);
+  if (event.kind == EventKind::limit && !told) {
+    zero = search(true);
+    if (!zero) return {};
+    event = finished(*zero, true);
+  }
   if (event.kind == EventKind::branch && event.modes.cols() == 1 && work_along(event.modes, newton.energy().load_derivative()) > locate::settled) {
     const double range = std::abs(second.point.state.load_factor - first.point.state.load_factor);
     if (std::optional<Equilibrium> e = settle_branch_point(newton, event, known, range, scale)) {

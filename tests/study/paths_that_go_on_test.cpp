@@ -1520,6 +1520,14 @@ TEST_CASE("a contact that has just been made is lost before another one is made,
   same_in_steps("column_leaves_and_returns", 23.872070030084327, "contact", 44, {30, 9, 15}, {by_arcs, follows});
 }
 
+TEST_CASE("where no limit point is found without what was held there is none", "[paths][column_unfolded_on_two_contacts]") {
+  same_in_steps("column_unfolded_on_two_contacts", 8.6, "limit", 0, {50, 5, 17, 49, 200}, {by_arcs, follows});
+}
+
+TEST_CASE("on the way to where a contact is lost no other one is made", "[paths][heap_rocks_under_lid]") {
+  same_in_steps("heap_rocks_under_lid", 1, "limit", 1, {10, 4, 5, 20}, {by_load_steps, snaps});
+}
+
 TEST_CASE("a column that is all but free to spin about its line is followed in few steps", "[paths][column_all_but_free_to_spin]") {
   for (const int n : {34, 20, 45}) {
     const Run run("column_all_but_free_to_spin", {in_steps(n), by_arcs, snaps});
