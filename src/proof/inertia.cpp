@@ -1,5 +1,6 @@
 #include "proof/inertia.hpp"
 
+#include "core/dense.hpp"
 #include "proof/interval.hpp"
 #include "solve/ordering.hpp"
 
@@ -7,7 +8,7 @@
 
 namespace elamin::proof {
 
-void FillReducing::find(const SparseMatrix& full, Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>& order) {
+void FillReducing::operator()(const SparseMatrix& full, Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>& order) const {
   const std::vector<int> found = fill_reducing_order(SparseMatrix(full.triangularView<Eigen::Lower>()));
   if (found.empty()) return Eigen::AMDOrdering<int>()(full, order);
   order.resize(full.cols());
@@ -23,19 +24,16 @@ bool ShiftedFactor::factorize(const SparseMatrix& M, double shift) {
   using I = Interval<double>;
   const SparseMatrix& L = factor_.matrixL().nestedExpression();           // its diagonal, which is 1, is not stored
   const int n = static_cast<int>(M.cols());
-  std::vector<I> down(n, I(1)), all(n);
+  std::vector<I> rows(n);                                                 // of |L||D||L|ᵀ 1
   std::vector<int> entries(n, 0);
-  for (int j = 0; j < n; ++j)
-    for (SparseMatrix::InnerIterator it(L, j); it; ++it)
-      if (it.row() > j) down[j] += I(std::abs(it.value())), ++entries[it.row()];
-  for (int j = 0; j < n; ++j) all[j] = down[j] = down[j] * I(std::abs(D[j]));
-  for (int j = 0; j < n; ++j)
-    for (SparseMatrix::InnerIterator it(L, j); it; ++it)
-      if (it.row() > j) all[it.row()] += I(std::abs(it.value())) * down[j];
-  double most = 0, diagonal = std::abs(shift);
-  for (const I& row : all) most = std::max(most, row.hi);
-  for (int j = 0; j < n; ++j) diagonal = std::max(diagonal, std::abs(shift) + std::abs(M.coeff(j, j)));
-  const I u(0x1p-53), m(*std::max_element(entries.begin(), entries.end()) + 4.0), gamma = m * u / (I(1) - m * u);
+  for (int j = 0; j < n; ++j) {
+    I down(1);
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) down += I(std::abs(it.value())), ++entries[it.row()];
+    rows[j] += down *= I(std::abs(D[j]));
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) rows[it.row()] += I(std::abs(it.value())) * down;
+  }
+  const double most = std::ranges::max(rows, {}, &I::hi).hi, diagonal = std::abs(shift) + infinity_norm(M.diagonal());
+  const I u(0x1p-53), m(std::ranges::max(entries) + 4.0), gamma = m * u / (I(1) - m * u);
   error_ = (gamma * I(most) + I(0x1p-52) * I(diagonal) + I(1e-290)).hi;              // 1e-290: far above all underflows
   return error_ - error_ == 0;
 }

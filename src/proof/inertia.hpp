@@ -8,9 +8,7 @@ namespace elamin::proof {
 
 /// An order of the unknowns that keeps the factor sparse, as Eigen asks for it.
 struct FillReducing {
-  template <class Matrix>
-  void operator()(const Matrix& full, Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>& order) const { find(full, order); }
-  static void find(const SparseMatrix& full, Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>& order);
+  void operator()(const SparseMatrix& full, Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>& order) const;
 };
 
 /// A factorisation M − σI ≈ LDLᵀ without pivoting, of doubles, with a bound of what rounding has done to it. In whatever order the sums are

@@ -1,7 +1,6 @@
 #pragma once
 // Intervals that contain what exact arithmetic gives, whatever rounding does.
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include "core/types.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -76,12 +75,11 @@ struct Interval {
   /// s² is on its side of x, else 0 or ∞; none above is less than 2⁻⁵⁰⁰, where a root in doubles may be 0.
   friend Interval sqrt(const Interval& a) {
     if (!a.bounded() || a.hi < 0) return all();
-    const auto near = [](T x) {
+    const auto widened = [](T x) {
       T s = T(std::sqrt(static_cast<double>(x)));
       for (int k = 0; k < 2 && s > 0; ++k) s = (s + x / s) / T(2);
-      return s;
+      return outward(s, s);
     };
-    const auto widened = [&](T x) { const T s = near(x); return outward(s, s); };
     const T low = a.lo > 0 ? widened(a.lo).lo : T(0), high = a.hi > 0 ? std::max(widened(a.hi).hi, T(0x1p-500)) : T(0);
     const bool below = low > 0 && (Interval(low) * Interval(low)).hi <= a.lo, above = (Interval(high) * Interval(high)).lo >= a.hi;
     return {below ? low : T(0), above || a.hi == 0 ? high : T(HUGE_VAL)};
@@ -95,13 +93,3 @@ template <class I> using Matrix3 = Eigen::Matrix<I, 3, 3>;
 template <class I> I length(const Vector3<I>& d) { return sqrt(square(d[0]) + square(d[1]) + square(d[2])); }
 
 }  // namespace elamin
-
-namespace Eigen {
-template <class T>
-struct NumTraits<elamin::Interval<T>> : GenericNumTraits<double> {
-  using Real = elamin::Interval<T>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-};
-}  // namespace Eigen

@@ -16,11 +16,9 @@ struct Plane { double k, radius; Vec3 normal, point; };       // … at a plane:
 /// … at a sphere (axis −1) or a cylinder without ends: ±(|y| − wall_radius) − radius, + outside, − inside, y = x − center across the axis.
 struct Round { double k, radius, wall_radius; Vec3 center; int axis; bool inside; };
 
-template <class I> Vector3<I> from(const Vector3<I>& x, const Vec3& p) { return x - Vector3<I>(I(p[0]), I(p[1]), I(p[2])); }
-
 template <class I>
 Vector3<I> across(const Round& law, const Vector3<I>& x) {
-  Vector3<I> y = from(x, law.center);
+  Vector3<I> y = x - law.center.cast<I>();
   if (law.axis >= 0) y[law.axis] = I(0);
   return y;
 }
@@ -29,8 +27,8 @@ Vector3<I> across(const Round& law, const Vector3<I>& x) {
 template <class I> I gap(const Contact& law, const Vector3<I>& d) { return length(d) - I(law.distance); }
 template <class I>
 I gap(const Plane& law, const Vector3<I>& x) {
-  const Vector3<I> y = from(x, law.point);
-  return I(law.normal[0]) * y[0] + I(law.normal[1]) * y[1] + I(law.normal[2]) * y[2] - I(law.radius);
+  const Vector3<I> n = law.normal.cast<I>(), y = x - law.point.cast<I>();
+  return n[0] * y[0] + n[1] * y[1] + n[2] * y[2] - I(law.radius);
 }
 template <class I>
 I gap(const Round& law, const Vector3<I>& x) {
@@ -72,7 +70,7 @@ OfEdge<I> derivatives(const Contact& law, const Vector3<I>& d, bool with_hessian
 
 template <class I>
 OfEdge<I> derivatives(const Plane& law, const Vector3<I>& x, bool with_hessian) {
-  const Vector3<I> n(I(law.normal[0]), I(law.normal[1]), I(law.normal[2]));
+  const Vector3<I> n = law.normal.cast<I>();
   const I overlap = positive(-gap(law, x)), k(law.k);
   OfEdge<I> u{-HertzContact::push(overlap, k) * n, {}};
   if (with_hessian) u.hessian = I(1.5) * k * sqrt(overlap) * (n * n.transpose()).eval();

@@ -124,8 +124,34 @@ Vector3<I> Structure::edge(const State& centre, int i, int j, double radius) con
   }
   return d;
 }
-template Vector3<Interval<Quad>> Structure::edge(const State&, int, int, double) const;
-template Vector3<Interval<double>> Structure::edge(const State&, int, int, double) const;
+
+template <class I>
+void Structure::for_elements(const State& centre, double radius, bool with_hessian, const auto& take) const {
+  const auto edge = [&](int i, int j) { return this->edge<I>(centre, i, j, radius); };
+  const auto pairs = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) {
+      const auto [f, b] = derivatives<I>(law, edge(at[0], at[1]), with_hessian);
+      take(at, (Eigen::Matrix<I, 6, 1>() << -f, f).finished(), (Eigen::Matrix<I, 6, 6>() << b, -b, -b, b).finished());
+    }
+  };
+  const auto walls = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) {
+      const OfEdge<I> d = derivatives<I>(law, edge(-1, at[0]), with_hessian);
+      take(at, d.gradient, d.hessian);
+    }
+  };
+  pairs(bonds), pairs(contacts);
+  for (const auto& [law, at] : angles) {
+    const OfEdges<I> d = derivatives<I>(law, edge(at[0], at[1]), edge(at[1], at[2]), with_hessian);
+    const Matrix3<I> wu = d.uw.transpose(), first = d.uw - d.uu, last = d.uw - d.ww;
+    Eigen::Matrix<I, 9, 1> f;
+    Eigen::Matrix<I, 9, 9> h;
+    f << -d.u, d.u - d.w, d.w;
+    h << d.uu, first, -d.uw, first.transpose(), d.uu + d.ww - d.uw - wu, last, -wu, last.transpose(), d.ww;
+    take(at, f, h);
+  }
+  walls(planes), walls(rounds);
+}
 
 std::vector<Interval<Quad>> Structure::gradient(const State& centre) const {
   using I = Interval<Quad>;
@@ -134,24 +160,12 @@ std::vector<Interval<Quad>> Structure::gradient(const State& centre) const {
     for (int c = 0; c < 3; ++c)
       if (dof[p][c] >= 0) g[dof[p][c]] += f[c];
   };
-  const auto add_pairs = [&](const auto& elements) {
-    for (const auto& [law, at] : elements) {
-      const Vector3<I> f = derivatives<I>(law, edge<I>(centre, at[0], at[1], 0), false).gradient;
-      add(at[1], f), add(at[0], -f);
-    }
-  };
-  add_pairs(bonds), add_pairs(contacts);
-  for (const auto& [law, at] : angles) {
-    const OfEdges<I> f = derivatives<I>(law, edge<I>(centre, at[0], at[1], 0), edge<I>(centre, at[1], at[2], 0), false);
-    add(at[0], -f.u), add(at[1], f.u - f.w), add(at[2], f.w);
-  }
-  const auto add_walls = [&](const auto& elements) {
-    for (const auto& [law, at] : elements) add(at[0], derivatives<I>(law, edge<I>(centre, -1, at[0], 0), false).gradient);
-  };
-  add_walls(planes), add_walls(rounds);
+  for_elements<I>(centre, 0, false, [&](const auto& at, const auto& f, const auto&) {
+    for (std::size_t k = 0; k < at.size(); ++k) add(at[k], f.template segment<3>(3 * k));
+  });
   for (const DeadLoad& l : loads) {
     const I part = I(l.scaling.fixed) + I(l.scaling.rate) * I(load_factor);
-    add(l.particle, -part * Vector3<I>(I(l.force[0]), I(l.force[1]), I(l.force[2])));
+    add(l.particle, -part * l.force.cast<I>());
   }
   return g;
 }
@@ -171,46 +185,22 @@ IntervalHessian::IntervalHessian(const Structure& structure) : structure_(struct
   pattern_.setFromTriplets(entries.begin(), entries.end());
 }
 
-template <int n>
-void IntervalHessian::add(const std::array<int, n>& particles, const Eigen::Matrix<I, 3 * n, 3 * n>& h) {
-  for (int r = 0; r < 3 * n; ++r)
-    for (int c = 0; c < 3 * n; ++c) {
-      const int i = structure_.dof[particles[r / 3]][r % 3], j = structure_.dof[particles[c / 3]][c % 3];
-      if (j < 0 || i < j) continue;
-      const int *rows = pattern_.innerIndexPtr(), *start = pattern_.outerIndexPtr();
-      value_[std::lower_bound(rows + start[j], rows + start[j + 1], i) - rows] += h(r, c);
-    }
-}
-
 void IntervalHessian::evaluate(const State& centre, double radius) {
   value_.assign(pattern_.nonZeros(), I(0));
-  const auto edge = [&](int i, int j) { return structure_.edge<I>(centre, i, j, radius); };
-  const auto add_pairs = [&](const auto& elements) {
-    for (const auto& [law, at] : elements) {
-      const Matrix3<I> b = derivatives<I>(law, edge(at[0], at[1]), true).hessian;
-      Eigen::Matrix<I, 6, 6> h;
-      h << b, -b, -b, b;
-      add<2>(at, h);
-    }
-  };
-  add_pairs(structure_.bonds), add_pairs(structure_.contacts);
-  for (const auto& [law, at] : structure_.angles) {
-    const OfEdges<I> d = derivatives<I>(law, edge(at[0], at[1]), edge(at[1], at[2]), true);
-    const Matrix3<I> wu = d.uw.transpose(), first = d.uw - d.uu, last = d.uw - d.ww;
-    Eigen::Matrix<I, 9, 9> h;
-    h << d.uu, first, -d.uw, first.transpose(), d.uu + d.ww - d.uw - wu, last, -wu, last.transpose(), d.ww;
-    add<3>(at, h);
-  }
-  const auto add_walls = [&](const auto& elements) {
-    for (const auto& [law, at] : elements) add<1>(at, derivatives<I>(law, edge(-1, at[0]), true).hessian);
-  };
-  add_walls(structure_.planes), add_walls(structure_.rounds);
+  const int *rows = pattern_.innerIndexPtr(), *start = pattern_.outerIndexPtr();
+  structure_.for_elements<I>(centre, radius, true, [&](const auto& at, const auto&, const auto& h) {
+    for (int r = 0; r < h.rows(); ++r)
+      for (int c = 0; c < h.cols(); ++c) {
+        const int i = structure_.dof[at[r / 3]][r % 3], j = structure_.dof[at[c / 3]][c % 3];
+        if (j >= 0 && i >= j) value_[std::lower_bound(rows + start[j], rows + start[j + 1], i) - rows] += h(r, c);
+      }
+  });
 }
 
 SparseMatrix IntervalHessian::middle(const State& centre) {
   evaluate(centre, 0);
   SparseMatrix M = pattern_;
-  for (std::size_t k = 0; k < value_.size(); ++k) M.valuePtr()[k] = value_[k].middle();
+  std::ranges::transform(value_, M.valuePtr(), &I::middle);
   return M;
 }
 
@@ -224,9 +214,7 @@ double IntervalHessian::distance(const SparseMatrix& M, const State& centre, dou
       sums[j] += off;
       if (i != j) sums[i] += off;
     }
-  double most = 0;
-  for (const I& sum : sums) most = std::max(most, sum.hi);      // ∞ where there is no bound
-  return most;
+  return std::ranges::max(sums, {}, &I::hi).hi;                 // ∞ where there is no bound
 }
 
 }  // namespace elamin::proof

@@ -38,6 +38,9 @@ struct Structure {
   /// in, and the difference of two changes by √2 times the radius at most); i = −1: x_j itself.
   template <class I>
   Vector3<I> edge(const State& centre, int i, int j, double radius) const;
+  /// Calls with the particles of each element, and ∂U/∂x of their places and, where it is asked for, ∂²U/∂x∂x, over the same balls.
+  template <class I>
+  void for_elements(const State& centre, double radius, bool with_hessian, const auto& take) const;
 };
 
 /// The structure at the state's load factor, or in `not_covered` what of the model no theorem here is about. Contacts and walls within a
@@ -56,7 +59,6 @@ class IntervalHessian {
  private:
   using I = Interval<double>;
   void evaluate(const State& centre, double radius);
-  template <int n> void add(const std::array<int, n>& particles, const Eigen::Matrix<I, 3 * n, 3 * n>& h);
   const Structure& structure_;
   SparseMatrix pattern_;
   std::vector<I> value_;                       // in the order of its entries

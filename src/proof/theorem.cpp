@@ -11,45 +11,38 @@ namespace elamin::proof {
 namespace {
 
 using I = Interval<double>;
+using Q = Interval<Quad>;
 
 constexpr double most_contraction = 0.85;        // q: what is left is for who checks the proof with bounds of his own
 
-double norm(const std::vector<Interval<Quad>>& g) {
-  Interval<Quad> sum;
-  for (const Interval<Quad>& x : g) sum += square(x);
+double norm(const std::vector<Q>& g) {
+  Q sum;
+  for (const Q& x : g) sum += square(x);
   return I(sqrt(sum)).hi;
 }
 
-double distance(const Structure& s, const State& a, const State& b) {
-  std::vector<Interval<Quad>> d;
-  for (std::size_t p = 0; p < s.dof.size(); ++p)
-    for (int c = 0; c < 3; ++c) {
-      using Q = Interval<Quad>;
-      const int i = static_cast<int>(p);
-      d.push_back((Q(b.position(c, i)) - Q(a.position(c, i))) + (Q(b.low(c, i)) - Q(a.low(c, i))));
-    }
+double distance(const State& a, const State& b) {
+  std::vector<Q> d;
+  for (Eigen::Index k = 0; k < a.position.size(); ++k) d.push_back((Q(b.position(k)) - Q(a.position(k))) + (Q(b.low(k)) - Q(a.low(k))));
   return norm(d);
 }
 
 // Steps with the factor of one matrix while the residual falls; returns its bound.
 double refine(const Structure& s, const SparseMatrix& M, State& x) {
   ShiftedFactor factor(M);
-  std::vector<Interval<Quad>> g = s.gradient(x);
+  std::vector<Q> g = s.gradient(x);
   double residual = norm(g);
   if (s.dofs == 0 || !factor.factorize(M, 0)) return residual;
   for (int k = 0; k < 12; ++k) {
-    Vector b(s.dofs);
-    for (int i = 0; i < s.dofs; ++i) b[i] = static_cast<double>(g[i].middle());
-    const Vector step = factor.solve(b);
+    const Vector step = factor.solve(Vector::NullaryExpr(s.dofs, [&](Eigen::Index i) { return static_cast<double>(g[i].middle()); }));
     State next = x;
-    for (std::size_t p = 0; p < s.dof.size(); ++p)
+    for (int p = 0; p < x.particles(); ++p) {
+      ExactVector to = x.at(p);
       for (int c = 0; c < 3; ++c)
-        if (s.dof[p][c] >= 0) {
-          const int i = static_cast<int>(p);
-          const Exact to = Exact{x.position(c, i), x.low(c, i)} + (-step[s.dof[p][c]]);
-          next.position(c, i) = to.hi, next.low(c, i) = to.lo;
-        }
-    std::vector<Interval<Quad>> at = s.gradient(next);
+        if (const int i = s.dof[p][c]; i >= 0) to.set(c, to[c] + (-step[i]));
+      next.set(p, to);
+    }
+    std::vector<Q> at = s.gradient(next);
     const double now = norm(at);
     if (!(now < residual / 2)) break;
     x = std::move(next), g = std::move(at), residual = now;
@@ -58,7 +51,6 @@ double refine(const Structure& s, const SparseMatrix& M, State& x) {
 }
 
 void bound_gaps(const Structure& s, Theorem& t) {
-  using Q = Interval<Quad>;
   const auto sort = [&](const std::array<int, 2>& particles, const Q& gap) {
     (gap.hi < 0 ? t.closed : gap.lo > 0 ? t.open : t.undecided).push_back({particles, I(gap)});
   };
@@ -80,7 +72,7 @@ Theorem prove(const Structure& s, const State& state) {
   IntervalHessian hessian(s);
   const SparseMatrix M = hessian.middle(state);
   t.residual = refine(s, M, t.centre);
-  t.moved = distance(s, state, t.centre);
+  t.moved = distance(state, t.centre);
   const Spectrum spectrum = spectrum_near_zero(M);
   t.negative = spectrum.negative, t.shift = spectrum.shift;
   if (spectrum.estimate == 0) return refuse("the Hessian may be singular: a pivot of its factor is zero");
