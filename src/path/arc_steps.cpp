@@ -2,7 +2,7 @@
 
 #include "core/interrupt.hpp"
 #include "energy/step_limits.hpp"
-#include "model/entities.hpp"
+#include "path/contact_event.hpp"
 #include "path/fading_contact.hpp"
 #include "path/family.hpp"
 #include "path/limits.hpp"
@@ -279,13 +279,11 @@ std::optional<Segment> ArcSteps::fades(const ContactChange& change, const Equili
   return {};
 }
 
-// Whether contacts are closed there, or open, and were not where the step begins, beyond rounding.
+// Whether there are contacts that are closed at an equilibrium and open where the step begins, or the other way round, but for those that just touch.
 bool ArcSteps::others_change(const Equilibrium& e) const {
   Energy& energy = newton_.energy();
   const ContactSet others = difference(closed_contacts(energy, e), closed_);
-  return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) {
-    return std::abs(gap(energy, key, e.point.state)) > contact_event::together * size_of(energy.model(), key.particle);
-  });
+  return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) { return !just_touches(energy, key, e.point.state); });
 }
 
 // A step and its two parts meet.

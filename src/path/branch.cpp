@@ -270,7 +270,7 @@ bool Branch::changes_before(const ContactChange& change) {
   for (const ContactKey& key : difference(change.after, closed_)) others.erase(key);
   const ContactSet here = closed_contacts(energy, current_);
   return std::any_of(others.begin(), others.end(), [&](const ContactKey& key) {
-    return (here.count(key) > 0) == (change.after.count(key) > 0) || std::abs(gap(energy, key, change.at.point.state)) > contact_event::together * size_of(energy.model(), key.particle);
+    return (here.count(key) > 0) == (change.after.count(key) > 0) || !just_touches(energy, key, change.at.point.state);
   });
 }
 

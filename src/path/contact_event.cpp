@@ -395,7 +395,7 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
   State state = moved_by(kinematics, from, way, load_change, least);
   const Report report = close_gap(newton, first, a, way, load_change, state);
   if (!report.converged()) return {};
-  if (std::abs(gap(energy, first, state)) > contact_event::together * size_of(model, first.particle)) return {};
+  if (!just_touches(energy, first, state)) return {};
   if (energy.collision_free_step(from, state) < 1) return {};
   change.found = true;
   change.at.point.state = state, change.at.point.report = report;
@@ -418,10 +418,14 @@ std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before
   return change;
 }
 
+bool just_touches(const Energy& energy, const ContactKey& key, const State& state) {
+  return std::abs(gap(energy, key, state)) <= contact_event::together * size_of(energy.model(), key.particle);
+}
+
 std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed) {
   std::vector<ContactKey> keys;
   for (const ContactKey& key : closed)
-    if (std::abs(gap(energy, key, state)) <= contact_event::together * size_of(energy.model(), key.particle)) keys.push_back(key);
+    if (just_touches(energy, key, state)) keys.push_back(key);
   return keys;
 }
 

@@ -30,7 +30,10 @@ ContactSet closed_contacts(Energy& energy, const Equilibrium& e);
 /// Newton's method on ∇gap · Δx = 0, again and again. `before` as above; `made`: whether contacts that are made are looked for, too. Nothing if there is none.
 [[nodiscard]] std::optional<ContactChange> kink_ahead(Newton& newton, const ContactSet& before, const Equilibrium& a, const Vector& way, double load_change, bool made = true);
 
-/// Those of the closed contacts whose gap is none: made where the state is, or next to rigid.
+/// Whether the gap of a contact is none at a state, to contact_event::together of the size, whether its surfaces overlap by that or are apart.
+[[nodiscard]] bool just_touches(const Energy& energy, const ContactKey& key, const State& state);
+
+/// Those of the closed contacts that just touch: made where the state is, or next to rigid.
 std::vector<ContactKey> just_touching(const Energy& energy, const State& state, const ContactSet& closed);
 
 }  // namespace elamin

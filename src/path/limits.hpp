@@ -90,7 +90,7 @@ constexpr double least_part = 1e-12;  // of the first step: shorter ones are giv
 constexpr double least_order = 0.5, largest_order = 5;  // of the load factor over the arc length from a branch point, as far as rates and changes tell one order
 constexpr double just_beyond = 0.125;  // of a first step from a branch point: where the Morse index is looked at, too
 constexpr double same_end = 1e-3;  // of the way: an event leads there
-constexpr double first_natural = 0.01, least_natural = 1e-10;  // of a load step: the longest, if no longer than the step of arc length, and the shortest that is tried over a contact, a tenth of what tells two apart …
+constexpr double first_natural = 0.01, least_natural = 1e-10;  // of a load step: the longest, if no longer than the step of arc length, and the shortest that is tried over a contact, a tenth of contact_event::together_in_step …
 constexpr int refused_first = 6;  // … where so many of arc length have been refused, or right behind a contact
 constexpr double least_bent = 1e-6;  // … and the shortest that bends are a reason to shorten
 constexpr int most_shifts = 5;  // of a step that ends on an event by chance

@@ -287,7 +287,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
   std::optional<Sample> zero = search(told.value_or(false));
   if (!zero) return {};
   Event event = finished(*zero, told);
-  // Of a limit point what was held has kept a force that a branch point does not have.
+  // Of a limit point what was held has kept a force that a branch point does not have: it is told where nothing is held, or is none.
   if (event.kind == EventKind::limit && !told) {
     zero = search(true);
     if (!zero) return {};

@@ -1520,7 +1520,7 @@ TEST_CASE("a contact that has just been made is lost before another one is made,
   same_in_steps("column_leaves_and_returns", 23.872070030084327, "contact", 44, {30, 9, 15}, {by_arcs, follows});
 }
 
-TEST_CASE("where no limit point is found without what was held there is none", "[paths][column_unfolded_on_two_contacts]") {
+TEST_CASE("a limit point that is found only where soft modes are held is none", "[paths][column_unfolded_on_two_contacts]") {
   same_in_steps("column_unfolded_on_two_contacts", 8.6, "limit", 0, {50, 5, 17, 49, 200}, {by_arcs, follows});
 }
 
