@@ -165,6 +165,21 @@ bool Branch::goes_on(const Candidate& c) const {
   return !goes_back(c) && kinematics.difference(current_.point.state, c.e.point.state).norm() <= told + contact_event::together * kinematics.smallest_size();
 }
 
+// Whether the load factor goes on as before behind contacts of particles that change at the candidate: their gaps tell it, which go to their other side. By its direction, which
+// may be all but square to that of the step there, the load factor may as well go back.
+bool Branch::goes_on_behind(const Candidate& c) const {
+  const Event* event = deciding(c);
+  if (!event || event->kind != EventKind::contact || event->beyond) return false;
+  const ContactSet changed = difference(event->closed, closed_);
+  const double here = c.e.point.state.load_factor, width = std::max(std::abs(here - current_.point.state.load_factor), std::cbrt(epsilon) * std::abs(here));
+  return !changed.empty() && std::all_of(changed.begin(), changed.end(), [&](const ContactKey& key) {
+    Vector row;
+    double by_load = 0;
+    if (key.feature >= 0 || !slope(newton_.energy(), key, c.e.point.state, width, row, by_load)) return false;
+    return (event->closed.count(key) ? -sign_ : sign_) * (row.dot(c.e.tangent) + by_load) > 0;
+  });
+}
+
 // Whether an eigenvalue may vanish twice, or two of them in opposite ways, on the step from here: on the step before, which was half as long or longer, |μ| has then
 // fallen by a factor of 1.5 (a straight line with its zero at the end of this step) or more (2.25: a parabola).
 bool Branch::softens() const {
@@ -247,8 +262,9 @@ bool Branch::stop_where_index_goes_back(const Segment& segment, Candidate& c) {
     const std::optional<Part> part = where_index_differs(a, b, width * segment.load_rate(a), width * segment.load_rate(b));
     return part ? std::optional(Place{ta + part->u * width, part->by}) : std::nullopt;
   };
+  const Eigen::Index neutral = std::min(current_.zero_modes.cols(), c.e.zero_modes.cols());      // of what is held at both ends the sign is rounding's
   return look_between(segment, c, softest, [&](Equilibrium& e) {
-    if (e.point.stability.negative != negative_) return true;
+    if (std::abs(e.point.stability.negative - negative_) > std::max<Eigen::Index>(0, neutral - e.zero_modes.cols())) return true;
     return look_at(e, current_), false;
   }).has_value();
 }
@@ -368,7 +384,7 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   const int after = c.e.point.stability.negative;
   const bool stays_stable = !c.events.empty() && negative_ == 0 && after == 0;      // up to a contact, behind which the tangent may be any other one
   if (stays_stable && !current_.slack && !goes_on(c)) return why = "the load factor does not go on between two stable states: the contact is on another branch", false;
-  const bool turns = !c.natural && !stays_stable && rises(c.e) != sign_;
+  const bool turns = !c.natural && !stays_stable && rises(c.e) != sign_ && !(after == negative_ && goes_on_behind(c));
   if (after == negative_ && !turns) {
     if (negative_ == 0 && lower_already(newton_.energy(), current_, c.e))
       return why = lower_before, false;

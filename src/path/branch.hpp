@@ -88,6 +88,7 @@ class Branch {
   bool stop_where_load_goes_back(const Segment& segment, Candidate& c);
   bool goes_back(const Candidate& c) const;
   bool goes_on(const Candidate& c) const;
+  bool goes_on_behind(const Candidate& c) const;
   [[nodiscard]] bool stop_where_index_goes_back(const Segment& segment, Candidate& c);
   double way_to_limit() const;
   bool softens() const;
