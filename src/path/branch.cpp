@@ -429,20 +429,32 @@ bool Branch::explained(const Event& event, const Segment& segment, const Candida
 }
 
 // At a limit point the load factor turns back from where it has been going:  λ'' = −vᵀ∇³E v v/(vᵀ∂g/∂λ) has the opposite sign of dλ/ds before it. Beside a pitchfork that
-// is all but perfect the other branch has one that opens onward. Not asked where something touches, whose stiffness changes at once, or where rounding hides it.
+// is all but perfect the other branch has one that opens onward. Told by what is closed there staying so, by a part of every overlap at most; not where bodies touch, whose
+// stiffness changes at once, or where rounding hides it.
 bool Branch::turns_back(const Event& event) const {
   Energy& energy = newton_.energy();
+  const Kinematics& kinematics = energy.kinematics();
+  const State& here = event.at.point.state;
   const Vector v = event.modes.col(0);
-  const double way = branch::to_see_turn * std::abs(v.dot(energy.kinematics().difference(current_.point.state, event.at.point.state)));
+  double way = branch::to_see_turn * std::abs(v.dot(kinematics.difference(current_.point.state, here)));
+  const ContactSet closed = closed_contacts(energy, here);
+  const auto aside = [&](int side) { return moved_by(kinematics, here, v, 0, side ? way : -way); };
+  double most = 0;                                              // of the parts by which overlaps change
+  for (const ContactKey& key : closed) {
+    if (key.feature >= 0) return true;
+    const double overlap = gap(energy, key, here);
+    for (const int side : {0, 1}) most = std::max(most, std::abs(gap(energy, key, aside(side)) / overlap - 1));
+  }
+  if (most > branch::same_overlap) way *= branch::same_overlap / most;
   double stiffness[2], rounding = 0;
   for (const int side : {0, 1}) {
-    const State aside = moved_by(energy.kinematics(), event.at.point.state, v, 0, side ? way : -way);
-    if (!energy.touches(aside).empty()) return true;
-    energy.evaluate(aside);
+    const State beside = aside(side);
+    if (closed_contacts(energy, beside) != closed) return true;
+    energy.evaluate(beside);
     const BilinearForm form = energy.form(v, v);
     stiffness[side] = form.value, rounding += form_rounding * epsilon * form.size;
   }
-  energy.evaluate(event.at.point.state);
+  energy.evaluate(here);
   const double third = stiffness[1] - stiffness[0], work = v.dot(energy.load_derivative());
   return std::abs(third) <= rounding || sign_ * third * work >= 0;
 }

@@ -74,6 +74,7 @@ constexpr double load_rounding = 1e-10;  // of the load factor: where hardly any
 constexpr double most_told = 10;  // times what tangents at both ends tell: between them they may be more
 constexpr double before_contact = 0.9;  // of the way to a contact that is lost: there the contact still has its stiffness, and the Morse index is the branch's
 constexpr double to_see_turn = 0.1;  // of the way along the critical mode to a limit point: over which the change of its stiffness is taken
+constexpr double same_overlap = 0.1;  // by which an overlap may change there: its stiffness by half of that, as its rate tells
 constexpr double first_past = 1e-5, least_past = 1e-7, last_past = 16;  // of the way over which the other side of a contact is looked for
 }
 
@@ -143,7 +144,7 @@ constexpr double steepest = 4;  // times the mean rate of a segment: more is a l
 constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes: those of other modes that vanish with it, in other coordinates
 constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
 constexpr double work_rounding = 1e-10;  // of a load: its work along a critical mode as far as that is known; and …
-constexpr double of_limit = 0.1;  // … of the eigenvalue times the way to it: the work of the load at a limit point, a parabola having 0.5
+constexpr double of_limit = 0.01;  // … of the eigenvalue times the way to it: the work of the load at a limit point, a parabola having 0.5, and branch points of path_stress 1e-3 at most
 constexpr double little_before = 1e-4;  // of the eigenvalue where a segment begins: where it tells how a branch comes to a limit point
 constexpr double load_rounding = 1e-13;  // of the load factor: where an eigenvalue vanishes
 constexpr double settled = 1e-14;  // of a load: its work along the mode of a branch point that is known to rounding; …

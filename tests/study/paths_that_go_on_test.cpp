@@ -1524,6 +1524,22 @@ TEST_CASE("a limit point that is found only where soft modes are held is none", 
   same_in_steps("column_unfolded_on_two_contacts", 8.6, "limit", 0, {50, 5, 17, 49, 200}, {by_arcs, follows});
 }
 
+TEST_CASE("what is neutral at both ends of a step has no sign between them", "[paths][ring_oval_hardly_neutral]") {
+  same_in_steps("ring_oval_hardly_neutral", 0.94138743477112587, "branch", 1, {14, 5, 8, 25});
+}
+
+TEST_CASE("the load factor goes on behind a contact as its gap opens", "[paths][column_turns_before_contact_is_lost]") {
+  same_in_steps("column_turns_before_contact_is_lost", 15.966757694717815, "limit", 20, {9, 4, 17});
+}
+
+TEST_CASE("a limit point of a branch that passes by opens the other way where contacts are closed, too", "[paths][column_limit_of_other_branch_in_contact]") {
+  same_in_steps("column_limit_of_other_branch_in_contact", 8.6405738378936373, "limit", 3, {7, 5, 10, 50});
+}
+
+TEST_CASE("a fold of another branch along which the load does next to no work is no branch point", "[paths][column_nearly_symmetric_on_contacts]") {
+  same_in_steps("column_nearly_symmetric_on_contacts", 53.316239786666912, "branch", 0, {6, 5, 50});
+}
+
 TEST_CASE("on the way to where a contact is lost no other one is made", "[paths][heap_rocks_under_lid]") {
   same_in_steps("heap_rocks_under_lid", 1, "limit", 1, {10, 4, 5, 20}, {by_load_steps, snaps});
 }
