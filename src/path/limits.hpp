@@ -145,6 +145,7 @@ constexpr double vanishing_together = 10;  // times the eigenvalue that vanishes
 constexpr double orthogonal = 1e-5;  // of a load to a critical mode, where nothing else tells limit from branch points
 constexpr double work_rounding = 1e-10;  // of a load: its work along a critical mode as far as that is known; and …
 constexpr double of_limit = 0.01;  // … of the eigenvalue times the way to it: the work of the load at a limit point, a parabola having 0.5, and branch points of path_stress 1e-3 at most
+constexpr double unfolding = 100;  // times its rounding: the force along a critical mode that breaks a branch point; at most 0.5 of it at 433 of them in path_stress, 2e3 and more at unfolded ones
 constexpr double little_before = 1e-4;  // of the eigenvalue where a segment begins: where it tells how a branch comes to a limit point
 constexpr double load_rounding = 1e-13;  // of the load factor: where an eigenvalue vanishes
 constexpr double settled = 1e-14;  // of a load: its work along the mode of a branch point that is known to rounding; …

@@ -127,6 +127,17 @@ bool comes_to_limit(const Kinematics& kinematics, const Equilibrium& from, doubl
   return w > locate::work_rounding * load.norm() && w * std::abs(change) > locate::of_limit * std::abs(value) * way;
 }
 
+// Whether a force φᵀg is left along a critical mode that is more than rounding, summed element by element: it unfolds a pitchfork, whose branches pass by each other.
+bool is_unfolded(Energy& energy, const State& state, const Eigen::MatrixXd& modes) {
+  if (!state.hard.empty()) return false;
+  energy.evaluate(state, false);
+  for (Eigen::Index j = 0; j < modes.cols(); ++j) {
+    const BilinearForm force = energy.slope(modes.col(j));
+    if (std::abs(force.value) > locate::unfolding * slope_rounding * epsilon * (force.size + epsilon * energy.force_scale())) return true;
+  }
+  return false;
+}
+
 // turns: of the load factor on the segment; nothing: it does not tell. lower, upper: its ends, of which one may be on a branch that passes by, as beside a
 // pitchfork that a small force has unfolded.
 Event finish(Newton& newton, const Sample& lower, const Sample& upper, Equilibrium at, int index, double scale, const Eigen::MatrixXd& known,
@@ -302,6 +313,7 @@ std::optional<Event> locate_crossing(Newton& newton, const Segment& segment, con
     }
     event = finished(*zero, told);                              // anew: the factors are those of other places
   }
+  if (event.kind == EventKind::branch && is_unfolded(newton.energy(), event.at.point.state, event.modes)) return {};
   if (event.kind == EventKind::branch) move_along_modes(event.at, event.modes, between(zero->t));
   else event.passing = event.modes * (event.modes.transpose() * newton.energy().kinematics().difference(just_before, zero->e.point.state));
   // As many eigenvalues are negative there as on the side that has fewer; more, and it is on another branch.

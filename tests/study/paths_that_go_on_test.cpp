@@ -1540,6 +1540,10 @@ TEST_CASE("a fold of another branch along which the load does next to no work is
   same_in_steps("column_nearly_symmetric_on_contacts", 53.316239786666912, "branch", 0, {6, 5, 50});
 }
 
+TEST_CASE("where a force is left along the critical mode there is no branch point", "[paths][column_all_but_symmetric]") {
+  same_in_steps("column_all_but_symmetric", 153.1114957503279, "branch", 0, {10, 8, 12}, {by_load_steps, snaps});
+}
+
 TEST_CASE("on the way to where a contact is lost no other one is made", "[paths][heap_rocks_under_lid]") {
   same_in_steps("heap_rocks_under_lid", 1, "limit", 1, {10, 4, 5, 20}, {by_load_steps, snaps});
 }
