@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace elamin {
 
@@ -19,6 +20,9 @@ using namespace limits;
 namespace {
 
 bool turns(double a, double b) { return (a < 0) != (b < 0); }
+bool turns_asymmetry(const Threshold& a, const Threshold& b) {
+  return std::min(std::abs(a.asymmetry), std::abs(b.asymmetry)) > curve::asymmetric && turns(a.asymmetry, b.asymmetry);
+}
 
 /// Something that changes its sign on the way; and whether it is a difference quotient.
 struct Sign {
@@ -26,45 +30,45 @@ struct Sign {
   std::function<double(Threshold&)> of;
   bool differenced = true;
 };
-bool turns_asymmetry(const Threshold& a, const Threshold& b) {
-  return std::min(std::abs(a.asymmetry), std::abs(b.asymmetry)) > curve::asymmetric && turns(a.asymmetry, b.asymmetry);
-}
 
 const Sign turn_of_second{"turn", "the second parameter turns", [](Threshold& t) { return t.direction.second; }};
 
 class CurveTracer {
  public:
   CurveTracer(const VariantAt& variants, const CurveOptions& options, const std::function<void(const CurvePoint&)>& found)
-      : options_(options), found_(found), system_(variants, {}) {}
+      : options_(options), found_(found), system_(variants) {}
 
-  CurveEnd trace(Threshold start) {
-    if (const std::string why = begin(start); !why.empty()) return {Status::not_converged, why};
-    Threshold here = std::move(start);
+  CurveEnd trace(Threshold here) {
+    try {
+      return follow(here);
+    } catch (const NotFollowed& end) {
+      return {Status::not_converged, fmt::format("the curve cannot be followed beyond {:.10g}: {}", here.second, end.what())};
+    }
+  }
+
+ private:
+  // From the threshold that the path has located to the end; `here` is the last point that there is.
+  CurveEnd follow(Threshold& here) {
+    begin(here);
     const double nominal = 1.0 / options_.steps;
     double step = nominal;
     for (int points = 0; points < curve::most_points * options_.steps; ++points) {
-      if (interrupted()) return {Status::interrupted, "interrupted"};
       const double rate = std::abs(here.direction.second) / system_.metric.second;
       step = std::min({step, curve::longest_step * nominal, rate > 0 ? nominal / rate : step});
       Threshold next;
-      std::string why;
-      double angle = 0;
-      for (;; step /= 2) {
-        if (step < curve::least_step * nominal)
-          return {Status::not_converged, fmt::format("the curve cannot be followed beyond {:.10g}: {}", here.second, why)};
-        if (interrupted()) return {Status::interrupted, "interrupted"};
-        if (advance(here, step, next, angle, why)) break;
-      }
+      for (std::string why; !interrupted() && !advance(here, step, next, why); step /= 2)
+        if (step / 2 < curve::least_step * nominal) throw NotFollowed(why);
+      if (interrupted()) return {Status::interrupted, "interrupted"};
+      const double angle = angle_between(here, next);
       // A step over a turn of μ ends there, so that values of it are met on both sides.
       bool told = false;
       if (turns(here.direction.second, next.direction.second) && !turns_asymmetry(here, next))
         if (const auto turn = locate(here, next, turn_of_second)) {
           const double sense = next.direction.second;
-          next = turn->second.threshold, next.direction.second = std::copysign(next.direction.second, sense), told = true;
+          next = turn->threshold, next.direction.second = std::copysign(next.direction.second, sense), told = true;
         }
       const std::optional<double> target = target_between(here, next);
-      if (target)
-        if (const std::string wrong = land(here, *target, next); !wrong.empty()) return {Status::not_converged, wrong};
+      if (target) land(here, *target, next);
       system_.assess_at(next);
       const std::string missed = tell_between(here, next);
       if (!until_.empty()) return {Status::converged, "the curve has been followed to " + until_};
@@ -78,15 +82,11 @@ class CurveTracer {
     return {Status::not_converged, fmt::format("the curve has {} points and does not get to its end", curve::most_points * options_.steps)};
   }
 
- private:
-  // The threshold that the path has located, as the extended system has it, and scales that make all parts of the curve alike there.
-  std::string begin(Threshold& start) {
-    const std::shared_ptr<Variant> here = system_.variant(start.second);
-    if (!here) return "there is no such structure";
-    const double load = std::abs(start.at.point.state.load_factor), extent = span(here->model);
+  // The threshold as the extended system has it, and scales that make all parts of the curve alike there.
+  void begin(Threshold& start) {
+    const double load = std::abs(start.at.point.state.load_factor), extent = span(system_.variant(start.second)->model);
     system_.metric = {extent, load > 0 ? load : options_.load, std::abs(options_.to - options_.from)};
-    const Report report = system_.solve(start, nullptr);
-    if (!report.converged()) return "the threshold of the path is none of the extended system: " + report.why;
+    system_.solve(start, nullptr);
     const CurveDirection& d = start.direction;
     const double rest = std::hypot(d.load / system_.metric.load, d.second / system_.metric.second), way = d.x.norm();
     system_.metric.length = std::max(curve::least_length * extent, rest > 0 ? way / rest : 0.0);
@@ -94,17 +94,24 @@ class CurveTracer {
     start.direction = system_.metric.unit(start.direction);
     system_.assess_at(start);
     found_({start, "start", ""});
-    return "";
   }
 
-  bool advance(const Threshold& from, double step, Threshold& next, double& angle, std::string& why) {
-    next = from;
-    if (!system_.move(next, from.direction * step)) return why = "there is no such structure", false;
-    const Report report = system_.solve(next, &from.direction);
-    if (!report.converged()) return why = report.why, false;
-    angle = std::acos(std::clamp(system_.metric.dot(from.direction, next.direction), -1.0, 1.0));
-    if (angle > curve::largest_angle) return why = "it bends too sharply", false;
-    return true;
+  double angle_between(const Threshold& a, const Threshold& b) const {
+    return std::acos(std::clamp(system_.metric.dot(a.direction, b.direction), -1.0, 1.0));
+  }
+
+  // The point a step further; false, with a phrase, where it is none.
+  bool advance(const Threshold& from, double step, Threshold& next, std::string& why) {
+    try {
+      next = from;
+      system_.move(next, from.direction * step);
+      system_.solve(next, &from.direction);
+      if (angle_between(from, next) <= curve::largest_angle) return true;
+      why = "it bends too sharply";
+    } catch (const NotFollowed& none) {
+      why = none.what();
+    }
+    return false;
   }
 
   // The first value of μ on the way that is to be met.
@@ -119,23 +126,21 @@ class CurveTracer {
   }
 
   // The point between at that value of μ, instead of `at` behind it.
-  std::string land(const Threshold& from, double target, Threshold& at) {
-    auto found = at.second == target ? std::optional(std::pair{0.0, CurvePoint{at, "", ""}})
-                                     : locate(from, at, {"", "", [target](Threshold& t) { return t.second - target; }});
-    if (!found) return fmt::format("the curve does not lead to {:.10g}", target);
-    at = std::move(found->second.threshold);
-    CurveDirection rest{Vector::Zero(from.direction.x.size()), 0, target - at.second};
-    if (!system_.move(at, rest)) return "there is no such structure";
+  void land(const Threshold& from, double target, Threshold& at) {
+    if (at.second != target) {
+      const auto found = locate(from, at, {"", "", [target](Threshold& t) { return t.second - target; }});
+      if (!found) throw NotFollowed(fmt::format("it does not lead to {:.10g}", target));
+      at = found->threshold;
+    }
+    system_.move(at, {Vector::Zero(from.direction.x.size()), 0, target - at.second});
     at.second = target;
-    const Report report = system_.solve(at, nullptr);
-    if (!report.converged()) return fmt::format("the curve cannot be followed to {:.10g}: {}", target, report.why);
+    system_.solve(at, nullptr);
     if (system_.metric.dot(from.direction, at.direction) < 0) at.direction = at.direction * -1;
-    return "";
   }
 
   /// Tells what happens between two points in its order; returns what of it could not be located.
   std::string tell_between(const Threshold& a, const Threshold& b) {
-    std::vector<std::pair<double, CurvePoint>> special;
+    std::vector<CurvePoint> special;
     std::string missed;
     const auto look = [&](const Threshold& from, const Threshold& to, const Sign& sign) {
       if (auto located = locate(from, to, sign)) special.push_back(std::move(*located));
@@ -154,11 +159,10 @@ class CurveTracer {
     meet_between(a, b, look);
     for (const ContactKey& key : difference(closed(a), closed(b)))
       if (key.feature < 0 && (a.kind != EventKind::contact || key != a.contact))
-        look(a, b, {"contact", "another contact is made or lost", [&](Threshold& t) {
-               return system_.variant(t.second)->energy.gap(key.particle, key.other, key.wall, t.at.point.state);
-             }, false});
-    std::stable_sort(special.begin(), special.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    for (auto& [s, point] : special) {
+        look(a, b, {"contact", "another contact is made or lost",
+                    [&](Threshold& t) { return gap(system_.variant(t.second)->energy, key, t.at.point.state); }, false});
+    std::ranges::stable_sort(special, {}, [&](const CurvePoint& point) { return along(a, point.threshold); });
+    for (CurvePoint& point : special) {
       point.label = fmt::format("{}:{}", point.label, ++numbers_[point.label]);
       point.threshold.at.point.label = point.label;
       found_(point);
@@ -200,8 +204,10 @@ class CurveTracer {
 
   ContactSet closed(const Threshold& t) { return closed_contacts(system_.variant(t.second)->energy, t.at.point.state); }
 
-  std::optional<std::pair<double, CurvePoint>> locate(const Threshold& a, const Threshold& b, const Sign& sign) {
-    const double length = system_.metric.dot(a.direction, way(a, b));
+  double along(const Threshold& a, const Threshold& b) { return system_.metric.dot(a.direction, system_.way(a, b)); }
+
+  std::optional<CurvePoint> locate(const Threshold& a, const Threshold& b, const Sign& sign) {
+    const double length = along(a, b);
     std::map<double, Threshold> seen{{0, a}, {length, b}};
     Threshold first = a, last = b;
     const Sample lower{0, sign.of(first), a.at}, upper{length, sign.of(last), b.at};
@@ -209,28 +215,18 @@ class CurveTracer {
     const double resolution = (sign.differenced ? curve::about : curve::located) * length;
     const auto zero = find_zero(lower, upper, [&](double) { return resolution; }, [&](double s, const Sample& nearest) -> std::optional<Sample> {
       Threshold t;
-      double angle = 0;
-      std::string why;
-      if (!advance(a, s, t, angle, why)) {                     // where two eigenvectors mix by rounding: as near as it can be told
-        if (std::abs(s - nearest.t) > curve::as_near * length) return {};
-        return Sample{nearest.t, 0, nearest.e};
+      if (std::string why; advance(a, s, t, why)) {
+        const double f = sign.of(t);
+        seen[s] = t;
+        return Sample{s, f, t.at};
       }
-      const double f = sign.of(t);
-      seen[s] = t;
-      return Sample{s, f, t.at};
+      if (std::abs(s - nearest.t) > curve::as_near * length) return {};
+      return Sample{nearest.t, 0, nearest.e};                  // where two eigenvectors mix by rounding: as near as it can be told
     });
     if (!zero) return {};
     CurvePoint point{seen.at(zero->t), sign.kind, sign.what};
     system_.assess_at(point.threshold);
-    return std::pair{zero->t, std::move(point)};
-  }
-
-  CurveDirection way(const Threshold& a, const Threshold& b) {
-    Threshold there = a;
-    const State &from = there.at.point.state, &to = b.at.point.state;
-    CurveDirection by{Vector::Zero(a.direction.x.size()), to.load_factor - from.load_factor, b.second - a.second};
-    if (system_.move(there, by)) by.x = system_.variant(b.second)->energy.kinematics().difference(from, to);
-    return by;
+    return point;
   }
 
   // Of the eigenpairs beside the critical and the zero modes the one of this number from below, from 0.
@@ -243,10 +239,10 @@ class CurveTracer {
     const Eigen::MatrixXd others = without_modes(lowest.vectors, held);
     if (others.cols() == 0) return {Vector::Zero(1), Eigen::MatrixXd::Zero(held.rows(), 1)};
     const EigenPairs near = factors.nearest_zero(others, held);
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(near.values.size()));
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
-    std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return near.values[i] < near.values[j]; });
-    const Eigen::Index k = order[std::min(order.size() - 1, static_cast<std::size_t>(index))];
+    std::vector<int> order(near.values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](int i) { return near.values[i]; });
+    const int k = order[std::min(static_cast<int>(order.size()) - 1, index)];
     return {near.values.segment(k, 1), near.vectors.col(k)};
   }
 

@@ -13,7 +13,7 @@ namespace elamin {
 
 using namespace limits;
 
-// The conditions' derivatives (conditions × directions, which have unit length), and what the conditions lack.
+// The conditions' derivatives (conditions × directions, which have unit length), and what the conditions lack, both in parts of the largest derivative.
 struct ExtendedSystem::Linear {
   std::vector<CurveDirection> directions;       // (v, 0, 0) but of a contact, (p_L, δ_L, 0), (p_M, δ_M, 1)
   CurveDirection rest;                          // (p₀, δ₀, 0)
@@ -21,40 +21,18 @@ struct ExtendedSystem::Linear {
   Vector lacking;
 };
 
-namespace {
-
-double largest(const std::vector<double>& row) {
-  double most = 0;
-  for (const double x : row) most = std::max(most, std::abs(x));
-  return most;
-}
-
-void append(Eigen::MatrixXd& rows, Vector& lacking, const std::vector<double>& row, double value) {
-  const Eigen::Map<const Eigen::RowVectorXd> r(row.data(), static_cast<Eigen::Index>(row.size()));
-  const double scale = largest(row);
-  if (!(scale > 0)) return;
-  rows.conservativeResize(rows.rows() + 1, r.size());
-  rows.bottomRows(1) = r / scale;
-  lacking.conservativeResize(lacking.size() + 1);
-  lacking.tail(1)[0] = -value / scale;
-}
-
-}  // namespace
-
 std::shared_ptr<Variant> ExtendedSystem::variant(double second) {
   for (const auto& [value, there] : recent_)
     if (value == second) return there;
   std::shared_ptr<Variant> made = variants_(second);
-  if (!made) return made;
   recent_.emplace_front(second, made);
   if (recent_.size() > curve::kept_variants) recent_.pop_back();
   return made;
 }
 
 // The state in the structure at its new μ: what is free goes with the places at rest, and by the step besides.
-std::optional<State> ExtendedSystem::moved(const Threshold& from, const CurveDirection& by) {
-  const std::shared_ptr<Variant> here = variant(from.second), there = by.second == 0 ? here : variant(from.second + by.second);
-  if (!here || !there) return {};
+State ExtendedSystem::moved(const Threshold& from, const CurveDirection& by) {
+  const std::shared_ptr<Variant> here = variant(from.second), there = variant(from.second + by.second);
   State state = from.at.point.state;
   if (here != there) {
     const State &a = here->model.start, &b = there->model.start;
@@ -67,11 +45,15 @@ std::optional<State> ExtendedSystem::moved(const Threshold& from, const CurveDir
   return state;
 }
 
-bool ExtendedSystem::move(Threshold& point, const CurveDirection& by) {
-  std::optional<State> state = moved(point, by);
-  if (!state) return false;
-  point.at.point.state = std::move(*state), point.second += by.second;
-  return true;
+void ExtendedSystem::move(Threshold& point, const CurveDirection& by) {
+  point.at.point.state = moved(point, by), point.second += by.second;
+}
+
+CurveDirection ExtendedSystem::way(const Threshold& from, const Threshold& to) {
+  const State& there = to.at.point.state;
+  const Kinematics& kinematics = variant(to.second)->energy.kinematics();
+  const CurveDirection rest{Vector::Zero(kinematics.dofs()), there.load_factor - from.at.point.state.load_factor, to.second - from.second};
+  return {kinematics.difference(moved(from, rest), there), rest.load, rest.second};
 }
 
 // How far along a direction of unit length a central difference goes: ε^(1/3) of a turn of the bonds by a radian, of the scale of λ, of
@@ -80,84 +62,65 @@ double ExtendedSystem::step_of(const Threshold& at, const CurveDirection& along)
   const Energy& energy = variant(at.second)->energy;
   const double turn = distortion(energy, at.at.point.state, along.x, along.load), by_turn = turn > 0 ? turn : movement(energy, along.x);
   const double part = std::cbrt(epsilon), h = part / std::max({by_turn, std::abs(along.load) / metric.load, std::abs(along.second) / metric.second});
-  const std::optional<State> beside = moved(at, along * h);
-  if (!beside) return h;
+  const State beside = moved(at, along * h);
   Energy &here = variant(at.second)->energy, &there = variant(at.second + h * along.second)->energy;
   double within = 1;
   for (const ContactKey& key : closed_contacts(here, at.at.point.state)) {
     if (key.feature >= 0 || (at.kind == EventKind::contact && key == at.contact)) continue;
-    const double overlap = gap(here, key, at.at.point.state), change = std::abs(gap(there, key, *beside) - overlap);
+    const double overlap = gap(here, key, at.at.point.state), change = std::abs(gap(there, key, beside) - overlap);
     if (change > part * std::abs(overlap)) within = std::min(within, part * std::abs(overlap) / change);
   }
   return h * std::max(within, curve::least_within);
 }
 
-std::optional<ExtendedSystem::Rates> ExtendedSystem::rates(const Threshold& at, const CurveDirection& along, const Vector& v) {
-  const double h = step_of(at, along);
-  Rates sides[2];
-  for (const int k : {0, 1}) {
-    const CurveDirection by = along * (k == 0 ? -h : h);
-    const std::optional<State> state = moved(at, by);
-    if (!state) return {};
-    Energy& energy = variant(at.second + by.second)->energy;
-    const bool all = v.size() > 0;                            // or the force alone
-    energy.evaluate(*state, all);
-    sides[k] = {energy.gradient(), all ? energy.multiply(v) : Vector(), all ? energy.load_derivative() : Vector()};
-  }
-  const auto rate = [&](const Vector& a, const Vector& b) { return Vector((b - a) / (2 * h)); };
-  return Rates{rate(sides[0].force, sides[1].force), rate(sides[0].hv, sides[1].hv), rate(sides[0].load, sides[1].load)};
+// What a function of the structure and the state has beside a point.
+auto ExtendedSystem::beside(const Threshold& at, const CurveDirection& by, const auto& value) {
+  const State state = moved(at, by);
+  return value(variant(at.second + by.second)->energy, state);
 }
 
-std::optional<double> ExtendedSystem::gap_rate(const Threshold& at, const CurveDirection& along) {
+// Its derivative along a direction.
+auto ExtendedSystem::rate(const Threshold& at, const CurveDirection& along, const auto& value) {
   const double h = step_of(at, along);
-  double gaps[2];
-  for (const int k : {0, 1}) {
-    const CurveDirection by = along * (k == 0 ? -h : h);
-    const std::optional<State> state = moved(at, by);
-    if (!state) return {};
-    gaps[k] = variant(at.second + by.second)->energy.gap(at.contact.particle, at.contact.other, at.contact.wall, *state);
-  }
-  return (gaps[1] - gaps[0]) / (2 * h);
+  auto rate = beside(at, along * -h, value);
+  rate = (beside(at, along * h, value) - rate) / (2 * h);
+  return rate;
+}
+
+double ExtendedSystem::gap_rate(const Threshold& at, const CurveDirection& along) {
+  return rate(at, along, [&](const Energy& energy, const State& state) { return gap(energy, at.contact, state); });
 }
 
 // ∂g/∂μ, what is free going with the places at rest.
-std::optional<Vector> ExtendedSystem::second_derivative(const Threshold& at) {
+Vector ExtendedSystem::second_derivative(const Threshold& at) {
   const CurveDirection along{Vector::Zero(variant(at.second)->energy.dofs()), 0, metric.second};
-  if (at.kind != EventKind::contact) {
-    const auto rate = rates(at, along, {});
-    return rate ? std::optional<Vector>(rate->force / metric.second) : std::nullopt;
-  }
+  const auto force = [](Energy& energy, const State& state) {
+    energy.evaluate(state, false);
+    return energy.gradient();
+  };
+  if (at.kind != EventKind::contact) return rate(at, along, force) / metric.second;
   // The force of a contact begins like the power 3/2 of its overlap: (−3 f(0) + 4 f(h) − f(2h))/(2h) on the side on which it is open.
-  const std::optional<double> opens = gap_rate(at, along);
-  if (!opens) return {};
-  const double h = step_of(at, along) * (*opens < 0 ? -1 : 1);
-  Vector sum = Vector::Zero(along.x.size());
-  for (const auto& [weight, part] : {std::pair(-3.0, 0.0), {4.0, h}, {-1.0, 2 * h}}) {
-    const std::optional<State> state = moved(at, along * part);
-    if (!state) return {};
-    Energy& energy = variant(at.second + part * metric.second)->energy;
-    energy.evaluate(*state, false);
-    sum += weight * energy.gradient();
-  }
-  return Vector(sum / (2 * h * metric.second));
+  const double h = step_of(at, along) * (gap_rate(at, along) < 0 ? -1 : 1);
+  const auto there = [&](double part) { return beside(at, along * part, force); };
+  return (-3 * there(0) + 4 * there(h) - there(2 * h)) / (2 * h * metric.second);
 }
 
-std::optional<ExtendedSystem::Linear> ExtendedSystem::linearise(Threshold& point, std::string& why) {
+ExtendedSystem::Linear ExtendedSystem::linearise(Threshold& point) {
   const std::shared_ptr<Variant> here = variant(point.second);
-  const std::optional<Vector> by_second = second_derivative(point);
-  if (!here || !by_second) return why = "there is no structure there", std::nullopt;
+  const Vector by_second = second_derivative(point);
   Energy& energy = here->energy;
   Factors& factors = here->newton.factors();
   const State& state = point.at.point.state;
   energy.evaluate(state);
   const Vector g = energy.gradient(), load = energy.load_derivative();
-  if (!factors.factorize_holding(side_by_side(point.at.zero_modes, point.modes))) return why = factors.why_none(), std::nullopt;
+  if (!factors.factorize_holding(side_by_side(point.at.zero_modes, point.modes))) throw NotFollowed(factors.why_none());
 
   Linear linear;
+  std::vector<CurveDirection>& directions = linear.directions;
   const bool critical = point.kind != EventKind::contact;
   Vector v;
   double theta = 0;
-  if (point.modes.cols() > 0) {
+  if (critical) {
     for (Eigen::Index j = 0; j < point.modes.cols(); ++j) {
       const Vector phi = point.modes.col(j);
       point.modes.col(j) = phi - factors.solve_holding(energy.multiply(phi));
@@ -165,10 +128,8 @@ std::optional<ExtendedSystem::Linear> ExtendedSystem::linearise(Threshold& point
     const Vector before = point.modes.col(0);
     point.modes = orthonormal(point.modes);
     if (point.modes.col(0).dot(before) < 0) point.modes.col(0) *= -1;
-  }
-  if (critical) {
     v = point.modes.col(0), theta = energy.quadratic_form(v);
-    linear.directions.push_back(metric.unit({v, 0, 0}));
+    directions.push_back(metric.unit({v, 0, 0}));
   }
   // Where the load factor alone moves the equilibrium, and then across that direction.
   const CurveDirection by_load = metric.unit({-factors.solve_holding(load), 1, 0});
@@ -178,116 +139,103 @@ std::optional<ExtendedSystem::Linear> ExtendedSystem::linearise(Threshold& point
     const Factors::Bordered s = factors.solve_bordered(load, row, corner, b, beta);
     return CurveDirection{s.p, s.delta, second};
   };
-  const CurveDirection along = solve(Vector::Zero(g.size()), 1, 0);
-  linear.directions.push_back(point.way = metric.unit(along));
-  linear.directions.push_back(metric.unit(solve(-*by_second, 0, 1)));
+  directions.push_back(point.way = metric.unit(solve(Vector::Zero(g.size()), 1, 0)));
+  directions.push_back(metric.unit(solve(-by_second, 0, 1)));
   linear.rest = solve(-g, 0, 0);
 
-  const std::size_t count = linear.directions.size();
+  const Eigen::Index count = static_cast<Eigen::Index>(directions.size());
+  linear.rows.resize(count - 1, count), linear.lacking.resize(count - 1);
   if (!critical) {
-    std::vector<double> gaps;
-    for (const CurveDirection& d : linear.directions) gaps.push_back(gap_rate(point, d).value_or(0));
-    append(linear.rows, linear.lacking, gaps, energy.gap(point.contact.particle, point.contact.other, point.contact.wall, state));
+    for (Eigen::Index k = 0; k < count; ++k) linear.rows(0, k) = gap_rate(point, directions[k]);
+    linear.lacking[0] = -gap(energy, point.contact, state);
   } else {
-    std::vector<double> force, work, curvature;
+    const CurveDirection& way = directions[1];
+    Eigen::RowVector3d force, work, curvature;
     double size = 0;                                          // of the terms of `work`
-    const CurveDirection& way = linear.directions[1];
-    for (std::size_t k = 0; k < count; ++k) {
-      const CurveDirection& d = linear.directions[k];
-      const auto r = rates(point, d, v);
-      if (!r) return why = "there is no structure beside", std::nullopt;
-      curvature.push_back(v.dot(r->hv));
-      force.push_back(k == 0 ? theta * d.x.dot(v) : v.dot(load) * d.load + v.dot(*by_second) * d.second);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const CurveDirection& d = directions[k];
+      const Eigen::MatrixX2d r = rate(point, d, [&](Energy& there, const State& place) {
+        there.evaluate(place);
+        return (Eigen::MatrixX2d(v.size(), 2) << there.multiply(v), there.load_derivative()).finished();
+      });
+      const auto by_hv = r.col(0), by_load_derivative = r.col(1);
+      curvature[k] = v.dot(by_hv);
+      force[k] = k == 0 ? theta * d.x.dot(v) : v.dot(load) * d.load + v.dot(by_second) * d.second;
       // δv = P(−δH v), so that vᵀ∂g/∂λ changes by vᵀδ(∂g/∂λ) + (δH v)ᵀp_λ, here times δ_L.
-      work.push_back(way.load * v.dot(r->load) + way.x.dot(r->hv));
-      size = std::max(size, std::abs(way.load) * r->load.norm() + way.x.norm() * r->hv.norm());
-      if (k == 0) point.asymmetry = curvature[0] / std::max(r->hv.norm(), std::numeric_limits<double>::min());
+      work[k] = way.load * v.dot(by_load_derivative) + way.x.dot(by_hv);
+      size = std::max(size, std::abs(way.load) * by_load_derivative.norm() + way.x.norm() * by_hv.norm());
+      if (k == 0) point.asymmetry = curvature[0] / std::max(by_hv.norm(), std::numeric_limits<double>::min());
     }
     // Where two branch points meet the work of the load does not tell how far along the mode they are, which symmetry keeps as it was.
-    if (point.kind == EventKind::branch && largest(work) <= curve::no_row * size) append(linear.rows, linear.lacking, {1, 0, 0}, 0);
-    else if (point.kind == EventKind::branch) append(linear.rows, linear.lacking, work, way.load * v.dot(load));
-    else append(linear.rows, linear.lacking, force, v.dot(g) + v.dot(load) * linear.rest.load);
-    append(linear.rows, linear.lacking, curvature, theta);
+    const bool told = work.cwiseAbs().maxCoeff() > curve::no_row * size;
+    if (point.kind == EventKind::limit) linear.rows.row(0) = force, linear.lacking[0] = -(v.dot(g) + v.dot(load) * linear.rest.load);
+    else if (told) linear.rows.row(0) = work, linear.lacking[0] = -way.load * v.dot(load);
+    else linear.rows.row(0) = Eigen::RowVector3d::UnitX(), linear.lacking[0] = 0;
+    linear.rows.row(1) = curvature, linear.lacking[1] = -theta;
   }
-  if (linear.rows.rows() + 1 < static_cast<Eigen::Index>(count)) return why = "the conditions do not depend on anything", std::nullopt;
+  const Vector scale = linear.rows.cwiseAbs().rowwise().maxCoeff();
+  if (!(scale.minCoeff() > 0)) throw NotFollowed("the conditions do not depend on anything");
+  linear.rows.array().colwise() /= scale.array(), linear.lacking.array() /= scale.array();
   return linear;
 }
 
 // The equilibrium with its critical modes held, across its way, where a step has left forces: axial ones grow with its square.
-Report ExtendedSystem::settle(Threshold& point, Variant& here) {
+void ExtendedSystem::settle(Threshold& point) {
+  const std::shared_ptr<Variant> here = variant(point.second);
   const Eigen::MatrixXd held = side_by_side(point.at.zero_modes, point.modes);
-  Plane across{Vector::Zero(here.energy.dofs()), 1};
+  Plane across{Vector::Zero(here->energy.dofs()), 1};
   if (point.way.x.size() > 0)
     across = {point.way.x / (metric.length * metric.length), point.way.load / (metric.load * metric.load), metric.length, metric.load};
   across.guided = held.cols() > 0;
-  return here.newton.correct(point.at.point.state, held, nullptr, curve::most_settling, &across);
+  const Report report = here->newton.correct(point.at.point.state, held, nullptr, curve::most_settling, &across);
+  if (!report.converged()) throw NotFollowed(report.why);
 }
 
-Report ExtendedSystem::solve(Threshold& point, const CurveDirection* across) {
-  Report report;
+void ExtendedSystem::solve(Threshold& point, const CurveDirection* across) {
   const Threshold predicted = point;
   double last = std::numeric_limits<double>::infinity();
   int stalled = 0;
-  const auto fail = [&](std::string why) {
-    report.status = Status::not_converged, report.why = std::move(why);
-    return report;
-  };
-  for (int k = 0; k <= curve::most_iterations; ++k, ++report.iterations) {
-    const std::shared_ptr<Variant> here = variant(point.second);
-    if (!here) return fail("there is no such structure");
-    const Report settled = settle(point, *here);
-    if (!settled.converged()) return fail(settled.why);
-    std::string why;
-    const std::optional<Linear> linear = linearise(point, why);
-    if (!linear) return fail(why);
-    const Eigen::Index n = static_cast<Eigen::Index>(linear->directions.size());
+  for (int k = 0; k <= curve::most_iterations; ++k) {
+    settle(point);
+    const Linear linear = linearise(point);
+    const Eigen::Index n = static_cast<Eigen::Index>(linear.directions.size());
     Eigen::MatrixXd a(n, n);
     Vector b(n);
-    a.topRows(n - 1) = linear->rows, b.head(n - 1) = linear->lacking;
+    a.topRows(n - 1) = linear.rows, b.head(n - 1) = linear.lacking;
     for (Eigen::Index j = 0; j < n; ++j)
-      a(n - 1, j) = across ? metric.dot(*across, linear->directions[j]) : linear->directions[j].second / metric.second;
-    b[n - 1] = 0;
-    if (across) {
-      const std::optional<State> from = moved(predicted, {Vector::Zero(linear->rest.x.size()), 0, point.second - predicted.second});
-      if (!from) return fail("there is no such structure");
-      const CurveDirection way{here->energy.kinematics().difference(*from, point.at.point.state),
-                               point.at.point.state.load_factor - predicted.at.point.state.load_factor, point.second - predicted.second};
-      b[n - 1] = -metric.dot(*across, way) - metric.dot(*across, linear->rest);
-    }
+      a(n - 1, j) = across ? metric.dot(*across, linear.directions[j]) : linear.directions[j].second / metric.second;
+    b[n - 1] = across ? -metric.dot(*across, way(predicted, point)) - metric.dot(*across, linear.rest) : 0;
     const Vector u = solved(a, b);
-    CurveDirection step = linear->rest;
-    for (Eigen::Index j = 0; j < n; ++j) step = step + linear->directions[j] * u[j];
+    CurveDirection step = linear.rest;
+    for (Eigen::Index j = 0; j < n; ++j) step = step + linear.directions[j] * u[j];
     if (!across) step.second = 0;
-    const double size = std::sqrt(metric.dot(step, step) + metric.dot(linear->rest, linear->rest));
-    if (!std::isfinite(size) || size > curve::longest_correction) return fail("Newton's method leads far away");
+    const double size = std::sqrt(metric.dot(step, step) + metric.dot(linear.rest, linear.rest));
+    if (!std::isfinite(size) || size > curve::longest_correction) throw NotFollowed("Newton's method leads far away");
     const bool shrinks = size <= last / 2;
-    if (!shrinks && k >= 2 && last > curve::at_rest) return fail("Newton's method does not contract");
+    if (!shrinks && k >= 2 && last > curve::at_rest) throw NotFollowed("Newton's method does not contract");
     stalled += !shrinks;
-    const bool at_rest = size <= curve::rounding || stalled == 2;
-    if (stalled < 2 && !move(point, step)) return fail("there is no such structure");
+    if (stalled < 2) move(point, step);
     last = size;
-    if (!at_rest) continue;
+    if (size > curve::rounding && stalled < 2) continue;
     // Of a branch point only the part of the forces that its mode does not feel was asked to vanish.
-    Energy& there = variant(point.second)->energy;
-    there.evaluate(point.at.point.state, false);
-    report.residual = there.relative(there.gradient());
-    if (!(report.residual <= here->newton.tolerance()))
-      return fail(fmt::format("a force of {:.2g} is left along the critical mode: the branches do not meet any more", report.residual));
+    const std::shared_ptr<Variant> here = variant(point.second);
+    here->energy.evaluate(point.at.point.state, false);
+    const double residual = here->energy.relative(here->energy.gradient());
+    if (!(residual <= here->newton.tolerance()))
+      throw NotFollowed(fmt::format("a force of {:.2g} is left along the critical mode: the branches do not meet any more", residual));
     // The tangent fulfils the conditions' derivatives: a row of cofactors.
-    Eigen::MatrixXd border = a;
     CurveDirection tangent{Vector::Zero(step.x.size())};
     for (Eigen::Index j = 0; j < n; ++j) {
-      border.bottomRows(1).setZero(), border(n - 1, j) = 1;
-      tangent = tangent + linear->directions[j] * border.determinant();
+      a.row(n - 1) = Eigen::RowVectorXd::Unit(n, j);
+      tangent = tangent + linear.directions[j] * a.determinant();
     }
-    if (!(metric.dot(tangent, tangent) > 0)) return fail("two curves meet");
+    if (!(metric.dot(tangent, tangent) > 0)) throw NotFollowed("two curves meet");
     point.direction = metric.unit(tangent);
     const double sense = across ? metric.dot(*across, point.direction) : point.direction.second;
     if (sense < 0) point.direction = point.direction * -1;
-    report.status = Status::converged, report.why = "the corrections are rounding";
-    return report;
+    return;
   }
-  return fail("too many iterations");
+  throw NotFollowed("too many iterations");
 }
 
 void ExtendedSystem::assess_at(Threshold& point) {

@@ -15,7 +15,12 @@ struct Variant {
   Newton newton;
 };
 
-/// The structure at a value of μ; null where there is none with the same particles, bonds, angles and free coordinates.
+/// Why a curve does not lead on; what() is a phrase.
+struct NotFollowed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The structure at a value of μ. Throws NotFollowed where there is none with the same particles, bonds, angles and free coordinates.
 using VariantAt = std::function<std::shared_ptr<Variant>(double second)>;
 
 /// A direction (dx, dλ, dμ); x: dofs [length], beside the way that the structure's places at rest go with μ.
@@ -60,16 +65,18 @@ struct Threshold {
 ///   contact:  gap = 0          (without α)
 /// and one of arc length, or that μ has a value. Derivatives of the conditions along these directions are central differences; g, H v,
 /// ∂g/∂λ and gaps are exact, and so is where Newton's method comes to rest.
+/// Where there is no structure, or no solution, all of it throws NotFollowed.
 class ExtendedSystem {
  public:
-  ExtendedSystem(VariantAt variants, const CurveMetric& scales) : metric(scales), variants_(std::move(variants)) {}
+  explicit ExtendedSystem(VariantAt variants) : variants_(std::move(variants)) {}
 
   /// Newton's method from a point near by: on the plane across a direction through it, or at its μ. What it finds has its tangent; its
-  /// sense is that of the direction, or of growing μ. Converged means corrections of rounding and a residual below Newton's tolerance.
-  [[nodiscard]] Report solve(Threshold& point, const CurveDirection* across);
+  /// sense is that of the direction, or of growing μ. It ends with corrections of rounding and a residual below Newton's tolerance.
+  void solve(Threshold& point, const CurveDirection* across);
   /// The point moved along a direction.
-  [[nodiscard]] bool move(Threshold& point, const CurveDirection& by);
-  /// The structure at a point; null: there is none.
+  void move(Threshold& point, const CurveDirection& by);
+  /// The direction from one point to another.
+  CurveDirection way(const Threshold& from, const Threshold& to);
   std::shared_ptr<Variant> variant(double second);
   /// The residual, Morse index, energies and zero modes of a point that was found.
   void assess_at(Threshold& point);
@@ -78,18 +85,17 @@ class ExtendedSystem {
 
  private:
   struct Linear;
-  struct Rates { Vector force, hv, load; };
-  std::optional<Rates> rates(const Threshold& at, const CurveDirection& along, const Vector& v);
-  std::optional<double> gap_rate(const Threshold& at, const CurveDirection& along);
+  State moved(const Threshold& from, const CurveDirection& by);
   double step_of(const Threshold& at, const CurveDirection& along);
-  std::optional<Vector> second_derivative(const Threshold& at);
-  [[nodiscard]] std::optional<Linear> linearise(Threshold& point, std::string& why);
-  [[nodiscard]] Report settle(Threshold& point, Variant& here);
-  std::optional<State> moved(const Threshold& from, const CurveDirection& by);
+  auto beside(const Threshold& at, const CurveDirection& by, const auto& value);
+  auto rate(const Threshold& at, const CurveDirection& along, const auto& value);
+  double gap_rate(const Threshold& at, const CurveDirection& along);
+  Vector second_derivative(const Threshold& at);
+  Linear linearise(Threshold& point);
+  void settle(Threshold& point);
 
   VariantAt variants_;
   std::deque<std::pair<double, std::shared_ptr<Variant>>> recent_;
-
 };
 
 }  // namespace elamin

@@ -47,23 +47,18 @@ std::vector<double> stops_on(const Problem& problem) {
 Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoint& event,
                     const std::function<void(const Row&, const CurvePoint&)>& found) {
   const CurveTable& t = *problem.curve;
-  std::string refused;
-  std::shared_ptr<Variant> first;
-  const VariantAt variants = [&](double second) -> std::shared_ptr<Variant> {
+  const auto here = std::make_shared<Variant>(models(t.from), solver_options(problem));
+  const VariantAt variants = [&](double second) {
     try {
       const auto made = std::make_shared<Variant>(models(second), solver_options(problem));
-      if (!first) first = made;
-      if (same_topology(made->energy, first->energy)) return made;
-      refused = fmt::format("at {} = {:.10g} there are other particles, bonds or free coordinates than at {:.10g}, where the curve begins",
-                            t.second, second, t.from);
+      if (same_topology(made->energy, here->energy)) return made;
     } catch (const InputError& e) {
-      refused = fmt::format("at {} = {:.10g} there is no such structure: {}", t.second, second,
-                            e.mistakes().empty() ? e.what() : e.mistakes().front().what);
+      throw NotFollowed(fmt::format("at {} = {:.10g} there is no such structure: {}", t.second, second,
+                                    e.mistakes().empty() ? e.what() : e.mistakes().front().what));
     }
-    return {};
+    throw NotFollowed(fmt::format("at {} = {:.10g} there are other particles, bonds or free coordinates than at {:.10g}, where the curve begins",
+                                  t.second, second, t.from));
   };
-  const std::shared_ptr<Variant> here = variants(t.from);
-  if (!here) return {Status::not_converged, refused};
   if (any_hard(here->model))
     return {Status::not_converged, "thresholds with hard contacts cannot be followed; give the contacts a stiffness"};
 
@@ -84,7 +79,7 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
       return {Status::not_converged, "the event has no mode along which the structure gives way: bodies that touch, whose stiffness jumps"};
   }
   const CurveOptions options{t.from, t.to, t.steps, stops_on(problem), t.until, std::abs(problem.path.to - problem.path.from)};
-  const CurveEnd end = trace_curve(variants, std::move(start), options, [&](const CurvePoint& point) {
+  const auto [status, why] = trace_curve(variants, std::move(start), options, [&](const CurvePoint& point) {
     const std::shared_ptr<Variant> there = variants(point.threshold.second);
     PathPoint p = point.threshold.at.point;
     p.label = point.label, p.what = point.what;
@@ -94,8 +89,7 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
     for (std::size_t k = 0; k < p.energy.own.size(); ++k) values.push_back(p.energy.own[k].second);
     found(curve_row(point.threshold.second, point.threshold.asymmetry, p, values), point);
   });
-  const bool told = end.status == Status::not_converged && !refused.empty();
-  return {end.status, told ? end.why + "; " + refused : end.why};
+  return {status, why};
 }
 
 }  // namespace elamin
