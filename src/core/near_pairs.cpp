@@ -72,4 +72,14 @@ std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double
   return pairs;
 }
 
+std::vector<int> points_at(const Field& places, const Field& points, double within) {
+  const int n = static_cast<int>(points.cols());
+  Field all(3, n + places.cols());
+  all << points, places;
+  std::vector<int> found(places.cols(), -1);
+  for (const auto& [i, j] : near_pairs(all, std::vector<double>(all.cols(), within / 2), [n](int a, int b) { return (a < n) != (b < n); }))
+    found[j - n] = i;
+  return found;
+}
+
 }  // namespace elamin

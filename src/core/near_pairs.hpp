@@ -19,4 +19,7 @@ struct IndexPair {
 /// Source: hierarchical grids, as Ogarko & Luding 2012, Comput. Phys. Commun. 183.
 std::vector<IndexPair> near_pairs(const Field& centers, const std::vector<double>& radii, const std::function<bool(int, int)>& wanted);
 
+/// For each of these places which of the points is there, to within a distance; −1: none is.
+std::vector<int> points_at(const Field& places, const Field& points, double within);
+
 }  // namespace elamin

@@ -2,6 +2,7 @@
 
 #include "core/find.hpp"
 #include "core/interrupt.hpp"
+#include "core/near_pairs.hpp"
 #include "energy/step_limits.hpp"
 #include "model/entities.hpp"
 #include "path/arc.hpp"
@@ -11,19 +12,19 @@
 #include "path/saddle.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <random>
+#include <set>
 
 namespace elamin {
 
 using namespace limits;
 
 namespace {
-
 
 /// Centres of particles and bodies: 3 × count.
 Field centres(const State& s) {
@@ -63,25 +64,16 @@ std::vector<Reflection> reflections_of(const Model& model) {
   if (!model.bodies.empty() || model.particles() == 0) return all;
   const Field& x = model.start.position;
   const Vec3 middle = (x.rowwise().minCoeff() + x.rowwise().maxCoeff()) / 2;
-  const double close = landscape::same_rest * span(model);
-  std::vector<int> order(static_cast<std::size_t>(x.cols()));
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return x(0, a) < x(0, b); });
   for (int bits = 1; bits < 8; ++bits) {
     Reflection r{middle, {bits & 1 ? -1.0 : 1.0, bits & 2 ? -1.0 : 1.0, bits & 4 ? -1.0 : 1.0}, {}};
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      const Vec3 y = middle + r.signs.cwiseProduct(x.col(i) - middle);
-      auto j = std::lower_bound(order.begin(), order.end(), y[0] - close, [&](int a, double v) { return x(0, a) < v; });
-      while (j != order.end() && x(0, *j) <= y[0] + close && (x.col(*j) - y).norm() > close) ++j;
-      if (j == order.end() || x(0, *j) > y[0] + close) break;
-      r.to.push_back(*j);
-    }
-    if (static_cast<Eigen::Index>(r.to.size()) == x.cols()) all.push_back(std::move(r));
+    const Field images = (r.signs.asDiagonal() * (x.colwise() - middle)).colwise() + middle;
+    r.to = points_at(images, x, landscape::same_rest * span(model));
+    if (!contains(r.to, -1)) all.push_back(std::move(r));
   }
   return all;
 }
 
-const char* kind_of(int index) { return index == 0 ? "minimum" : index == 1 ? "saddle" : "stationary"; }
+std::string_view kind_of(int index) { return index == 0 ? "minimum" : index == 1 ? "saddle" : "stationary"; }
 
 class Explorer {
  public:
@@ -94,23 +86,20 @@ class Explorer {
   Landscape& found() { return found_; }
 
   /// The node of an equilibrium, which may be a new one; none: it is critical.
-  NodeImage add(Equilibrium e) {
-    const int index = e.point.stability.negative;
+  NodeImage add(const Equilibrium& e) {
     if (e.point.stability.critical > 0 || !e.point.report.converged()) return {};
-    LandscapeNode node{"", {}, spectrum_of(e), sums_of_distances(e.point.state)};
+    LandscapeNode node = node_of(e);
     const double near = landscape::same_place * span(energy_.model()) * std::sqrt(static_cast<double>(energy_.dofs())) +
                         left_by_rounding(newton_, e.point.state, e.zero_modes);
-    for (std::size_t n = 0; n < found_.nodes.size(); ++n) {
+    for (int n = 0; n < std::ssize(found_.nodes); ++n) {
       LandscapeNode& known = found_.nodes[n];
-      if (known.index() != index) continue;
-      for (std::size_t k = 0; k < known.images.size(); ++k)
-        if (apart(known.images[k], e) <= near) return {static_cast<int>(n), static_cast<int>(k)};
-      if (!alike(known, e, node)) continue;
-      if (e.zero_modes.cols() > 0) return {static_cast<int>(n), 0};           // it has moved along them
-      known.images.push_back(std::move(e));
-      return {static_cast<int>(n), static_cast<int>(known.images.size()) - 1};
+      if (known.index() != node.index()) continue;
+      if (const auto k = image_at(known, e, near); k < std::ssize(known.images)) return {n, static_cast<int>(k)};
+      if (!alike(known, node)) continue;
+      if (e.zero_modes.cols() > 0) return {n, 0};                             // it has moved along them
+      known.images.push_back(e);
+      return {n, static_cast<int>(known.images.size()) - 1};
     }
-    node.images.push_back(std::move(e));
     reflect(node, near);
     found_.nodes.push_back(std::move(node));
     return {static_cast<int>(found_.nodes.size()) - 1, 0};
@@ -120,10 +109,8 @@ class Explorer {
   void grow() {
     for (bool more = true; more && !full();) {
       more = false;
-      expanded_.resize(found_.nodes.size(), 0);
-      for (std::size_t n = 0; n < found_.nodes.size() && !full(); ++n)
-        for (expanded_.resize(found_.nodes.size(), 0); expanded_[n] < found_.nodes[n].images.size() && !full(); more = true)
-          expand({static_cast<int>(n), static_cast<int>(expanded_[n]++)});
+      for (int n = 0; n < std::ssize(found_.nodes); ++n)
+        for (; found_.nodes[n].expanded < std::ssize(found_.nodes[n].images) && !full(); more = true) expand({n, found_.nodes[n].expanded++});
     }
   }
 
@@ -157,20 +144,20 @@ class Explorer {
 
   /// Lines between minima that no chain of saddles joins.
   void join() {
-    for (int k = 0; options_.strings && k < landscape::most_strings && !full(); ++k) {
+    std::vector<NodeImage> tried;                              // minima to which a line from the first one has led
+    for (int k = 0;; ++k) {
       const std::vector<NodeImage> minima = found_.images(0);
       const std::vector<int> part = parts(minima);
+      if (std::ranges::all_of(part, [&](int p) { return p == part[0]; })) return;
       std::size_t i = 1;
-      while (i < minima.size() && (part[i] == part[0] || contains(tried_, minima[i]))) ++i;
-      if (i >= minima.size()) break;
-      tried_.push_back(minima[i]);
+      while (i < minima.size() && (part[i] == part[0] || contains(tried, minima[i]))) ++i;
+      if (!options_.strings || k == landscape::most_strings || full() || i == minima.size())
+        return note("not all minima are joined by the saddles that were found");
+      tried.push_back(minima[i]);
       const Equilibrium a = found_.at(minima[0]), b = found_.at(minima[i]);
-      for (Equilibrium& e : passes_between(newton_, a.point.state, b.point.state, a.zero_modes)) add(std::move(e));
+      for (const Equilibrium& e : passes_between(newton_, a.point.state, b.point.state, a.zero_modes)) add(e);
       grow();
     }
-    const std::vector<NodeImage> minima = found_.images(0);
-    const std::vector<int> part = parts(minima);
-    if (std::any_of(part.begin(), part.end(), [&](int p) { return p != part[0]; })) note("not all minima are joined by the saddles that were found");
   }
 
  private:
@@ -187,23 +174,27 @@ class Explorer {
     return true;
   }
 
-  Vector spectrum_of(const Equilibrium& e) {
-    return soft_modes(newton_, e.point.state, e.zero_modes, landscape::spectrum + e.point.stability.negative).values;
+  LandscapeNode node_of(const Equilibrium& e) {
+    const int modes = landscape::spectrum + e.point.stability.negative;
+    return {"", {e}, soft_modes(newton_, e.point.state, e.zero_modes, modes).values, sums_of_distances(e.point.state)};
   }
 
-  double apart(const Equilibrium& a, const Equilibrium& b) const {
-    Vector d = energy_.kinematics().difference(a.point.state, b.point.state);
-    if (a.zero_modes.cols() > 0) d -= a.zero_modes * (a.zero_modes.transpose() * d);
-    return d.norm();
+  // Which of the images is at the place of an equilibrium; as many as there are where none is.
+  std::ptrdiff_t image_at(const LandscapeNode& node, const Equilibrium& e, double near) const {
+    const auto there = std::ranges::find_if(node.images, [&](const Equilibrium& image) {
+      Vector d = energy_.kinematics().difference(image.point.state, e.point.state);
+      if (image.zero_modes.cols() > 0) d -= image.zero_modes * (image.zero_modes.transpose() * d);
+      return d.norm() <= near;
+    });
+    return there - node.images.begin();
   }
 
-  bool alike(const LandscapeNode& known, const Equilibrium& e, const LandscapeNode& seen) const {
-    const EnergyTerms& terms = known.images.front().point.energy;
-    const double stiffest = infinity_norm(known.spectrum), length = span(energy_.model());
-    const double off = landscape::same_energy * terms.size() + stiffest * std::pow(landscape::same_place * length, 2);
-    return std::abs(terms.total() - e.point.energy.total()) <= off && known.spectrum.size() == seen.spectrum.size() &&
-           infinity_norm(known.spectrum - seen.spectrum) <= landscape::same_stiffness * stiffest &&
-           infinity_norm(known.distances - seen.distances) <= landscape::same_distance * length * static_cast<double>(seen.distances.size());
+  bool alike(const LandscapeNode& a, const LandscapeNode& b) const {
+    const double stiffest = infinity_norm(a.spectrum), length = span(energy_.model());
+    const double off = landscape::same_energy * a.images.front().point.energy.size() + stiffest * std::pow(landscape::same_place * length, 2);
+    return std::abs(a.energy() - b.energy()) <= off && a.spectrum.size() == b.spectrum.size() &&
+           infinity_norm(a.spectrum - b.spectrum) <= landscape::same_stiffness * stiffest &&
+           infinity_norm(a.distances - b.distances) <= landscape::same_distance * length * static_cast<double>(a.distances.size());
   }
 
   // Images by reflections that are equilibria, at other places.
@@ -216,10 +207,9 @@ class Explorer {
       if (!(energy_.relative(energy_.gradient()) <= std::sqrt(newton_.tolerance()))) continue;
       const Report report = newton_.correct(state, first.zero_modes, nullptr, equilibrium::most_iterations);
       if (!report.converged()) continue;
-      Equilibrium e = assess(newton_, state, report);
-      const auto there = [&](const Equilibrium& known) { return apart(known, e) <= near; };
-      if (e.point.stability.negative != node.index() || std::any_of(node.images.begin(), node.images.end(), there)) continue;
-      if (alike(node, e, LandscapeNode{"", {}, spectrum_of(e), sums_of_distances(state)})) node.images.push_back(std::move(e));
+      const Equilibrium e = assess(newton_, state, report);
+      const bool is_new = e.point.stability.negative == node.index() && image_at(node, e, near) == std::ssize(node.images);
+      if (is_new && alike(node, node_of(e))) node.images.push_back(e);
     }
   }
 
@@ -231,14 +221,13 @@ class Explorer {
     const int count = static_cast<int>(soft.values.size());
     const auto go = [&](const Vector& first, const Vector& up) {
       if (full()) return;
-      if (std::optional<Equilibrium> e = walk(newton_, here.point.state, {first, up}, held)) add(std::move(*e));
+      if (const auto e = walk(newton_, here.point.state, {first, up}, held)) add(*e);
     };
     if (index == 0)
       for (int i = 0; i < std::min(count, options_.modes); ++i)
         for (const double sign : {1.0, -1.0}) go(sign * soft.vectors.col(i), sign * soft.vectors.col(i));
     if (index == 1 && count > 0) {
-      Pass pass{from, {}};
-      for (const int side : {0, 1}) pass.minima[static_cast<std::size_t>(side)] = descend(here, (side ? -1.0 : 1.0) * soft.vectors.col(0));
+      const Pass pass{from, {descend(here, soft.vectors.col(0)), descend(here, -soft.vectors.col(0))}};
       if (!interrupted()) found_.passes.push_back(pass);
     }
     if (index > 1)
@@ -265,13 +254,11 @@ class Explorer {
   // The number of the part that each minimum belongs to.
   std::vector<int> parts(const std::vector<NodeImage>& minima) const {
     std::vector<int> part(minima.size());
-    for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<int>(i);
-    for (const Pass& p : found_.passes) {
-      const auto a = std::find(minima.begin(), minima.end(), p.minima[0]), b = std::find(minima.begin(), minima.end(), p.minima[1]);
-      if (a == minima.end() || b == minima.end()) continue;
-      const int from = part[static_cast<std::size_t>(b - minima.begin())], to = part[static_cast<std::size_t>(a - minima.begin())];
-      std::replace(part.begin(), part.end(), from, to);
-    }
+    std::iota(part.begin(), part.end(), 0);
+    const auto number = [&](const NodeImage& m) { return static_cast<std::size_t>(std::ranges::find(minima, m) - minima.begin()); };
+    for (const Pass& p : found_.passes)
+      if (const auto a = number(p.minima[0]), b = number(p.minima[1]); a < part.size() && b < part.size())
+        std::ranges::replace(part, int{part[b]}, int{part[a]});
     return part;
   }
 
@@ -281,39 +268,8 @@ class Explorer {
   const std::vector<Reflection>& reflections_;
   std::vector<std::string>& notes_;
   Landscape found_;
-  std::vector<std::size_t> expanded_;              // images, by node
-  std::vector<NodeImage> tried_;                   // minima to which a line from the first one has led
   bool told_full_ = false;
 };
-
-/// An equilibrium at another load factor; `at` empty: it ends. Where its index changes: what it was and what it is, −1 where it ends.
-struct Followed {
-  struct Change { double load_factor; int from, to; };
-  std::optional<Equilibrium> at;
-  std::vector<Change> changes;
-};
-
-Followed follow(Newton& newton, const Equilibrium& from, double to) {
-  const double way = to - from.point.state.load_factor, least = landscape::least_part * std::abs(way);
-  Followed f{from, {}};
-  for (double step = landscape::first_part * way; f.at->point.state.load_factor != to && !interrupted();) {
-    const double here = f.at->point.state.load_factor, left = to - here;
-    const bool last = std::abs(step) >= (1 - landscape::same_load) * std::abs(left);
-    Equilibrium next = continue_to(newton, *f.at, last ? to : here + step);
-    const int before = f.at->point.stability.negative, after = next.point.report.converged() ? next.point.stability.negative : -1;
-    if (after != before && std::abs(step) / 2 > least) {
-      step = (last ? left : step) / 2;
-      continue;
-    }
-    if (after != before) f.changes.push_back({here + (last ? left : step) / 2, before, after});
-    if (after < 0) {
-      f.at.reset();
-      break;
-    }
-    f.at = std::move(next), step *= 2;
-  }
-  return f;
-}
 
 /// What follows nodes from one load factor to the next and says what becomes of them.
 class Follower {
@@ -324,67 +280,76 @@ class Follower {
   void onward(const Landscape& a, Explorer& b) {
     from_ = a.load_factor, to_ = b.found().load_factor;
     for (const LandscapeNode& n : a.nodes) {
-      Followed f = follow(newton_, n.images.front(), to_);
-      for (const Followed::Change& c : f.changes)
-        happened_.push_back({c.load_factor, n.label, c.to < 0 ? "ends" : fmt::format("goes from index {} to {}", c.from, c.to)});
-      if (!f.at) continue;
-      const bool same_kind = kind_of(f.at->point.stability.negative) == std::string(kind_of(n.index()));
-      kept_.push_back({b.add(std::move(*f.at)).node, same_kind ? n.label : ""});
+      const auto there = follow(n, to_);
+      if (!there) continue;
+      const int node = b.add(*there).node;
+      kept_.insert(node);
+      if (node < 0 || kind_of(there->point.stability.negative) != kind_of(n.index())) continue;
+      if (std::string& label = b.found().nodes[node].label; label.empty()) label = n.label;
     }
-  }
-  void keep_labels(Landscape& b) const {
-    for (const auto& [node, label] : kept_)
-      if (node >= 0 && b.nodes[static_cast<std::size_t>(node)].label.empty()) b.nodes[static_cast<std::size_t>(node)].label = label;
   }
   // Where the nodes of b begin that are not followed; one that was there at a is added to it.
   bool back(Explorer& a, const Landscape& b) {
-    bool more = false;
-    for (std::size_t k = 0; k < b.nodes.size() && !interrupted(); ++k) {
-      if (std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.node == static_cast<int>(k); })) continue;
-      Followed f = follow(newton_, b.nodes[k].images.front(), from_);
-      for (const Followed::Change& c : f.changes)
-        happened_.push_back({c.load_factor, b.nodes[k].label, c.to < 0 ? "begins" : fmt::format("goes from index {} to {}", c.to, c.from)});
-      if (!f.at) continue;
-      const std::size_t before = a.found().nodes.size();
-      a.add(std::move(*f.at)), more = more || a.found().nodes.size() > before;
-    }
-    return more;
+    const std::size_t before = a.found().nodes.size();
+    for (int k = 0; k < std::ssize(b.nodes) && !interrupted(); ++k)
+      if (!contains(kept_, k))
+        if (const auto there = follow(b.nodes[k], from_)) a.add(*there);
+    return a.found().nodes.size() > before;
   }
   // What happened at one load factor is one change; an event of the path there explains it.
   void tell() {
     const double close = landscape::together * std::abs(to_ - from_), way = to_ > from_ ? 1 : -1;
-    std::stable_sort(happened_.begin(), happened_.end(), [&](const auto& x, const auto& y) { return way * x.load_factor < way * y.load_factor; });
-    std::vector<bool> used(events_.size(), false);
-    for (std::size_t k = 0, end; k < happened_.size(); k = end) {
-      LandscapeChange change{happened_[k].load_factor, {}, "", ""};
-      std::vector<std::string> told;
-      for (end = k; end < happened_.size() && std::abs(happened_[end].load_factor - change.load_factor) <= close; ++end)
-        change.nodes.push_back(happened_[end].label), told.push_back(happened_[end].label + " " + happened_[end].what);
-      for (std::size_t i = 0; i < events_.size(); ++i) {
-        if (std::abs(events_[i].load_factor - change.load_factor) > close) continue;
-        used[i] = true;
-        if (change.event.empty()) change.event = events_[i].label;
-      }
-      change.what = fmt::format("{}; {}", fmt::join(told, ", "),
-                                change.event.empty() ? "no event of the path is there" : change.event + " of the path");
-      out_.changes.push_back(std::move(change));
+    const auto near = [close](double load_factor) { return [=](const auto& at) { return std::abs(at.load_factor - load_factor) <= close; }; };
+    std::ranges::stable_sort(happened_, {}, [&](const Happened& h) { return way * h.load_factor; });
+    std::vector<LandscapeChange> changes;
+    for (const Happened& h : happened_) {
+      if (changes.empty() || !near(h.load_factor)(changes.back())) changes.push_back({h.load_factor, {}, "", ""});
+      changes.back().nodes.push_back(h.label);
+      changes.back().what += (changes.back().what.empty() ? "" : ", ") + h.label + " " + h.what;
     }
-    for (std::size_t i = 0; i < events_.size(); ++i) {
-      const bool between = way * events_[i].load_factor > way * from_ && way * events_[i].load_factor <= way * to_;
-      if (between && !used[i] && !events_[i].label.starts_with("contact:"))
-        out_.notes.push_back(fmt::format("load factor {:.10g}: {} of the path makes or ends no node that was found", events_[i].load_factor,
-                                         events_[i].label));
+    for (LandscapeChange& c : changes) {
+      const auto event = std::ranges::find_if(events_, near(c.load_factor));
+      if (event != events_.end()) c.event = event->label;
+      c.what += c.event.empty() ? "; no event of the path is there" : "; " + c.event + " of the path";
     }
+    for (const PathEvent& e : events_) {
+      const bool between = way * e.load_factor > way * from_ && way * e.load_factor <= way * to_;
+      if (between && !e.label.starts_with("contact:") && std::ranges::none_of(changes, near(e.load_factor)))
+        out_.notes.push_back(fmt::format("load factor {:.10g}: {} of the path makes or ends no node that was found", e.load_factor, e.label));
+    }
+    out_.changes.insert(out_.changes.end(), changes.begin(), changes.end());
   }
 
  private:
-  struct Kept { int node; std::string label; };
+  // The node at another load factor, onward or back; nothing where it ends.
+  std::optional<Equilibrium> follow(const LandscapeNode& n, double to) {
+    Equilibrium at = n.images.front();
+    const double way = to - at.point.state.load_factor;
+    for (double step = landscape::first_part * way; at.point.state.load_factor != to && !interrupted();) {
+      const double here = at.point.state.load_factor, left = to - here;
+      const bool last = std::abs(step) >= (1 - landscape::same_load) * std::abs(left);
+      if (last) step = left;
+      Equilibrium next = continue_to(newton_, at, last ? to : here + step);
+      const int before = at.point.stability.negative, after = next.point.report.converged() ? next.point.stability.negative : -1;
+      if (after != before && std::abs(step) / 2 > landscape::least_part * std::abs(way)) {
+        step /= 2;
+        continue;
+      }
+      const auto [first, second] = to == to_ ? std::pair(before, after) : std::pair(after, before);
+      const std::string what = second < 0 ? "ends" : first < 0 ? "begins" : fmt::format("goes from index {} to {}", first, second);
+      if (after != before) happened_.push_back({here + step / 2, n.label, what});
+      if (after < 0) return {};
+      at = std::move(next), step *= 2;
+    }
+    return at;
+  }
+
   struct Happened { double load_factor; std::string label, what; };
   Newton& newton_;
   const std::vector<PathEvent>& events_;
   Landscapes& out_;
   double from_ = 0, to_ = 0;
-  std::vector<Kept> kept_;
+  std::set<int> kept_;                             // nodes that are those before
   std::vector<Happened> happened_;
 };
 
@@ -393,17 +358,17 @@ void name_nodes(Landscape& l, std::array<int, 3>& numbers) {
   std::vector<LandscapeNode*> nodes;
   for (LandscapeNode& n : l.nodes)
     if (n.label.empty()) nodes.push_back(&n);
-  std::stable_sort(nodes.begin(), nodes.end(), [](const LandscapeNode* a, const LandscapeNode* b) { return a->energy() < b->energy(); });
-  for (LandscapeNode* n : nodes) n->label = fmt::format("{}:{}", kind_of(n->index()), ++numbers[static_cast<std::size_t>(std::min(n->index(), 2))]);
+  std::ranges::stable_sort(nodes, {}, [](const LandscapeNode* n) { return n->energy(); });
+  for (LandscapeNode* n : nodes) n->label = fmt::format("{}:{}", kind_of(n->index()), ++numbers[std::min(n->index(), 2)]);
 }
 
 }  // namespace
 
 std::vector<NodeImage> Landscape::images(int index) const {
   std::vector<NodeImage> all;
-  for (int n = 0; n < static_cast<int>(nodes.size()); ++n)
-    for (int k = 0; k < static_cast<int>(node({n, 0}).images.size()); ++k)
-      if (index < 0 || node({n, 0}).index() == index) all.push_back({n, k});
+  for (int n = 0; n < std::ssize(nodes); ++n)
+    for (int k = 0; k < std::ssize(nodes[n].images); ++k)
+      if (index < 0 || nodes[n].index() == index) all.push_back({n, k});
   return all;
 }
 
@@ -440,13 +405,10 @@ Landscapes explore(Newton& newton, const std::vector<State>& known, const std::v
       if (report.converged()) here->add(assess(newton, state, report));
     }
     here->grow(), here->deflate_known(), here->start_at_random(), here->join();
-    if (before) follower.keep_labels(here->found());
     name_nodes(here->found(), numbers);
     if (before) {
-      if (follower.back(*before, here->found())) {                // nodes that were missed there
-        before->grow();
-        name_nodes(before->found(), numbers);
-      }
+      if (follower.back(*before, here->found())) before->grow();  // from nodes that were missed there
+      name_nodes(before->found(), numbers);
       follower.tell();
       all.at.push_back(before->found());
     }

@@ -14,6 +14,7 @@ struct LandscapeNode {
   std::vector<Equilibrium> images;     // not empty
   Vector spectrum;                     // its lowest eigenvalues, without zero modes
   Vector distances;                    // Σⱼ |xᵢ − xⱼ| of all particles and bodies i, ascending
+  int expanded = 0;                    // images that walks have been made from
   int index() const { return images.front().point.stability.negative; }
   double energy() const { return images.front().point.energy.total(); }
 };
@@ -34,8 +35,8 @@ struct Landscape {
   double load_factor = 0;
   std::vector<LandscapeNode> nodes;
   std::vector<Pass> passes;            // of every image of every saddle
-  const LandscapeNode& node(const NodeImage& i) const { return nodes[static_cast<std::size_t>(i.node)]; }
-  const Equilibrium& at(const NodeImage& i) const { return node(i).images[static_cast<std::size_t>(i.image)]; }
+  const LandscapeNode& node(const NodeImage& i) const { return nodes[i.node]; }
+  const Equilibrium& at(const NodeImage& i) const { return node(i).images[i.image]; }
   /// All images of the nodes with this index; −1: of all nodes.
   std::vector<NodeImage> images(int index) const;
   int minima() const { return static_cast<int>(images(0).size()); }
