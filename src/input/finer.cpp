@@ -1,6 +1,7 @@
 #include "input/finer.hpp"
 
 #include "core/find.hpp"
+#include "core/near_pairs.hpp"
 #include "input/document.hpp"
 
 #include <fmt/format.h>
@@ -8,14 +9,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace elamin {
 namespace {
-
-std::string number(double x) { return to_toml(x); }
-std::string list(const std::vector<int>& ids) { return fmt::format("[{}]", fmt::join(ids, ", ")); }
 
 /// A row of particles that is refined: which particle the i-th becomes. `begin`, `end`: 1 where one particle stands beyond that end.
 struct Row {
@@ -53,44 +50,40 @@ class Refined {
   Refined(const Problem& problem, const Model& model, int by, Mistakes& mistakes) : problem_(problem), model_(model) {
     int first = 0;
     for (const Structure& s : model.structures) {
-      Part part{&s, {}, false, first};
+      Part part{s, {}, first, s.count, 0};
       if (const BeamTable* t = find_named(problem.beams, s.name)) {
         const bool both = t->clamped == ClampedEnds::both;
         part.row = Row{s.count, both || t->clamped == ClampedEnds::from, both || t->clamped == ClampedEnds::to, by, false};
       }
       if (find_named(problem.loops, s.name)) part.row = Row{s.count, 0, 0, by, true};
-      int count = part.row ? part.row->fine_count() : s.count;
-      if (const SheetTable* table = find_named(problem.sheets, s.name)) {
-        SheetTable fine = *table;
-        part.lattice = true, fine.spacing /= by;
-        const auto sheet = built(fine, mistakes);
-        count = sheet ? sheet_particles(*sheet) : s.count;
+      if (part.row) part.fine_count = part.row->fine_count();
+      if (const SheetTable* t = find_named(problem.sheets, s.name)) {
+        SheetTable fine = *t;
+        part.spacing = fine.spacing /= by;
+        if (const auto sheet = built(fine, mistakes)) part.fine_count = sheet_particles(*sheet);
       }
-      parts_.push_back(part), first += count;
+      parts_.push_back(part), first += part.fine_count;
     }
     for (const SupportTable& s : problem.supports) held_.insert(s.group);
     for (auto g = problem.groups.rbegin(); g != problem.groups.rend(); ++g)
       if (held_.count(g->name)) held_.insert(g->of.begin(), g->of.end());
   }
 
-  struct Part {
-    const Structure* structure;
+  struct Part : Structure {
     std::optional<Row> row;
-    bool lattice;
-    int first;                           // of its particles, refined
+    int fine_first, fine_count;          // its particles, refined
+    double spacing;                      // then of a sheet; 0 of all else
   };
   const std::vector<Part>& parts() const { return parts_; }
   bool held(const std::string& group) const { return held_.count(group) > 0; }
   const Part& part_of(int particle) const {
-    return *std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return particle < p.structure->first + p.structure->count; });
+    return *std::ranges::find_if(parts_, [&](const Part& p) { return p.has(particle); });
   }
   /// The row that a group is chosen from, if it is one.
   const Row* row_of(const GroupTable& g) const {
     if (g.of.size() != 1 || g.except) return nullptr;
-    if (g.of[0] == "all") return parts_.size() == 1 && parts_[0].row ? &*parts_[0].row : nullptr;
-    for (const Part& p : parts_)
-      if (p.structure->name == g.of[0]) return p.row ? &*p.row : nullptr;
-    return nullptr;
+    const Part* p = g.of[0] == "all" && parts_.size() == 1 ? &parts_[0] : find_named(parts_, g.of[0]);
+    return p && p->row ? &*p->row : nullptr;
   }
 
   /// How a group is chosen now, as keys; nothing where that stays as it is. Mistakes: see finer_structure.
@@ -107,14 +100,14 @@ class Refined {
         const auto index = static_cast<int>(std::lower_bound(model_.id.begin(), model_.id.end(), id) - model_.id.begin());
         if (index >= model_.particles()) return {};                            // a body, or nothing, which is told elsewhere
         const Part& p = part_of(index);
-        if (p.lattice) return refuse("are particles of a [[sheet]], which have other ids at another spacing; choose by `inside`");
-        of[&p].insert(index - p.structure->first);
+        if (p.spacing > 0) return refuse("are particles of a [[sheet]], which have other ids at another spacing; choose by `inside`");
+        of[&p].insert(index - p.first);
       }
       std::vector<int> ids;
       for (const auto& [p, in] : of)
-        for (const int i : p->row ? p->row->images(in, held(g.name), lost) : in) ids.push_back(p->first + i + 1);
-      std::sort(ids.begin(), ids.end());
-      value = list(ids);
+        for (const int i : p->row ? p->row->images(in, held(g.name), lost) : in) ids.push_back(p->fine_first + i + 1);
+      std::ranges::sort(ids);
+      value = fmt::format("[{}]", fmt::join(ids, ", "));
     } else if (const Row* row = row_of(g)) {
       const int n = g.first ? *g.first : g.last ? *g.last : *g.middle, others = row->count - n, skip = g.first ? 0 : g.last ? others : others / 2;
       if (g.middle && others % 2 != 0)
@@ -138,11 +131,6 @@ class Refined {
   std::set<std::string> held_;
 };
 
-/// A rest angle in degrees: the turn from bond to bond is divided.
-void divide_rest(const Rest& rest, int by, const auto& set) {
-  if (!rest.as_built && rest.degrees != 180) set("rest", number(180 - (180 - rest.degrees) / by));
-}
-
 }  // namespace
 
 std::vector<Setting> finer_structure(const Problem& problem, const Model& model, int by, Mistakes& mistakes) {
@@ -152,31 +140,27 @@ std::vector<Setting> finer_structure(const Problem& problem, const Model& model,
     return [&settings, &table, place](const char* key, const std::string& value) { settings.push_back({table.key + "." + key, value, place}); };
   };
   const Refined refined(problem, model, by, mistakes);
-  const auto count_of = [&](const std::string& name) {
-    for (const Refined::Part& p : refined.parts())
-      if (p.structure->name == name && p.row) return p.row->fine_count();
-    return 0;
+  const auto keys_of_all = [&](const auto& t, int of_density, const auto& set) {
+    if (t.rest_length) set("rest_length", to_toml(*t.rest_length / by));
+    if (t.density) set("density", to_toml(*t.density / of_density));
+    if (!t.rest.as_built && t.rest.degrees != 180) set("rest", to_toml(180 - (180 - t.rest.degrees) / by));   // the turn from bond to bond is divided
   };
   const auto row_keys = [&](const auto& t, const auto& set) {
-    set("particles", std::to_string(count_of(t.name)));
-    if (t.bond_stiffness) set("bond_stiffness", number(*t.bond_stiffness * by));
-    if (t.angle_stiffness) set("angle_stiffness", number(*t.angle_stiffness * by));
-    if (t.rest_length) set("rest_length", number(*t.rest_length / by));
-    if (t.density) set("density", number(*t.density / by));
-    divide_rest(t.rest, by, set);
+    set("particles", std::to_string(find_named(refined.parts(), t.name)->fine_count));
+    if (t.bond_stiffness) set("bond_stiffness", to_toml(*t.bond_stiffness * by));
+    if (t.angle_stiffness) set("angle_stiffness", to_toml(*t.angle_stiffness * by));
+    keys_of_all(t, by, set);
   };
   for (const BeamTable& t : problem.beams) {
     const auto set = setter(t.place);
     row_keys(t, set);
-    if (t.center) set("spacing", number(*t.spacing / by));
+    if (t.center) set("spacing", to_toml(*t.spacing / by));
   }
   for (const LoopTable& t : problem.loops) row_keys(t, setter(t.place));
   for (const SheetTable& t : problem.sheets) {
     const auto set = setter(t.place);
-    set("spacing", number(t.spacing / by)), set("thickness", number(*t.thickness)), set("diameter", number(*t.diameter));
-    if (t.rest_length) set("rest_length", number(*t.rest_length / by));
-    if (t.density) set("density", number(*t.density / (by * by)));
-    divide_rest(t.rest, by, set);
+    set("spacing", to_toml(t.spacing / by)), set("thickness", to_toml(*t.thickness)), set("diameter", to_toml(*t.diameter));
+    keys_of_all(t, by * by, set);
   }
   for (const GroupTable& g : problem.groups)
     for (const auto& [key, value] : refined.chosen(g, mistakes)) setter(g.place)(key, value);
@@ -185,48 +169,19 @@ std::vector<Setting> finer_structure(const Problem& problem, const Model& model,
   return settings;
 }
 
-namespace {
-
-/// Looks for particles of a sheet by their place.
-class Places {
- public:
-  Places(const Model& model, const Structure& s) : model_(model), order_(static_cast<std::size_t>(s.count)) {
-    std::iota(order_.begin(), order_.end(), s.first);
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return x(a) < x(b); });
-  }
-  /// The particle there, or −1.
-  int at(const Vec3& place, double within) const {
-    auto i = std::lower_bound(order_.begin(), order_.end(), place[0] - within, [&](int p, double value) { return x(p) < value; });
-    for (; i != order_.end() && x(*i) <= place[0] + within; ++i)
-      if ((model_.start.at(*i).hi - place).norm() <= within) return *i;
-    return -1;
-  }
-
- private:
-  double x(int p) const { return model_.start.at(p).hi[0]; }
-  const Model& model_;
-  std::vector<int> order_;
-};
-
-}  // namespace
-
 std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_model, const Problem& fine, const Model& fine_model, int by,
                                  Mistakes& mistakes) {
   std::vector<Setting> settings;
   const Refined refined(coarse, coarse_model, by, mistakes);
   std::vector<int> image(static_cast<std::size_t>(coarse_model.particles()), -1);
-  for (std::size_t k = 0; k < refined.parts().size(); ++k) {
-    const Refined::Part& part = refined.parts()[k];
-    const Structure &s = *part.structure, &there = fine_model.structures[k];
-    std::optional<Places> places;
-    double within = 0;
-    if (part.lattice) {
-      places.emplace(fine_model, there);
-      within = 1e-6 * find_named(coarse.sheets, s.name)->spacing / by;
-    }
-    for (int i = 0; i < s.count; ++i)
-      image[s.first + i] = places ? places->at(coarse_model.start.at(s.first + i).hi, within)
-                                                            : there.first + (part.row ? part.row->image(i) : i);
+  for (const Refined::Part& part : refined.parts()) {
+    const Structure& there = *find_named(fine_model.structures, part.name);
+    std::vector<int> at;                                       // of a sheet: which of its particles stands at each place now
+    if (part.spacing > 0)
+      at = points_at(coarse_model.start.position.middleCols(part.first, part.count), fine_model.start.position.middleCols(there.first, there.count),
+                     1e-6 * part.spacing);
+    for (int i = 0; i < part.count; ++i)
+      if (const int now = part.spacing > 0 ? at[i] : part.row ? part.row->image(i) : i; now >= 0) image[part.first + i] = there.first + now;
   }
   std::set<int> held;                                          // beside the end of what is held the middle of a bond counts
   for (const Support& s : coarse_model.supports) held.insert(s.particles.begin(), s.particles.end());
@@ -235,8 +190,7 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
     const GroupTable &g = coarse.groups[k], &changed = fine.groups[k];
     std::vector<std::string> of = g.of;
     if (g.except) of.insert(of.end(), g.except->begin(), g.except->end());
-    const bool of_apart = std::any_of(of.begin(), of.end(), [&](const auto& name) { return apart.count(name) > 0; });
-    if (of_apart || g.inside != changed.inside || g.outside != changed.outside) {
+    if (std::ranges::any_of(of, [&](const std::string& name) { return contains(apart, name); }) || g.inside != changed.inside || g.outside != changed.outside) {
       apart.insert(g.name);
       continue;
     }
@@ -263,9 +217,9 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
     const Place place = coarse.refine ? Place{coarse.refine->place} : Place{};
     if (t.force) {
       const Vec3 f = *t.force * part;
-      settings.push_back({t.place.key + ".force", fmt::format("[{}, {}, {}]", number(f[0]), number(f[1]), number(f[2])), place});
+      settings.push_back({t.place.key + ".force", fmt::format("[{}, {}, {}]", to_toml(f[0]), to_toml(f[1]), to_toml(f[2])), place});
     }
-    if (t.radial) settings.push_back({t.place.key + ".radial", number(*t.radial * part), place});
+    if (t.radial) settings.push_back({t.place.key + ".radial", to_toml(*t.radial * part), place});
   }
   return settings;
 }

@@ -8,8 +8,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <ranges>
 
 namespace elamin {
 namespace {
@@ -17,15 +19,56 @@ namespace {
 /// Equilibria are computed to rounding, which is more than ε where structures are slender: of a value, or of what is usual in its column.
 constexpr double rounding_of_values = 1e-11;
 
-struct Order { double ratio; std::optional<double> observed; };
+double last_change(const std::vector<double>& f) { return std::abs(f.back() - f[f.size() - 2]); }
 
-Order order_of(const std::vector<double>& f, double by) {
-  const std::size_t m = f.size() - 1;
-  const double last = f[m] - f[m - 1], before = f[m - 1] - f[m - 2], ratio = before / last;
-  return {ratio, ratio > 0 ? std::optional(std::log(ratio) / std::log(by)) : std::nullopt};
+/// The number in a column at `at` of each of the runs.
+std::vector<std::optional<double>> values_at(const std::string& column, const std::string& at, const std::vector<RunTables>& runs) {
+  std::string why;
+  std::vector<std::optional<double>> values;
+  for (const RunTables& run : runs) values.push_back(value_at(column, at, run, why));
+  return values;
 }
 
-double last_change(const std::vector<double>& f) { return std::abs(f.back() - f[f.size() - 2]); }
+/// Events that all levels have, in the order of the last one; what the others are is remarked.
+std::vector<std::string> common_events(const std::vector<RunTables>& runs, std::vector<std::string>& remarks) {
+  std::vector<std::string> common, all;
+  std::map<std::vector<std::size_t>, std::vector<std::string>> missing;    // by the levels where they are
+  for (const RunTables& run : std::views::reverse(runs))
+    for (const Row& row : run.events->rows)
+      if (const std::string label = csv_text(row[run.events->column("label")]); !contains(all, label)) all.push_back(label);
+  for (const std::string& label : all) {
+    const auto differs = [&](const char* column) {
+      const auto numbers = values_at(column, label, runs);
+      return std::ranges::count(numbers, numbers[0]) < std::ssize(numbers);
+    };
+    const auto shown = [](const std::optional<double>& number) { return number ? fmt::format("{}", *number) : "none"; };
+    const auto loads = values_at("lambda", label, runs);
+    std::vector<std::size_t> in;
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      if (loads[k]) in.push_back(k + 1);
+    constexpr std::array told{"multiplicity", "negative_before", "negative_after"};
+    const auto unlike = std::ranges::find_if(told, differs);
+    if (in.size() < runs.size()) missing[in].push_back(label);
+    else if (unlike == told.end()) common.push_back(label);
+    else remarks.push_back(fmt::format("{} is not the same at all levels: {} is {}", label, *unlike,
+                                       fmt::join(values_at(*unlike, label, runs) | std::views::transform(shown), ", ")));
+  }
+  for (const auto& [in, labels] : missing)
+    remarks.push_back(fmt::format("at level {} alone, and not compared: {}", fmt::join(in, ", "), fmt::join(labels, ", ")));
+  return common;
+}
+
+/// The median of the sizes in a column.
+double usual_in(const Table& table, const std::string& column) {
+  std::vector<double> sizes;
+  const int c = table.column(column);
+  for (const Row& row : table.rows)
+    if (const auto value = c < 0 ? std::nullopt : as_number(row[c])) sizes.push_back(std::abs(*value));
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + std::ssize(sizes) / 2;
+  std::ranges::nth_element(sizes, middle);
+  return *middle;
+}
 
 }  // namespace
 
@@ -39,13 +82,13 @@ Extrapolated extrapolate(const std::vector<double>& values, double by, double ro
   std::vector<double> f = values;
   double before = 0, first = 0;                                // the orders that have been taken out last, and first
   while (f.size() >= 3) {
-    const Order order = order_of(f, by);
-    if (before == 0) limit.order = order.observed;
-    const double q = order.observed ? std::round(*order.observed) : 0;
+    const double ratio = (f[f.size() - 2] - f[f.size() - 3]) / (f.back() - f[f.size() - 2]), observed = std::log(ratio) / std::log(by);
+    if (before == 0 && ratio > 0) limit.order = observed;
+    const double q = ratio > 0 ? std::round(observed) : 0;
     const bool by_chance = before > 0 && q > before + first;   // two terms nearly cancel: the next order is no higher than that
-    if (last_change(f) <= least || !(q > before) || std::abs(*order.observed - q) > order_within || by_chance) {
+    if (last_change(f) <= least || !(q > before) || std::abs(observed - q) > order_within || by_chance) {
       if (before > 0) break;
-      if (std::abs(order.ratio) >= 1 + (by - 1) / 3) limit.approach = Approach::not_asymptotic, limit.error = 3 * last_change(f) / (by - 1);
+      if (std::abs(ratio) >= 1 + (by - 1) / 3) limit.approach = Approach::not_asymptotic, limit.error = 3 * last_change(f) / (by - 1);
       return limit;
     }
     std::vector<double> next;
@@ -61,63 +104,6 @@ Extrapolated extrapolate(const std::vector<double>& values, double by, double ro
   return limit;
 }
 
-namespace {
-
-std::vector<std::string> labels_of(const Table& events) {
-  std::vector<std::string> labels;
-  for (const Row& row : events.rows) labels.push_back(csv_text(row[events.column("label")]));
-  return labels;
-}
-
-/// Events that all levels have, in the order of the last one; what the others are is remarked.
-std::vector<std::string> common_events(const std::vector<RunTables>& runs, std::vector<std::string>& remarks) {
-  std::vector<std::string> common, all;
-  std::map<std::vector<std::size_t>, std::vector<std::string>> missing;    // by the levels where they are
-  for (auto run = runs.rbegin(); run != runs.rend(); ++run)
-    for (const std::string& label : labels_of(*run->events))
-      if (!contains(all, label)) all.push_back(label);
-  for (const std::string& label : all) {
-    std::vector<std::size_t> in;
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-      const std::vector<std::string> labels = labels_of(*runs[k].events);
-      if (contains(labels, label)) in.push_back(k + 1);
-    }
-    if (in.size() < runs.size()) {
-      missing[in].push_back(label);
-      continue;
-    }
-    bool same = true;
-    for (const char* column : {"multiplicity", "negative_before", "negative_after"}) {
-      std::vector<std::string> numbers;
-      std::string why;
-      for (const RunTables& run : runs) {
-        const auto value = value_at(column, label, run, why);
-        numbers.push_back(value ? fmt::format("{}", *value) : "none");
-      }
-      if (!same || std::count(numbers.begin(), numbers.end(), numbers[0]) == static_cast<std::ptrdiff_t>(numbers.size())) continue;
-      same = false, remarks.push_back(fmt::format("{} is not the same at all levels: {} is {}", label, column, fmt::join(numbers, ", ")));
-    }
-    if (same) common.push_back(label);
-  }
-  for (const auto& [in, labels] : missing)
-    remarks.push_back(fmt::format("at level {} alone, and not compared: {}", fmt::join(in, ", "), fmt::join(labels, ", ")));
-  return common;
-}
-
-/// The median of the sizes in a column.
-double usual_in(const Table& table, const std::string& column) {
-  std::vector<double> sizes;
-  const int c = table.column(column);
-  for (const Row& row : table.rows)
-    if (const auto value = c < 0 ? std::nullopt : as_number(row[c])) sizes.push_back(std::abs(*value));
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
-}
-
-}  // namespace
-
 RefinedValues refined_values(const Problem& problem, const std::vector<RunTables>& runs, const std::vector<ExpectTable>& continuum) {
   RefinedValues refined;
   std::vector<std::pair<std::string, std::string>> wanted;
@@ -131,20 +117,17 @@ RefinedValues refined_values(const Problem& problem, const std::vector<RunTables
     for (const std::string& q : quantities)
       if (q != "lambda" || is_event(at)) wanted.emplace_back(at, q);
   for (const ExpectTable& e : continuum)
-    if (std::pair p{e.at, e.observable}; contains(rows, e.at) && !contains(wanted, p))
-      wanted.push_back(p);
+    if (std::pair p{e.at, e.observable}; contains(rows, e.at) && !contains(wanted, p)) wanted.push_back(p);
   for (const auto& [at, quantity] : wanted) {
+    const auto values = values_at(quantity, at, runs), errors = values_at("lambda_error", at, runs);
+    if (contains(values, std::nullopt)) continue;
     RefinedValue value{at, quantity, {}, {}};
     double rounding = 0;
-    for (const RunTables& run : runs) {
-      std::string why;
-      const auto v = value_at(quantity, at, run, why);
-      if (!v) break;
-      value.levels.push_back(*v);
-      rounding = std::max({rounding, rounding_of_values * std::max(std::abs(*v), usual_in(*run.path, quantity)),
-                           quantity == "lambda" ? value_at("lambda_error", at, run, why).value_or(0) : 0.0});
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      value.levels.push_back(*values[k]);
+      rounding = std::max({rounding, rounding_of_values * std::max(std::abs(*values[k]), usual_in(*runs[k].path, quantity)),
+                           quantity == "lambda" ? errors[k].value_or(0) : 0.0});
     }
-    if (value.levels.size() < runs.size()) continue;
     value.limit = extrapolate(value.levels, problem.refine->by, rounding);
     refined.values.push_back(std::move(value));
   }
@@ -167,13 +150,8 @@ Verdict check_continuum(const Problem& problem, const ExpectTable& e, const Refi
 }
 
 const char* name_of(Approach approach) {
-  switch (approach) {
-    case Approach::asymptotic: return "asymptotic";
-    case Approach::rounding: return "rounding";
-    case Approach::not_asymptotic: return "not asymptotic";
-    case Approach::none: return "none";
-  }
-  return "none";
+  constexpr std::array names{"asymptotic", "rounding", "not asymptotic", "none"};
+  return names[static_cast<std::size_t>(approach)];
 }
 
 std::string value_and_error(const Extrapolated& limit) {
@@ -212,16 +190,11 @@ std::string closing_refined(const RefinedValues& refined) {
 }
 
 Json refined_json(const RefinedValues& refined) {
-  Json all;
-  all["quantities"] = Json::array();
-  for (const RefinedValue& v : refined.values) {
-    Json one;
-    one["at"] = v.at, one["quantity"] = v.quantity, one["value"] = json_of(v.limit.value), one["error"] = json_of(v.limit.error), one["order"] = json_of(v.limit.order);
-    one["approach"] = name_of(v.limit.approach), one["levels"] = v.levels;
-    all["quantities"].push_back(std::move(one));
-  }
-  all["remarks"] = refined.remarks;
-  return all;
+  Json quantities = Json::array();
+  for (const auto& [at, quantity, levels, limit] : refined.values)
+    quantities.push_back({{"at", at}, {"quantity", quantity}, {"value", json_of(limit.value)}, {"error", json_of(limit.error)},
+                          {"order", json_of(limit.order)}, {"approach", name_of(limit.approach)}, {"levels", levels}});
+  return {{"quantities", quantities}, {"remarks", refined.remarks}};
 }
 
 }  // namespace elamin

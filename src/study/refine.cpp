@@ -24,20 +24,18 @@ namespace {
 std::vector<Setting> level_of(const Document& document, const std::vector<Setting>& settings, const std::vector<OwnLaw>& own, const Problem& coarse,
                               const Model& model, int by) {
   Mistakes mistakes(document.file);
-  std::vector<Setting> level;
+  std::vector<Setting> level, all = settings;
+  const auto take = [&](const std::vector<Setting>& more) {
+    mistakes.raise();
+    for (std::vector<Setting>* list : {&level, &all}) list->insert(list->end(), more.begin(), more.end());
+  };
   const RefineTable& refine = *coarse.refine;
   for (const std::string& key : refine.divide)
     for (const auto& [name, value] : coarse.constants->numbers)
-      if (key == "constants." + name) level.push_back({key, to_toml(value / by), refine.place});
-  const std::vector<Setting> structure = finer_structure(coarse, model, by, mistakes);
-  mistakes.raise();
-  level.insert(level.end(), structure.begin(), structure.end());
-  std::vector<Setting> all = settings;
-  all.insert(all.end(), level.begin(), level.end());
+      if (key == "constants." + name) take({{key, to_toml(value / by), refine.place}});
+  take(finer_structure(coarse, model, by, mistakes));
   const Problem fine = read_problem(document, all);
-  const std::vector<Setting> loads = finer_loads(coarse, model, fine, model_of(fine, own), by, mistakes);
-  mistakes.raise();
-  level.insert(level.end(), loads.begin(), loads.end());
+  take(finer_loads(coarse, model, fine, model_of(fine, own), by, mistakes));
   return level;
 }
 
@@ -45,7 +43,7 @@ std::vector<Setting> level_of(const Document& document, const std::vector<Settin
 /// loop, is a matter of its steps.
 void leave_out_ends(const std::vector<RunTables>& runs, const std::string& at, RefinedValues& refined) {
   constexpr double same = 1e-12;
-  if (std::none_of(refined.values.begin(), refined.values.end(), [&](const RefinedValue& v) { return v.at == at; })) return;
+  if (std::ranges::find(refined.values, at, &RefinedValue::at) == refined.values.end()) return;
   std::set<std::string> labels;
   std::vector<double> ends;
   for (const RunTables& run : runs) {
@@ -54,8 +52,8 @@ void leave_out_ends(const std::vector<RunTables>& runs, const std::string& at, R
     labels.insert(at == "final" ? csv_text(last[run.path->column("label")]) : at);
     ends.push_back(value_at("lambda", at, run, why).value_or(0));
   }
-  const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
-  if ((labels.size() == 1 && is_event(*labels.begin())) || *most - *least <= same * std::max(std::abs(*least), std::abs(*most))) return;
+  const auto [least, most] = std::ranges::minmax(ends);
+  if ((labels.size() == 1 && is_event(*labels.begin())) || most - least <= same * std::max(std::abs(least), std::abs(most))) return;
   std::erase_if(refined.values, [&](const RefinedValue& v) { return v.at == at; });
   refined.remarks.push_back(fmt::format("{} is not at one load factor, and not compared: the levels end at {:.10g}", at, fmt::join(ends, ", ")));
 }
@@ -98,9 +96,7 @@ std::vector<Verdict> finish_refinement(const PreparedRuns& prepared, const std::
     }
   leave_out_ends(tables, "final", refined);
   for (const StageTable& s : first.problem.stages) leave_out_ends(tables, s.name, refined);
-  Json all;
-  all["by"] = first.problem.refine->by;
-  all["levels"] = Json::array();
+  Json all{{"by", first.problem.refine->by}, {"levels", Json::array()}};
   for (std::size_t k = 0; k < prepared.runs.size(); ++k) {
     const PreparedRun& run = prepared.runs[k];
     Json level{{"run", run_name(k + 1, prepared.runs.size(), run.swept)}, {"particles", run.model.particles()}, {"settings", Json::object()}};
