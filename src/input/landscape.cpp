@@ -34,6 +34,10 @@ void describe(Keys& keys, LandscapeTable& t) {
   keys.may_file("run", t.run, "the directory of a stored run of the same structure, whose states at these load factors are known besides");
 }
 
+std::vector<double> landscape_load_factors(const Problem& p) {
+  return p.landscape ? p.landscape->at.value_or(std::vector{p.path.to}) : std::vector<double>{};
+}
+
 bool is_of_landscape(const std::string& at) { return at.starts_with(before_label); }
 
 std::optional<InLandscape> in_landscape(const std::string& at) {
@@ -55,7 +59,7 @@ std::string wrong_at_landscape(const Problem& p, const std::string& at) {
     return fmt::format("must be \"landscape.graph\" or one of \"landscape.{}:1\", with \"@0.5\" behind it for another load factor than the last, "
                        "is {}",
                        fmt::join(labels_of_landscape, ":1\", \"landscape."), in_quotes(at));
-  const std::vector<double> all = p.landscape->at.value_or(std::vector{p.path.to});
+  const std::vector<double> all = landscape_load_factors(p);
   if (place->load_factor && !contains(all, *place->load_factor))
     return fmt::format("has a load factor, {}, that is none of landscape.at, {}", *place->load_factor, fmt::join(all, ", "));
   return "";

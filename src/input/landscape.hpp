@@ -7,18 +7,17 @@
 
 namespace elamin {
 
-struct LandscapeTable {
+struct LandscapeTable : LandscapeOptions {
   TablePlace place;
   std::optional<std::vector<double>> at;
-  int modes = LandscapeOptions{}.modes, starts = LandscapeOptions{}.starts, deflate = LandscapeOptions{}.deflate;
-  int most = LandscapeOptions{}.most;
-  int seed = static_cast<int>(LandscapeOptions{}.seed);
-  bool strings = LandscapeOptions{}.strings;
   std::string run;
   bool operator==(const LandscapeTable&) const = default;
 };
 
 void describe(Keys& keys, LandscapeTable& t);
+
+/// The load factors of the landscapes; none in other studies.
+std::vector<double> landscape_load_factors(const Problem& problem);
 
 /// Where an expectation looks at a landscape: a label, or "graph", and the load factor, or that of the last landscape.
 struct InLandscape {

@@ -16,41 +16,32 @@
 namespace elamin {
 namespace {
 
-bool same_load(double a, double b) { return std::abs(a - b) <= limits::landscape::same_load * std::max(std::abs(a), std::abs(b)); }
+/// The state, if it is at one of these load factors, as one that is exactly there.
+void add_if_at(const std::vector<double>& load_factors, State state, std::vector<State>& known) {
+  for (const double at : load_factors) {
+    if (std::abs(state.load_factor - at) > limits::landscape::same_load * std::max(std::abs(state.load_factor), std::abs(at))) continue;
+    state.load_factor = at, known.push_back(state);
+  }
+}
 
 }  // namespace
 
-std::vector<double> landscape_load_factors(const Problem& problem) {
-  return problem.landscape ? problem.landscape->at.value_or(std::vector{problem.path.to}) : std::vector<double>{};
-}
-
 void PathOfLandscape::take(const PathPoint& point) {
-  for (const double at : at_)
-    if (same_load(point.state.load_factor, at)) known_.push_back(point.state), known_.back().load_factor = at;
+  add_if_at(load_factors, point.state, known);
   for (const char* kind : {"limit:", "branch:", "contact:"})
-    if (point.label.starts_with(kind)) events_.push_back({point.label, point.state.load_factor});
-}
-
-void PathOfLandscape::carry(Archive& archive) {
-  archive(known_, events_);
+    if (point.label.starts_with(kind)) events.push_back({point.label, point.state.load_factor});
 }
 
 Outcome trace_landscape(const Problem& problem, const Model& model, const PathOfLandscape& path, RunDirectory& results,
                         const std::function<void(const std::string&)>& tell, const std::function<void(const std::string&)>& warn) {
   const LandscapeTable& t = *problem.landscape;
   if (any_hard(model)) return {Status::not_converged, "landscapes with hard contacts are not explored; give the contacts a stiffness"};
-  const std::vector<double> load_factors = landscape_load_factors(problem);
-  std::vector<State> known = path.known();
+  std::vector<State> known = path.known;
   if (!t.run.empty())
-    for (const StoredState& s : read_run(t.run).states) {
-      State state = read_state(s, model);
-      for (const double at : load_factors)
-        if (same_load(state.load_factor, at)) state.load_factor = at, known.push_back(state);
-    }
+    for (const StoredState& s : read_run(t.run).states) add_if_at(path.load_factors, read_state(s, model), known);
   Energy energy(model);
   Newton newton(energy, solver_options(problem));
-  const LandscapeOptions options{t.modes, t.starts, t.deflate, static_cast<unsigned>(t.seed), t.most, t.strings};
-  const Landscapes all = explore(newton, known, path.events(), load_factors, options, tell);
+  const Landscapes all = explore(newton, known, path.events, path.load_factors, t, tell);
   if (interrupted()) return {Status::interrupted, "interrupted before the landscape was whole; elamin resume begins it anew"};
   for (const std::string& note : all.notes) warn(note);
 
@@ -63,7 +54,7 @@ Outcome trace_landscape(const Problem& problem, const Model& model, const PathOf
   };
   const auto called = [&](const Landscape& l, const NodeImage& i) {
     const std::string label = l.node(i).label + (i.image > 0 ? fmt::format("-image-{}", i.image + 1) : "");
-    return load_factors.size() == 1 ? label : fmt::format("{}@{}", label, l.load_factor);
+    return path.load_factors.size() == 1 ? label : fmt::format("{}@{}", label, l.load_factor);
   };
   for (const Landscape& l : all.at)
     for (const NodeImage& i : l.images(-1)) {

@@ -6,22 +6,15 @@
 
 namespace elamin {
 
-/// The load factors of the landscapes; none in other studies.
-std::vector<double> landscape_load_factors(const Problem& problem);
-
-/// What of a path a landscape begins with: its states at those load factors, and its events.
-class PathOfLandscape {
- public:
-  explicit PathOfLandscape(const Problem& problem) : at_(landscape_load_factors(problem)) {}
+/// What a landscape begins with: its load factors, none in other studies, and of the path the states at these, and the events.
+struct PathOfLandscape {
+  explicit PathOfLandscape(const Problem& problem) : load_factors(landscape_load_factors(problem)) {}
   void take(const PathPoint& point);
-  const std::vector<State>& known() const { return known_; }
-  const std::vector<PathEvent>& events() const { return events_; }
-  void carry(Archive& archive);
+  void carry(Archive& archive) { archive(known, events); }
 
- private:
-  std::vector<double> at_;
-  std::vector<State> known_;
-  std::vector<PathEvent> events_;
+  std::vector<double> load_factors;
+  std::vector<State> known;
+  std::vector<PathEvent> events;
 };
 
 /// Explores the landscapes and writes them: landscape.csv, landscape.json and a state for each image of each node. `tell` is told of each of them,
