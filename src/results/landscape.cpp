@@ -22,51 +22,66 @@ std::string called(const Landscape& l, const NodeImage& i) {
 std::vector<int> in_order(const Landscape& l) {
   std::vector<int> order(l.nodes.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto rank = [&](int n) { return std::pair(l.node({n}).index(), l.node({n}).energy()); };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
+  std::ranges::stable_sort(order, {}, [&](int n) { return std::pair(l.nodes[n].index(), l.nodes[n].energy()); });
   return order;
 }
 
-const Pass* pass_of(const Landscape& l, const NodeImage& saddle) {
-  for (const Pass& p : l.passes)
-    if (p.saddle == saddle) return &p;
-  return nullptr;
-}
-
 /// From the higher and from the lower minimum up to the saddle.
-std::array<std::optional<double>, 2> barriers(const Landscape& l, const Pass& p) {
-  std::array<std::optional<double>, 2> up;
-  const double top = l.node(p.saddle).energy();
+std::vector<std::optional<double>> barriers(const Landscape& l, const Pass& p) {
+  std::vector<std::optional<double>> up;
   for (const NodeImage& m : p.minima)
-    if (const double e = m.node < 0 ? 0 : top - l.node(m).energy(); m.node >= 0) (up[0] ? up[1] : up[0]) = e;
-  if (up[0] && up[1] && *up[0] > *up[1]) std::swap(up[0], up[1]);
+    if (m.node >= 0) up.push_back(l.node(p.saddle).energy() - l.node(m).energy());
+  std::ranges::sort(up);
+  up.resize(2);
   return up;
 }
-
 
 Json image_of(const Landscape& l, const NodeImage& i) {
   return i.node < 0 ? Json(nullptr) : Json{{"node", l.node(i).label}, {"image", i.image + 1}};
 }
 
-Json tree_json(const Landscape& l, const LandscapeTree& t) {
+/// A disconnectivity diagram: a leaf for each minimum, where its energy is, and lines up to the lowest saddles over which minima are reached
+/// from each other; x counts the leaves, y is the energy. Source: Becker & Karplus 1997, J. Chem. Phys. 106, 1495.
+Json tree_of(const Landscape& l) {
+  struct Part { std::vector<NodeImage> leaves; double x = 0, y = 0; };
+  std::vector<const Pass*> passes;
+  for (const Pass& p : l.passes)
+    if (p.minima[0].node >= 0 && p.minima[1].node >= 0) passes.push_back(&p);
+  std::ranges::stable_sort(passes, {}, [&](const Pass* p) { return l.node(p->saddle).energy(); });
   Json leaves = Json::array(), lines = Json::array();
-  for (const LandscapeTree::Leaf& leaf : t.leaves)
-    leaves.push_back({{"label", called(l, leaf.minimum)}, {"x", leaf.x}, {"energy", json_of(leaf.y)}});
-  for (const auto& line : t.lines) lines.push_back(line);
+  std::vector<NodeImage> order;                                 // of the leaves, from the left: known after the first round
+  for (const bool draws : {false, true}) {
+    std::vector<Part> parts;
+    for (const NodeImage& m : l.images(0)) {
+      const double x = 1.0 + static_cast<double>(std::ranges::find(order, m) - order.begin()), y = l.node(m).energy();
+      parts.push_back({{m}, x, y});
+      if (draws) leaves.push_back({{"label", called(l, m)}, {"x", x}, {"energy", json_of(y)}});
+    }
+    for (const Pass* p : passes) {
+      const auto part_of = [&](const NodeImage& m) {
+        return std::ranges::find_if(parts, [&](const Part& q) { return contains(q.leaves, m); });
+      };
+      auto a = part_of(p->minima[0]), b = part_of(p->minima[1]);
+      if (a == b) continue;
+      if (b->y < a->y) std::swap(a, b);                         // the lower one on the left
+      const double top = l.node(p->saddle).energy();
+      if (draws) lines.push_back({{a->x, a->y}, {a->x, top}, {b->x, top}, {b->x, b->y}});
+      a->leaves.insert(a->leaves.end(), b->leaves.begin(), b->leaves.end());
+      a->x = (a->x + b->x) / 2, a->y = top;
+      parts.erase(b);
+    }
+    for (const Part& p : parts)
+      if (!draws) order.insert(order.end(), p.leaves.begin(), p.leaves.end());
+  }
   return {{"leaves", leaves}, {"lines", lines}};
 }
 
 }  // namespace
 
-std::vector<std::string> landscape_columns(const std::vector<std::string>& observables) {
-  std::vector<std::string> columns = node_columns(observables);
-  for (const char* more : {"multiplicity", "barrier", "barrier_back", "minima", "saddles", "euler", "what"}) columns.emplace_back(more);
-  return columns;
-}
-
 Table landscape_table(const Landscapes& all, const std::vector<std::string>& observables,
                       const std::function<std::vector<double>(const PathPoint&)>& observe) {
-  Table table{landscape_columns(observables), {}};
+  Table table{node_columns(observables), {}};
+  for (const char* more : {"multiplicity", "barrier", "barrier_back", "minima", "saddles", "euler", "what"}) table.columns.emplace_back(more);
   const auto short_row = [&](const std::string& label, double load_factor) -> Row& {
     Row row(table.columns.size());
     row[0] = label, row[1] = load_factor;
@@ -86,7 +101,7 @@ Table landscape_table(const Landscapes& all, const std::vector<std::string>& obs
       row.resize(table.columns.size());
       put(row, "multiplicity", static_cast<int>(n.images.size()));
       if (const double up = l.barrier({k, 0}); n.index() == 0) put(row, "barrier", up);
-      if (const Pass* pass = pass_of(l, {k, 0})) {
+      if (const auto pass = std::ranges::find(l.passes, NodeImage{k, 0}, &Pass::saddle); pass != l.passes.end()) {
         const auto up = barriers(l, *pass);
         put(row, "barrier", cell_of(up[0])), put(row, "barrier_back", cell_of(up[1]));
         put(row, "what", fmt::format("joins {} and {}", called(l, pass->minima[0]), called(l, pass->minima[1])));
@@ -97,41 +112,6 @@ Table landscape_table(const Landscapes& all, const std::vector<std::string>& obs
   for (std::size_t k = 0; k < all.changes.size(); ++k)
     put(short_row(fmt::format("change:{}", k + 1), all.changes[k].load_factor), "what", all.changes[k].what);
   return table;
-}
-
-LandscapeTree tree_of(const Landscape& l) {
-  struct Part { std::vector<NodeImage> leaves; double x = 0, y = 0; };
-  std::vector<const Pass*> passes;
-  for (const Pass& p : l.passes)
-    if (p.minima[0].node >= 0 && p.minima[1].node >= 0) passes.push_back(&p);
-  const auto energy = [&](const NodeImage& i) { return l.node(i).energy(); };
-  std::stable_sort(passes.begin(), passes.end(), [&](const Pass* a, const Pass* b) { return energy(a->saddle) < energy(b->saddle); });
-  LandscapeTree tree;
-  std::vector<NodeImage> order;                                 // of the leaves, from the left: known after the first round
-  for (const bool draws : {false, true}) {
-    std::vector<Part> parts;
-    for (const NodeImage& m : l.images(0))
-      parts.push_back({{m}, 1.0 + static_cast<double>(std::find(order.begin(), order.end(), m) - order.begin()), energy(m)});
-    if (draws)
-      for (const Part& p : parts) tree.leaves.push_back({p.leaves.front(), p.x, p.y});
-    for (const Pass* p : passes) {
-      const auto part_of = [&](const NodeImage& m) {
-        const auto has = [&](const Part& q) { return contains(q.leaves, m); };
-        return std::find_if(parts.begin(), parts.end(), has);
-      };
-      auto a = part_of(p->minima[0]), b = part_of(p->minima[1]);
-      if (a == b) continue;
-      if (b->y < a->y) std::swap(a, b);                         // the lower one on the left
-      const double top = energy(p->saddle);
-      if (draws) tree.lines.push_back({{a->x, a->y}, {a->x, top}, {b->x, top}, {b->x, b->y}});
-      a->leaves.insert(a->leaves.end(), b->leaves.begin(), b->leaves.end());
-      a->x = (a->x + b->x) / 2, a->y = top;
-      parts.erase(b);
-    }
-    for (const Part& p : parts)
-      if (!draws) order.insert(order.end(), p.leaves.begin(), p.leaves.end());
-  }
-  return tree;
 }
 
 Json landscape_json(const Landscapes& all, const std::function<std::string(const Landscape&, const NodeImage&)>& file) {
@@ -153,7 +133,7 @@ Json landscape_json(const Landscapes& all, const std::function<std::string(const
                        {"barrier", json_of(up[0])}, {"barrier_back", json_of(up[1])}});
     }
     j["landscapes"].push_back({{"load_factor", l.load_factor}, {"minima", l.minima()}, {"saddles", l.saddles()}, {"euler", l.euler()},
-                               {"nodes", nodes}, {"edges", edges}, {"tree", tree_json(l, tree_of(l))}});
+                               {"nodes", nodes}, {"edges", edges}, {"tree", tree_of(l)}});
   }
   for (const LandscapeChange& c : all.changes)
     j["changes"].push_back({{"load_factor", json_of(c.load_factor)}, {"nodes", c.nodes}, {"what", c.what},
