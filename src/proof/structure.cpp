@@ -32,11 +32,11 @@ std::string what_is_not_covered(const Model& model) {
   return "";
 }
 
-// The faces of a wall as laws for a particle of radius r; effective radii as in wall_gap.hpp.
-void add_faces(const WallContact& wall, double r, std::vector<Plane>& planes, std::vector<Round>& rounds) {
+// Calls with the faces of a wall as laws for a particle of radius r; effective radii as in wall_gap.hpp.
+void for_faces(const WallContact& wall, double r, const auto& call) {
   const Region& region = wall.region;
   const auto stiffness = [&](double effective) { return wall.effective_modulus * 4 / 3 * std::sqrt(effective); };
-  const auto plane = [&](const Vec3& normal, const Vec3& point) { planes.push_back({stiffness(r), r, normal, point}); };
+  const auto plane = [&](const Vec3& normal, const Vec3& point) { call(Plane{stiffness(r), r, normal, point}); };
   if (region.shape == Shape::plane) return plane(wall.inside ? region.normal : Vec3(-region.normal), region.center);
   for (int c = 0; c < 3 && region.shape == Shape::block; ++c) {
     if (std::isfinite(region.lo[c])) plane(Vec3::Unit(c), region.lo[c] * Vec3::Unit(c));
@@ -45,7 +45,7 @@ void add_faces(const WallContact& wall, double r, std::vector<Plane>& planes, st
   if (region.shape == Shape::block) return;
   const bool cylinder = region.shape == Shape::cylinder;
   const double m = (cylinder ? 2 : 1) * region.radius, effective = wall.curved ? r * (m / (wall.inside ? m - r : m + r)) : r;
-  rounds.push_back({stiffness(effective), r, region.radius, region.center, cylinder ? region.axis : -1, wall.inside});
+  call(Round{stiffness(effective), r, region.radius, region.center, cylinder ? region.axis : -1, wall.inside});
 }
 
 void add_contacts(const Model& model, const State& state, Structure& s) {
@@ -69,19 +69,13 @@ void add_walls(const Model& model, const State& state, Structure& s, std::string
     for (const int p : w.particles) {
       const double r = model.diameter[p] / 2;
       const Vector3<Interval<double>> x = s.edge<Interval<double>>(state, -1, p, 0);
-      std::vector<Plane> planes;
-      std::vector<Round> rounds;
-      add_faces(wall, r, planes, rounds);
       double nearest = HUGE_VAL;                                // of the centre to a face
-      const auto look = [&](const auto& faces) { for (const auto& face : faces) nearest = std::min(nearest, gap(face, x).lo + r); };
-      look(planes), look(rounds);
+      for_faces(wall, r, [&](const auto& face) { nearest = std::min(nearest, gap(face, x).lo + r); });
       if (nearest < -s.reach) continue;
       if (nearest < s.reach) not_covered = fmt::format("particles whose centre is at the surface of a wall, as of \"{}\",", w.name);
-      const auto take = [&](const auto& faces, auto& elements) {
-        for (const auto& face : faces)
-          if (gap(face, x).lo <= s.reach) elements.push_back({face, {p}});
-      };
-      take(planes, s.planes), take(rounds, s.rounds);
+      for_faces(wall, r, [&]<class Face>(const Face& face) {
+        if (gap(face, x).lo <= s.reach) std::get<std::vector<Element<Face, 1>>&>(std::tie(s.planes, s.rounds)).push_back({face, {p}});
+      });
     }
   }
 }

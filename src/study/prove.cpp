@@ -55,8 +55,8 @@ Json elements_json(const std::vector<proof::Element<L, n>>& elements, const Numb
     const std::vector<double> numbers = numbers_of(e.law);
     const auto [law, is_new] = known.try_emplace(numbers, known.size());
     if (is_new) laws.push_back(numbers);
-    Json row = Json::array({law->second});
-    for (const int p : e.particles) row.push_back(p);
+    Json row = e.particles;
+    row.insert(row.begin(), law->second);
     all.push_back(std::move(row));
   }
   return {{"laws", std::move(laws)}, {"elements", std::move(all)}};
@@ -79,27 +79,27 @@ Json gaps_json(const std::vector<proof::GapBound>& gaps) {
 
 // See docs/proofs.md.
 Json json_of(const proof::Structure& s, const proof::Theorem& t, const State& state) {
-  Json j;
-  j["theorem"] = {{"negative", t.negative}, {"radius", t.radius}, {"error", t.error}, {"moved", t.moved}};
-  j["bounds"] = {{"shift", t.shift}, {"inverse", t.inverse}, {"residual", t.residual}, {"change", t.change}};
-  j["gaps"] = {{"closed", gaps_json(t.closed)}, {"open", gaps_json(t.open)}, {"undecided", gaps_json(t.undecided)}};
   Json loads = Json::array();
   for (const auto& [p, force, part] : s.loads) loads.push_back({p, force[0], force[1], force[2], part.fixed, part.rate});
-  j["structure"] = {
-      {"load_factor", s.load_factor},
-      {"bonds", elements_json(s.bonds, [](const proof::Bond& l) { return std::vector{l.K, l.r0, l.r0_tail}; })},
-      {"angles", elements_json(s.angles, [](const proof::Angle& l) { return std::vector{l.B, l.cosine, l.sine, double(l.kept)}; })},
-      {"contacts", elements_json(s.contacts, [](const proof::Contact& l) { return std::vector{l.k, l.distance}; })},
-      {"planes", elements_json(s.planes, [](const proof::Plane& l) {
-         return std::vector{l.k, l.radius, l.normal[0], l.normal[1], l.normal[2], l.point[0], l.point[1], l.point[2]};
-       })},
-      {"rounds", elements_json(s.rounds, [](const proof::Round& l) {
-         return std::vector{l.k, l.radius, l.wall_radius, l.center[0], l.center[1], l.center[2], double(l.axis), double(l.inside)};
-       })},
-      {"loads", std::move(loads)},
-      {"dofs", s.dof}};
-  j["state"] = places_json(state), j["centre"] = places_json(t.centre);
-  return j;
+  return {
+      {"theorem", {{"negative", t.negative}, {"radius", t.radius}, {"error", t.error}, {"moved", t.moved}}},
+      {"bounds", {{"shift", t.shift}, {"inverse", t.inverse}, {"residual", t.residual}, {"change", t.change}}},
+      {"gaps", {{"closed", gaps_json(t.closed)}, {"open", gaps_json(t.open)}, {"undecided", gaps_json(t.undecided)}}},
+      {"structure",
+       {{"load_factor", s.load_factor},
+        {"bonds", elements_json(s.bonds, [](const proof::Bond& l) { return std::vector{l.K, l.r0, l.r0_tail}; })},
+        {"angles", elements_json(s.angles, [](const proof::Angle& l) { return std::vector{l.B, l.cosine, l.sine, double(l.kept)}; })},
+        {"contacts", elements_json(s.contacts, [](const proof::Contact& l) { return std::vector{l.k, l.distance}; })},
+        {"planes", elements_json(s.planes, [](const proof::Plane& l) {
+           return std::vector{l.k, l.radius, l.normal[0], l.normal[1], l.normal[2], l.point[0], l.point[1], l.point[2]};
+         })},
+        {"rounds", elements_json(s.rounds, [](const proof::Round& l) {
+           return std::vector{l.k, l.radius, l.wall_radius, l.center[0], l.center[1], l.center[2], double(l.axis), double(l.inside)};
+         })},
+        {"loads", std::move(loads)},
+        {"dofs", s.dof}}},
+      {"state", places_json(state)},
+      {"centre", places_json(t.centre)}};
 }
 
 // Two digits are rounded by less than 5 %.
