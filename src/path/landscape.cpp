@@ -26,16 +26,11 @@ using namespace limits;
 
 namespace {
 
-/// Centres of particles and bodies: 3 × count.
-Field centres(const State& s) {
-  Field x(3, s.particles() + static_cast<Eigen::Index>(s.bodies.size()));
-  x.leftCols(s.particles()) = s.position;
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) x.col(s.particles() + static_cast<Eigen::Index>(b)) = s.bodies[b].position.hi;
-  return x;
-}
-
 Vector sums_of_distances(const State& s) {
-  const Field x = centres(s);
+  const Eigen::Index particles = s.particles(), bodies = std::ssize(s.bodies);
+  Field x(3, particles + bodies);
+  x.leftCols(particles) = s.position;
+  for (Eigen::Index b = 0; b < bodies; ++b) x.col(particles + b) = s.bodies[b].position.hi;
   Vector sums(x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i) sums[i] = (x.colwise() - x.col(i)).colwise().norm().sum();
   std::sort(sums.begin(), sums.end());
@@ -133,8 +128,7 @@ class Explorer {
   void deflate_known() {
     if (options_.deflate == 0 || full()) return;
     std::vector<State> known;
-    for (const LandscapeNode& n : found_.nodes)
-      for (const Equilibrium& e : n.images) known.push_back(e.point.state);
+    for (const NodeImage& i : found_.images(-1)) known.push_back(found_.at(i).point.state);
     PathOptions asked;
     asked.to = found_.load_factor, asked.deflate = options_.deflate;
     std::vector<std::string> told;

@@ -76,9 +76,7 @@ class Walker {
   }
 
   Vector slopes() const {
-    Vector c(modes_.values.size());
-    for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = energy_.slope(modes_.vectors.col(i)).value;
-    return c;
+    return Vector::NullaryExpr(modes_.values.size(), [&](Eigen::Index i) { return energy_.slope(modes_.vectors.col(i)).value; });
   }
 
   // The step in the soft coordinates, as long as the radius allows. False: there is none.
@@ -184,11 +182,8 @@ std::optional<Equilibrium> walk(Newton& newton, State state, const Heading& head
 std::vector<Equilibrium> passes_between(Newton& newton, const State& a, const State& b, const Eigen::MatrixXd& held) {
   Energy& energy = newton.energy();
   const Kinematics& kinematics = energy.kinematics();
-  std::vector<State> line;
-  for (int k = 0; k < saddle::images; ++k) {
-    line.push_back(a);
-    kinematics.retract(line.back(), kinematics.difference(a, b), k / (saddle::images - 1.0));
-  }
+  std::vector<State> line(saddle::images, a);
+  for (int k = 0; k < saddle::images; ++k) kinematics.retract(line[k], kinematics.difference(a, b), k / (saddle::images - 1.0));
   line.back() = b;
   const auto tangent = [&](std::size_t k) -> Vector {
     Vector t = kinematics.difference(line[k - 1], line[k + 1]);
@@ -218,7 +213,7 @@ std::vector<Equilibrium> passes_between(Newton& newton, const State& a, const St
   std::vector<Equilibrium> found;
   for (std::size_t k = 1; k + 1 < line.size() && !interrupted(); ++k)
     if (heights[k] >= heights[k - 1] && heights[k] > heights[k + 1])
-      if (std::optional<Equilibrium> e = walk(newton, line[k], {{}, tangent(k)}, held)) found.push_back(std::move(*e));
+      if (const auto e = walk(newton, line[k], {{}, tangent(k)}, held)) found.push_back(*e);
   return found;
 }
 
