@@ -28,11 +28,9 @@ bool same_topology(const Energy& a, const Energy& b) {
 
 /// The contact whose gap is nearest to zero.
 ContactKey nearest_contact(Energy& energy, const State& state) {
-  ContactKey key{-1, -1, -1};
-  double least = infinity;
-  for (const Touch& t : energy.touches(state, 1e-6 * energy.kinematics().smallest_size()))
-    if (std::abs(t.gap) < least) least = std::abs(t.gap), key = {t.particle, t.other, t.wall, t.feature};
-  return key;
+  const std::vector<Touch> touches = energy.touches(state, 1e-6 * energy.kinematics().smallest_size());
+  const auto nearest = std::ranges::min_element(touches, {}, [](const Touch& t) { return std::abs(t.gap); });
+  return nearest == touches.end() ? ContactKey{-1, -1, -1} : ContactKey{nearest->particle, nearest->other, nearest->wall, nearest->feature};
 }
 
 std::vector<double> stops_on(const Problem& problem) {
@@ -86,7 +84,7 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
     const Observables observables(problem, there->model);
     const std::vector<Touch> touches = observed_touches(there->energy, p.state, observables);
     std::vector<double> values = observables.evaluate(p.state, there->energy.forces(p.state), touches);
-    for (std::size_t k = 0; k < p.energy.own.size(); ++k) values.push_back(p.energy.own[k].second);
+    for (const auto& own : p.energy.own) values.push_back(own.second);
     found(curve_row(point.threshold.second, point.threshold.asymmetry, p, values), point);
   });
   return {status, why};
