@@ -5,13 +5,14 @@
 #include "path/arc.hpp"
 #include "path/limits.hpp"
 #include "path/root.hpp"
+#include "path/saddle.hpp"
+#include "solve/ritz.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace elamin {
 
@@ -231,18 +232,13 @@ class CurveTracer {
 
   // Of the eigenpairs beside the critical and the zero modes the one of this number from below, from 0.
   EigenPairs next_eigenvalue(Threshold& t, int index) {
-    const std::shared_ptr<Variant> here = system_.variant(t.second);
-    here->energy.evaluate(t.at.point.state);
+    Newton& newton = system_.variant(t.second)->newton;
     const Eigen::MatrixXd held = side_by_side(t.at.zero_modes, t.modes);
-    Factors& factors = here->newton.factors();
-    const EigenPairs lowest = factors.lowest(index + static_cast<int>(held.cols()) + curve::more_modes);
-    const Eigen::MatrixXd others = without_modes(lowest.vectors, held);
+    const Eigen::MatrixXd others = soft_modes(newton, t.at.point.state, held, index + curve::more_modes).vectors;
     if (others.cols() == 0) return {Vector::Zero(1), Eigen::MatrixXd::Zero(held.rows(), 1)};
-    const EigenPairs near = factors.nearest_zero(others, held);
-    std::vector<int> order(near.values.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](int i) { return near.values[i]; });
-    const int k = order[std::min(static_cast<int>(order.size()) - 1, index)];
+    EigenPairs near = newton.factors().nearest_zero(others, held);
+    near.values = rotate_to_ritz(newton.energy(), near.vectors);
+    const Eigen::Index k = std::min<Eigen::Index>(index, others.cols() - 1);
     return {near.values.segment(k, 1), near.vectors.col(k)};
   }
 
