@@ -19,26 +19,25 @@ struct Row {
   int count = 0, begin = 0, end = 0, by = 1;
   bool closed = false;
   int fine_count() const { return closed ? by * count : by * (count - 1 - begin - end) + 1 + begin + end; }
-  int image(int i) const { return i < begin ? 0 : i >= count - end ? fine_count() - 1 : begin + by * (i - begin); }
+  int image(int i) const { return i < begin ? 0 : i >= count - end && !closed ? fine_count() - 1 : begin + by * (i - begin); }
   bool there(int i) const { return closed || (i >= 0 && i < count); }
-  int wrapped(int i) const { return closed ? (i + count) % count : i; }
 
   /// The particles of a set, with what lies between neighbours. `held`: it clamps the row where it ends between two neighbours, in the middle of the bond;
   /// `lost`: there is no bond with this middle.
   std::set<int> images(const std::set<int>& in, bool held, bool& lost) const {
     std::set<int> out;
-    const auto has = [&](int i) { return there(i) && in.count(wrapped(i)) > 0; };
-    for (const int i : in) {
-      const bool before = has(i - 1), after = has(i + 1);
-      const bool clamps_below = held && after && !before && there(i - 1) && i + 1 < count - end;
-      const bool clamps_above = held && before && !after && there(i + 1) && i - 1 >= begin;
-      if (!clamps_below && !clamps_above) out.insert(image(i));
-      lost = lost || ((clamps_below || clamps_above) && by % 2 == 0);
-      if (!after) continue;
-      const bool beside = i < begin || i + 1 >= count - end;      // the particle beyond an end: nothing is between
-      const bool next_clamps = held && !has(i + 2) && there(i + 2) && i >= begin;
-      const int from = clamps_below ? (by - 1) / 2 : 1, to = next_clamps ? (by + 1) / 2 : by - 1;
-      for (int k = from; !beside && k <= to; ++k) out.insert((image(i) + k) % fine_count());
+    const auto has = [&](int i) { return there(i) && in.count(closed ? (i + count) % count : i) > 0; };
+    const bool whole = closed && std::ssize(in) == count;
+    for (const int first : in) {                                // of neighbours, up to `last`
+      if (has(first - 1) && !(whole && first == 0)) continue;
+      int last = first;
+      while (last < first + count && has(last + 1)) ++last;
+      const bool clamps = held && last > first && !whole;
+      const bool below = clamps && there(first - 1) && (closed || first + 1 < count - end);
+      const bool above = clamps && there(last + 1) && (closed || last - 1 >= begin);
+      lost = lost || ((below || above) && by % 2 == 0);
+      const int from = image(first) + (below ? (by - 1) / 2 : 0), to = above ? image(last - 1) + (by + 1) / 2 : image(last);
+      for (int k = from; k <= to; ++k) out.insert(k % fine_count());
     }
     return out;
   }
@@ -47,7 +46,7 @@ struct Row {
 /// The structures of a model, and what becomes of them.
 class Refined {
  public:
-  Refined(const Problem& problem, const Model& model, int by, Mistakes& mistakes) : problem_(problem), model_(model) {
+  Refined(const Problem& problem, const Model& model, int by, Mistakes& mistakes) : model_(model) {
     int first = 0;
     for (const Structure& s : model.structures) {
       Part part{s, {}, first, s.count, 0};
@@ -86,19 +85,18 @@ class Refined {
     return p && p->row ? &*p->row : nullptr;
   }
 
-  /// How a group is chosen now, as keys; nothing where that stays as it is. Mistakes: see finer_structure.
-  using Chosen = std::vector<std::pair<const char*, std::string>>;
-  Chosen chosen(const GroupTable& g, Mistakes& mistakes) const {
+  /// Sets how a group is chosen now, where that does not stay as it is. Mistakes: see finer_structure.
+  void choose(const GroupTable& g, const auto& set, Mistakes& mistakes) const {
     const char* const key = g.first ? "first" : g.last ? "last" : g.middle ? "middle" : g.ids ? "ids" : nullptr;
-    const auto refuse = [&](std::string why) { return mistakes.add(g.place, key, std::move(why)), Chosen{}; };
-    if (!key) return {};
+    const auto refuse = [&](const std::string& why) { mistakes.add(g.place, key, why); };
+    if (!key) return;
     bool lost = false;
     std::string value;
     if (g.ids) {
       std::map<const Part*, std::set<int>> of;
       for (const int id : *g.ids) {
         const auto index = static_cast<int>(std::lower_bound(model_.id.begin(), model_.id.end(), id) - model_.id.begin());
-        if (index >= model_.particles()) return {};                            // a body, or nothing, which is told elsewhere
+        if (index >= model_.particles()) return;                               // a body, or nothing, which is told elsewhere
         const Part& p = part_of(index);
         if (p.spacing > 0) return refuse("are particles of a [[sheet]], which have other ids at another spacing; choose by `inside`");
         of[&p].insert(index - p.first);
@@ -116,16 +114,14 @@ class Refined {
       for (int i = skip; i < skip + n; ++i) in.insert(i);
       value = std::to_string(row->images(in, held(g.name), lost).size());
     } else {
-      return {};
+      return;
     }
-    if (lost)
-      return refuse("are held neighbours, which clamp a row in the middle of their bond; with an even refine.by no bond has this middle: give by = 3, "
-                    "or the [[beam]] `clamped` ends");
-    return {{key, value}};
+    if (!lost) return set(key, value);
+    refuse("are held neighbours, which clamp a row in the middle of their bond; with an even refine.by no bond has this middle: give by = 3, "
+           "or the [[beam]] `clamped` ends");
   }
 
  private:
-  const Problem& problem_;
   const Model& model_;
   std::vector<Part> parts_;
   std::set<std::string> held_;
@@ -162,8 +158,7 @@ std::vector<Setting> finer_structure(const Problem& problem, const Model& model,
     set("spacing", to_toml(t.spacing / by)), set("thickness", to_toml(*t.thickness)), set("diameter", to_toml(*t.diameter));
     keys_of_all(t, by * by, set);
   }
-  for (const GroupTable& g : problem.groups)
-    for (const auto& [key, value] : refined.chosen(g, mistakes)) setter(g.place)(key, value);
+  for (const GroupTable& g : problem.groups) refined.choose(g, setter(g.place), mistakes);
   for (const ContactTable& c : problem.contacts)
     if (c.exclude_bonds) setter(c.place)("exclude_bonds", std::to_string(*c.exclude_bonds * by));
   return settings;
