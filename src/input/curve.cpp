@@ -2,7 +2,6 @@
 
 #include "core/find.hpp"
 #include "core/suggest.hpp"
-#include "core/text.hpp"
 #include "input/check.hpp"
 #include "input/parts.hpp"
 
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace elamin {
 namespace {

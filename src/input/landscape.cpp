@@ -2,7 +2,6 @@
 
 #include "core/find.hpp"
 #include "core/suggest.hpp"
-#include "core/text.hpp"
 #include "input/check.hpp"
 #include "input/parts.hpp"
 
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace elamin {
 namespace {
@@ -42,14 +40,10 @@ bool is_of_landscape(const std::string& at) { return at.starts_with(before_label
 
 std::optional<InLandscape> in_landscape(const std::string& at) {
   if (!is_of_landscape(at)) return {};
-  const std::string rest = at.substr(before_label.size());
-  const std::size_t mark = rest.find('@');
-  InLandscape place{rest.substr(0, mark), {}};
-  if (double load = 0; mark != std::string::npos) {
-    if (!reads_as(std::string_view(rest).substr(mark + 1), load) || !std::isfinite(load)) return {};
-    place.load_factor = load;
-  }
-  return is_numbered(place.label, labels_of_landscape) || place.label == "graph" ? std::optional(place) : std::nullopt;
+  const std::string rest = at.substr(before_label.size()), label = rest.substr(0, rest.find('@'));
+  const std::optional<double> load_factor = number_behind("@", rest.substr(label.size()));
+  const bool known = is_numbered(label, labels_of_landscape) || label == "graph";
+  return known && (load_factor || label == rest) ? std::optional(InLandscape{label, load_factor}) : std::nullopt;
 }
 
 std::string wrong_at_landscape(const Problem& p, const std::string& at) {
