@@ -164,17 +164,15 @@ std::vector<Interval<Quad>> Structure::gradient(const State& centre) const {
   return g;
 }
 
-IntervalHessian::IntervalHessian(const Structure& structure) : structure_(structure), pattern_(structure.dofs, structure.dofs) {
+IntervalHessian::IntervalHessian(const Structure& structure, const State& centre) : structure_(structure), pattern_(structure.dofs, structure.dofs) {
   std::vector<Eigen::Triplet<double>> entries;
-  const auto couple = [&](const auto& elements) {
-    for (const auto& element : elements)
-      for (const int p : element.particles)
-        for (const int q : element.particles)
-          for (const int i : structure.dof[p])
-            for (const int j : structure.dof[q])
-              if (j >= 0 && i >= j) entries.emplace_back(i, j, 0.0);
-  };
-  couple(structure.bonds), couple(structure.angles), couple(structure.contacts);
+  structure.for_elements<I>(centre, 0, false, [&](const auto& at, const auto&, const auto&) {
+    for (const int p : at)
+      for (const int q : at)
+        for (const int i : structure.dof[p])
+          for (const int j : structure.dof[q])
+            if (j >= 0 && i >= j) entries.emplace_back(i, j, 0.0);
+  });
   for (int i = 0; i < structure.dofs; ++i) entries.emplace_back(i, i, 0.0);
   pattern_.setFromTriplets(entries.begin(), entries.end());
 }

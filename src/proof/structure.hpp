@@ -5,7 +5,6 @@
 
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace elamin::proof {
@@ -50,7 +49,7 @@ Structure structure_of(const Model& model, const State& state, std::string& not_
 /// H over balls around a centre, in intervals.
 class IntervalHessian {
  public:
-  explicit IntervalHessian(const Structure& structure);
+  IntervalHessian(const Structure& structure, const State& centre);
   /// A matrix of doubles in it, at the centre itself: lower triangle with full diagonal.
   SparseMatrix middle(const State& centre);
   /// A bound of ‖H(x) − M‖ for all x within `radius` of the centre: the largest sum of a row (of a symmetric matrix ‖·‖₂ ≤ ‖·‖_∞).

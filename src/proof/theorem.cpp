@@ -51,14 +51,14 @@ double refine(const Structure& s, const SparseMatrix& M, State& x) {
 }
 
 void bound_gaps(const Structure& s, Theorem& t) {
-  const auto sort = [&](const std::array<int, 2>& particles, const Q& gap) {
-    (gap.hi < 0 ? t.closed : gap.lo > 0 ? t.open : t.undecided).push_back({particles, I(gap)});
+  const auto sort = [&](const auto& elements) {
+    for (const auto& [law, at] : elements) {
+      const bool wall = at.size() == 1;
+      const Q bound = gap(law, s.edge<Q>(t.centre, wall ? -1 : at[0], at.back(), t.error));
+      (bound.hi < 0 ? t.closed : bound.lo > 0 ? t.open : t.undecided).push_back({{at[0], wall ? -1 : at.back()}, I(bound)});
+    }
   };
-  for (const auto& [law, at] : s.contacts) sort(at, gap(law, s.edge<Q>(t.centre, at[0], at[1], t.error)));
-  const auto sort_walls = [&](const auto& elements) {
-    for (const auto& [law, at] : elements) sort({at[0], -1}, gap(law, s.edge<Q>(t.centre, -1, at[0], t.error)));
-  };
-  sort_walls(s.planes), sort_walls(s.rounds);
+  sort(s.contacts), sort(s.planes), sort(s.rounds);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Theorem prove(const Structure& s, const State& state) {
   const auto refuse = [&](std::string why) { return t.why_not = std::move(why), t; };
   if (s.dofs == 0) return refuse("nothing is free to move");
   if (std::fegetround() != FE_TONEAREST) return refuse("the processor does not round to nearest");
-  IntervalHessian hessian(s);
+  IntervalHessian hessian(s, state);
   const SparseMatrix M = hessian.middle(state);
   t.residual = refine(s, M, t.centre);
   t.moved = distance(state, t.centre);
