@@ -4,7 +4,6 @@
 #include "core/interrupt.hpp"
 #include "core/near_pairs.hpp"
 #include "energy/step_limits.hpp"
-#include "model/entities.hpp"
 #include "path/arc.hpp"
 #include "path/deflation.hpp"
 #include "path/jump.hpp"
@@ -15,7 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <list>
 #include <numeric>
 #include <random>
 #include <set>
@@ -74,9 +73,7 @@ class Explorer {
  public:
   Explorer(Newton& newton, double load_factor, const LandscapeOptions& options, const std::vector<Reflection>& reflections,
            std::vector<std::string>& notes)
-      : newton_(newton), energy_(newton.energy()), options_(options), reflections_(reflections), notes_(notes) {
-    found_.load_factor = load_factor;
-  }
+      : newton_(newton), energy_(newton.energy()), options_(options), reflections_(reflections), notes_(notes), found_{load_factor, {}, {}} {}
 
   Landscape& found() { return found_; }
 
@@ -384,15 +381,15 @@ Landscapes explore(Newton& newton, const std::vector<State>& known, const std::v
                    const std::vector<double>& load_factors, const LandscapeOptions& options, const std::function<void(const std::string&)>& tell) {
   Landscapes all;
   const std::vector<Reflection> reflections = reflections_of(newton.energy().model());
-  std::unique_ptr<Explorer> before;
+  std::list<Explorer> explorers;
+  Explorer* before = nullptr;
   std::array<int, 3> numbers{};
   for (const double load_factor : load_factors) {
     if (interrupted()) break;
-    auto here = std::make_unique<Explorer>(newton, load_factor, options, reflections, all.notes);
+    Explorer* const here = &explorers.emplace_back(newton, load_factor, options, reflections, all.notes);
     Follower follower(newton, events, all);
     if (before) follower.onward(before->found(), *here);
-    for (const State& s : known) {
-      State state = s;
+    for (State state : known) {
       if (state.load_factor != load_factor) continue;
       newton.energy().evaluate(state);
       const Report report = newton.correct(state, assess(newton, state, {}).zero_modes);
@@ -404,13 +401,12 @@ Landscapes explore(Newton& newton, const std::vector<State>& known, const std::v
       if (follower.back(*before, here->found())) before->grow();  // from nodes that were missed there
       name_nodes(before->found(), numbers);
       follower.tell();
-      all.at.push_back(before->found());
     }
     const Landscape& l = here->found();
     if (tell) tell(fmt::format("load factor {:.10g}: {} minima, {} saddles, {} nodes", load_factor, l.minima(), l.saddles(), l.nodes.size()));
-    before = std::move(here);
+    before = here;
   }
-  if (before) all.at.push_back(before->found());
+  for (Explorer& e : explorers) all.at.push_back(std::move(e.found()));
   return all;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 // Equilibria at given load factors: minima, saddles, which minima a saddle joins, and what becomes of them from one load factor to the next.
-#include "core/archive.hpp"
 #include "path/equilibrium.hpp"
 #include "path/landscape_options.hpp"
 

@@ -19,6 +19,8 @@ namespace {
 /// Equilibria are computed to rounding, which is more than ε where structures are slender: of a value, or of what is usual in its column.
 constexpr double rounding_of_values = 1e-11;
 
+constexpr std::array approaches{"asymptotic", "rounding", "not asymptotic", "none"};
+
 double last_change(const std::vector<double>& f) { return std::abs(f.back() - f[f.size() - 2]); }
 
 /// The number in a column at `at` of each of the runs.
@@ -149,11 +151,6 @@ Verdict check_continuum(const Problem& problem, const ExpectTable& e, const Refi
   return {fmt::format("{} has no value: {}", what, why), false};
 }
 
-const char* name_of(Approach approach) {
-  constexpr std::array names{"asymptotic", "rounding", "not asymptotic", "none"};
-  return names[static_cast<std::size_t>(approach)];
-}
-
 std::string value_and_error(const Extrapolated& limit) {
   if (!limit.error || !(*limit.error > 0)) return fmt::format("{:.10g}", limit.value);
   const auto decade = [](double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); };
@@ -166,7 +163,7 @@ Table refined_table(const RefinedValues& refined, std::size_t levels) {
   Table table{{"at", "quantity", "value", "error", "order", "approach"}, {}};
   for (std::size_t k = 1; k <= levels; ++k) table.columns.push_back(fmt::format("level_{}", k));
   for (const RefinedValue& v : refined.values) {
-    Row row{v.at, v.quantity, v.limit.value, cell_of(v.limit.error), cell_of(v.limit.order), std::string(name_of(v.limit.approach))};
+    Row row{v.at, v.quantity, v.limit.value, cell_of(v.limit.error), cell_of(v.limit.order), std::string(approaches[static_cast<std::size_t>(v.limit.approach)])};
     row.insert(row.end(), v.levels.begin(), v.levels.end());
     table.rows.push_back(std::move(row));
   }
@@ -193,7 +190,7 @@ Json refined_json(const RefinedValues& refined) {
   Json quantities = Json::array();
   for (const auto& [at, quantity, levels, limit] : refined.values)
     quantities.push_back({{"at", at}, {"quantity", quantity}, {"value", json_of(limit.value)}, {"error", json_of(limit.error)},
-                          {"order", json_of(limit.order)}, {"approach", name_of(limit.approach)}, {"levels", levels}});
+                          {"order", json_of(limit.order)}, {"approach", approaches[static_cast<std::size_t>(limit.approach)]}, {"levels", levels}});
   return {{"quantities", quantities}, {"remarks", refined.remarks}};
 }
 

@@ -55,9 +55,8 @@ RefinedValues refined_values(const Problem& problem, const std::vector<RunTables
 /// Whether a limit is what is expected: |value − expected| ≤ error + rtol |expected| + atol, and error ≤ bar |expected|.
 Verdict check_continuum(const Problem& problem, const ExpectTable& expected, const RefinedValues& refined);
 
-/// "3.0000000(12)", whose last digits are the error's; "asymptotic" and so on.
+/// "3.0000000(12)", whose last digits are the error's.
 std::string value_and_error(const Extrapolated& limit);
-const char* name_of(Approach approach);
 
 /// refine.csv: at, quantity, value, error, order, approach, level_1, level_2, …; the same for a terminal; the same as JSON.
 Table refined_table(const RefinedValues& refined, std::size_t levels);

@@ -1,7 +1,6 @@
 #include "study/curve.hpp"
 
 #include "energy/hard_gaps.hpp"
-#include "input/check.hpp"
 #include "results/columns.hpp"
 #include "study/solving.hpp"
 
@@ -31,13 +30,6 @@ ContactKey nearest_contact(Energy& energy, const State& state) {
   const std::vector<Touch> touches = energy.touches(state, 1e-6 * energy.kinematics().smallest_size());
   const auto nearest = std::ranges::min_element(touches, {}, [](const Touch& t) { return std::abs(t.gap); });
   return nearest == touches.end() ? ContactKey{-1, -1, -1} : ContactKey{nearest->particle, nearest->other, nearest->wall, nearest->feature};
-}
-
-std::vector<double> stops_on(const Problem& problem) {
-  std::vector<double> stops = problem.curve->stops.value_or(std::vector<double>{});
-  for (const ExpectTable& e : problem.expect)
-    if (const auto second = second_of(e.at)) stops.push_back(*second);
-  return stops;
 }
 
 }  // namespace
@@ -76,7 +68,9 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
     if (start.modes.cols() == 0)
       return {Status::not_converged, "the event has no mode along which the structure gives way: bodies that touch, whose stiffness jumps"};
   }
-  const CurveOptions options{t.from, t.to, t.steps, stops_on(problem), t.until, std::abs(problem.path.to - problem.path.from)};
+  CurveOptions options{t.from, t.to, t.steps, t.stops.value_or(std::vector<double>{}), t.until, std::abs(problem.path.to - problem.path.from)};
+  for (const ExpectTable& e : problem.expect)
+    if (const auto second = second_of(e.at)) options.stops.push_back(*second);
   const auto [status, why] = trace_curve(variants, std::move(start), options, [&](const CurvePoint& point) {
     const std::shared_ptr<Variant> there = variants(point.threshold.second);
     PathPoint p = point.threshold.at.point;

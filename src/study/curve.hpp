@@ -1,10 +1,8 @@
 #pragma once
 // The study of a threshold as a second parameter changes: what [curve] asks for.
-#include "core/heartbeat.hpp"
 #include "input/problem.hpp"
 #include "model/model.hpp"
 #include "path/curve.hpp"
-#include "results/table.hpp"
 #include "study/trace.hpp"
 
 namespace elamin {

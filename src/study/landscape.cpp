@@ -3,7 +3,6 @@
 #include "core/interrupt.hpp"
 #include "energy/hard_gaps.hpp"
 #include "path/limits.hpp"
-#include "results/columns.hpp"
 #include "results/landscape.hpp"
 #include "results/stored_run.hpp"
 
