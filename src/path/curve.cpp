@@ -36,7 +36,7 @@ const Sign turn_of_second{"turn", "the second parameter turns", [](Threshold& t)
 
 class CurveTracer {
  public:
-  CurveTracer(const VariantAt& variants, const CurveOptions& options, const std::function<void(const CurvePoint&)>& found)
+  CurveTracer(const VariantAt& variants, const CurveOptions& options, const std::function<void(const Threshold&)>& found)
       : options_(options), found_(found), system_(variants) {}
 
   CurveEnd trace(Threshold here) {
@@ -66,7 +66,7 @@ class CurveTracer {
       if (turns(here.direction.second, next.direction.second) && !turns_asymmetry(here, next))
         if (const auto turn = locate(here, next, turn_of_second)) {
           const double sense = next.direction.second;
-          next = turn->threshold, next.direction.second = std::copysign(next.direction.second, sense), told = true;
+          next = *turn, next.direction.second = std::copysign(next.direction.second, sense), told = true;
         }
       const std::optional<double> target = target_between(here, next);
       if (target) land(here, *target, next);
@@ -74,7 +74,7 @@ class CurveTracer {
       const std::string missed = tell_between(here, next);
       if (!until_.empty()) return {Status::converged, "the curve has been followed to " + until_};
       const bool ends = target && (*target == options_.to || *target == options_.from);
-      if (!told || target) found_({next, ends ? "end" : "", missed});
+      if (!told || target) tell(next, ends ? "end" : "", missed);
       if (ends && *target == options_.to) return {Status::converged, "the curve has been followed to its end"};
       if (ends) return {Status::converged, "the curve turns, and leads back to where the second parameter began"};
       here = std::move(next);
@@ -94,7 +94,12 @@ class CurveTracer {
     if ((start.direction.second < 0) != (options_.to < options_.from)) start.direction = start.direction * -1;
     start.direction = system_.metric.unit(start.direction);
     system_.assess_at(start);
-    found_({start, "start", ""});
+    tell(start, "start", "");
+  }
+
+  void tell(Threshold& point, const std::string& label, const std::string& what) {
+    point.at.point.label = label, point.at.point.what = what;
+    found_(point);
   }
 
   double angle_between(const Threshold& a, const Threshold& b) const {
@@ -131,7 +136,7 @@ class CurveTracer {
     if (at.second != target) {
       const auto found = locate(from, at, {"", "", [target](Threshold& t) { return t.second - target; }});
       if (!found) throw NotFollowed(fmt::format("it does not lead to {:.10g}", target));
-      at = found->threshold;
+      at = *found;
     }
     system_.move(at, {Vector::Zero(from.direction.x.size()), 0, target - at.second});
     at.second = target;
@@ -141,7 +146,7 @@ class CurveTracer {
 
   /// Tells what happens between two points in its order; returns what of it could not be located.
   std::string tell_between(const Threshold& a, const Threshold& b) {
-    std::vector<CurvePoint> special;
+    std::vector<Threshold> special;
     std::string missed;
     const auto look = [&](const Threshold& from, const Threshold& to, const Sign& sign) {
       if (auto located = locate(from, to, sign)) special.push_back(std::move(*located));
@@ -162,13 +167,12 @@ class CurveTracer {
       if (key.feature < 0 && (a.kind != EventKind::contact || key != a.contact))
         look(a, b, {"contact", "another contact is made or lost",
                     [&](Threshold& t) { return gap(system_.variant(t.second)->energy, key, t.at.point.state); }, false});
-    std::ranges::stable_sort(special, {}, [&](const CurvePoint& point) { return along(a, point.threshold); });
-    for (CurvePoint& point : special) {
-      point.label = fmt::format("{}:{}", point.label, ++numbers_[point.label]);
-      point.threshold.at.point.label = point.label;
-      found_(point);
-      if (!contains(options_.until, point.label)) continue;
-      until_ = point.label;
+    std::ranges::stable_sort(special, {}, [&](const Threshold& point) { return along(a, point); });
+    for (Threshold& point : special) {
+      const std::string kind = point.at.point.label, label = fmt::format("{}:{}", kind, ++numbers_[kind]);
+      tell(point, label, point.at.point.what);
+      if (!contains(options_.until, label)) continue;
+      until_ = label;
       break;
     }
     return missed;
@@ -207,7 +211,7 @@ class CurveTracer {
 
   double along(const Threshold& a, const Threshold& b) { return system_.metric.dot(a.direction, system_.way(a, b)); }
 
-  std::optional<CurvePoint> locate(const Threshold& a, const Threshold& b, const Sign& sign) {
+  std::optional<Threshold> locate(const Threshold& a, const Threshold& b, const Sign& sign) {
     const double length = along(a, b);
     std::map<double, Threshold> seen{{0, a}, {length, b}};
     Threshold first = a, last = b;
@@ -225,8 +229,9 @@ class CurveTracer {
       return Sample{nearest.t, 0, nearest.e};                  // where two eigenvectors mix by rounding: as near as it can be told
     });
     if (!zero) return {};
-    CurvePoint point{seen.at(zero->t), sign.kind, sign.what};
-    system_.assess_at(point.threshold);
+    Threshold point = seen.at(zero->t);
+    system_.assess_at(point);
+    point.at.point.label = sign.kind, point.at.point.what = sign.what;
     return point;
   }
 
@@ -243,7 +248,7 @@ class CurveTracer {
   }
 
   const CurveOptions& options_;
-  const std::function<void(const CurvePoint&)>& found_;
+  const std::function<void(const Threshold&)>& found_;
   ExtendedSystem system_;
   std::map<std::string, int> numbers_;
   std::string until_;                                          // of options_.until, where it has come
@@ -252,7 +257,7 @@ class CurveTracer {
 }  // namespace
 
 CurveEnd trace_curve(const VariantAt& variants, Threshold start, const CurveOptions& options,
-                     const std::function<void(const CurvePoint&)>& found) {
+                     const std::function<void(const Threshold&)>& found) {
   return CurveTracer(variants, options, found).trace(std::move(start));
 }
 

@@ -12,13 +12,6 @@ struct CurveOptions {
   double load = 1;                     // the scale of the load factor, where it is zero at the start
 };
 
-/// A point of a curve, or something that happens on it.
-struct CurvePoint {
-  Threshold threshold;
-  std::string label;                   // "start", "end", "cusp:1", …; "" of others
-  std::string what;                    // a phrase
-};
-
 /// What a curve came to.
 struct CurveEnd {
   Status status = Status::converged;
@@ -26,7 +19,7 @@ struct CurveEnd {
 };
 
 /// Follows a threshold from an event of the structure at μ = from in arc length (Keller 1977) over (x, λ, μ), in which a curve is smooth
-/// where λ and μ both turn, and tells its points in order, and between them
+/// where λ and μ both turn, and tells its points in order, with a label ("start", "end", "cusp:1", …; "" of others) and a phrase, and between them
 ///   cusp:      of limit points, ∇³E v v v = 0: two of them meet, and both λ and μ turn (Thom's cusp)
 ///   turn:      λ or μ turns; where μ does so on a curve of limit points, the load does no work along v: a branch point of the path
 ///   symmetric: ∇³E v v v changes its sign on a curve of branch points
@@ -35,6 +28,6 @@ struct CurveEnd {
 /// It ends where μ leaves [from, to], at `to` or back at `from`, or where it cannot be followed, with a sentence. Derivatives by the
 /// structure are differences of residuals; see ExtendedSystem.
 CurveEnd trace_curve(const VariantAt& variants, Threshold start, const CurveOptions& options,
-                     const std::function<void(const CurvePoint&)>& found);
+                     const std::function<void(const Threshold&)>& found);
 
 }  // namespace elamin

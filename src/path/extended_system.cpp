@@ -13,12 +13,13 @@ namespace elamin {
 
 using namespace limits;
 
-// The conditions' derivatives (conditions × directions, which have unit length), and what the conditions lack, both in parts of the largest derivative.
+// The conditions' derivatives along directions of unit length, and what the conditions lack, both in parts of the largest derivative. The last row is that of
+// one condition more.
 struct ExtendedSystem::Linear {
   std::vector<CurveDirection> directions;       // (v, 0, 0) but of a contact, (p_L, δ_L, 0), (p_M, δ_M, 1)
   CurveDirection rest;                          // (p₀, δ₀, 0)
-  Eigen::MatrixXd rows;
-  Vector lacking;
+  Eigen::MatrixXd a;                            // square
+  Vector b;
 };
 
 std::shared_ptr<Variant> ExtendedSystem::variant(double second) {
@@ -144,10 +145,10 @@ ExtendedSystem::Linear ExtendedSystem::linearise(Threshold& point) {
   linear.rest = solve(-g, 0, 0);
 
   const Eigen::Index count = static_cast<Eigen::Index>(directions.size());
-  linear.rows.resize(count - 1, count), linear.lacking.resize(count - 1);
+  linear.a.setOnes(count, count), linear.b.setZero(count);
   if (!critical) {
-    for (Eigen::Index k = 0; k < count; ++k) linear.rows(0, k) = gap_rate(point, directions[k]);
-    linear.lacking[0] = -gap(energy, point.contact, state);
+    for (Eigen::Index k = 0; k < count; ++k) linear.a(0, k) = gap_rate(point, directions[k]);
+    linear.b[0] = -gap(energy, point.contact, state);
   } else {
     const CurveDirection& way = directions[1];
     Eigen::RowVector3d force, work, curvature;
@@ -168,14 +169,14 @@ ExtendedSystem::Linear ExtendedSystem::linearise(Threshold& point) {
     }
     // Where two branch points meet the work of the load does not tell how far along the mode they are, which symmetry keeps as it was.
     const bool told = work.cwiseAbs().maxCoeff() > curve::no_row * size;
-    if (point.kind == EventKind::limit) linear.rows.row(0) = force, linear.lacking[0] = -(v.dot(g) + v.dot(load) * linear.rest.load);
-    else if (told) linear.rows.row(0) = work, linear.lacking[0] = -way.load * v.dot(load);
-    else linear.rows.row(0) = Eigen::RowVector3d::UnitX(), linear.lacking[0] = 0;
-    linear.rows.row(1) = curvature, linear.lacking[1] = -theta;
+    if (point.kind == EventKind::limit) linear.a.row(0) = force, linear.b[0] = -(v.dot(g) + v.dot(load) * linear.rest.load);
+    else if (told) linear.a.row(0) = work, linear.b[0] = -way.load * v.dot(load);
+    else linear.a.row(0) = Eigen::RowVector3d::UnitX(), linear.b[0] = 0;
+    linear.a.row(1) = curvature, linear.b[1] = -theta;
   }
-  const Vector scale = linear.rows.cwiseAbs().rowwise().maxCoeff();
+  const Vector scale = linear.a.cwiseAbs().rowwise().maxCoeff();
   if (!(scale.minCoeff() > 0)) throw NotFollowed("the conditions do not depend on anything");
-  linear.rows.array().colwise() /= scale.array(), linear.lacking.array() /= scale.array();
+  linear.a.array().colwise() /= scale.array(), linear.b.array() /= scale.array();
   return linear;
 }
 
@@ -197,19 +198,15 @@ void ExtendedSystem::solve(Threshold& point, const CurveDirection* across) {
   int stalled = 0;
   for (int k = 0; k <= curve::most_iterations; ++k) {
     settle(point);
-    const Linear linear = linearise(point);
-    const Eigen::Index n = static_cast<Eigen::Index>(linear.directions.size());
-    Eigen::MatrixXd a(n, n);
-    Vector b(n);
-    a.topRows(n - 1) = linear.rows, b.head(n - 1) = linear.lacking;
-    for (Eigen::Index j = 0; j < n; ++j)
-      a(n - 1, j) = across ? metric.dot(*across, linear.directions[j]) : linear.directions[j].second / metric.second;
-    b[n - 1] = across ? -metric.dot(*across, way(predicted, point)) - metric.dot(*across, linear.rest) : 0;
+    auto [directions, rest, a, b] = linearise(point);
+    const Eigen::Index n = b.size();
+    for (Eigen::Index j = 0; j < n; ++j) a(n - 1, j) = across ? metric.dot(*across, directions[j]) : directions[j].second / metric.second;
+    if (across) b[n - 1] = -metric.dot(*across, way(predicted, point)) - metric.dot(*across, rest);
     const Vector u = solved(a, b);
-    CurveDirection step = linear.rest;
-    for (Eigen::Index j = 0; j < n; ++j) step = step + linear.directions[j] * u[j];
+    CurveDirection step = rest;
+    for (Eigen::Index j = 0; j < n; ++j) step = step + directions[j] * u[j];
     if (!across) step.second = 0;
-    const double size = std::sqrt(metric.dot(step, step) + metric.dot(linear.rest, linear.rest));
+    const double size = std::sqrt(metric.dot(step, step) + metric.dot(rest, rest));
     if (!std::isfinite(size) || size > curve::longest_correction) throw NotFollowed("Newton's method leads far away");
     const bool shrinks = size <= last / 2;
     if (!shrinks && k >= 2 && last > curve::at_rest) throw NotFollowed("Newton's method does not contract");
@@ -227,7 +224,7 @@ void ExtendedSystem::solve(Threshold& point, const CurveDirection* across) {
     CurveDirection tangent{Vector::Zero(step.x.size())};
     for (Eigen::Index j = 0; j < n; ++j) {
       a.row(n - 1) = Eigen::RowVectorXd::Unit(n, j);
-      tangent = tangent + linear.directions[j] * a.determinant();
+      tangent = tangent + directions[j] * a.determinant();
     }
     if (!(metric.dot(tangent, tangent) > 0)) throw NotFollowed("two curves meet");
     point.direction = metric.unit(tangent);

@@ -19,7 +19,7 @@ namespace {
 /// Equilibria are computed to rounding, which is more than ε where structures are slender: of a value, or of what is usual in its column.
 constexpr double rounding_of_values = 1e-11;
 
-constexpr std::array approaches{"asymptotic", "rounding", "not asymptotic", "none"};
+std::string name_of(Approach approach) { return std::array{"asymptotic", "rounding", "not asymptotic", "none"}[static_cast<std::size_t>(approach)]; }
 
 double last_change(const std::vector<double>& f) { return std::abs(f.back() - f[f.size() - 2]); }
 
@@ -163,7 +163,7 @@ Table refined_table(const RefinedValues& refined, std::size_t levels) {
   Table table{{"at", "quantity", "value", "error", "order", "approach"}, {}};
   for (std::size_t k = 1; k <= levels; ++k) table.columns.push_back(fmt::format("level_{}", k));
   for (const RefinedValue& v : refined.values) {
-    Row row{v.at, v.quantity, v.limit.value, cell_of(v.limit.error), cell_of(v.limit.order), std::string(approaches[static_cast<std::size_t>(v.limit.approach)])};
+    Row row{v.at, v.quantity, v.limit.value, cell_of(v.limit.error), cell_of(v.limit.order), name_of(v.limit.approach)};
     row.insert(row.end(), v.levels.begin(), v.levels.end());
     table.rows.push_back(std::move(row));
   }
@@ -190,7 +190,7 @@ Json refined_json(const RefinedValues& refined) {
   Json quantities = Json::array();
   for (const auto& [at, quantity, levels, limit] : refined.values)
     quantities.push_back({{"at", at}, {"quantity", quantity}, {"value", json_of(limit.value)}, {"error", json_of(limit.error)},
-                          {"order", json_of(limit.order)}, {"approach", approaches[static_cast<std::size_t>(limit.approach)]}, {"levels", levels}});
+                          {"order", json_of(limit.order)}, {"approach", name_of(limit.approach)}, {"levels", levels}});
   return {{"quantities", quantities}, {"remarks", refined.remarks}};
 }
 

@@ -35,7 +35,7 @@ ContactKey nearest_contact(Energy& energy, const State& state) {
 }  // namespace
 
 Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoint& event,
-                    const std::function<void(const Row&, const CurvePoint&)>& found) {
+                    const std::function<void(const Row&, const Threshold&)>& found) {
   const CurveTable& t = *problem.curve;
   const auto here = std::make_shared<Variant>(models(t.from), solver_options(problem));
   const VariantAt variants = [&](double second) {
@@ -71,15 +71,14 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
   CurveOptions options{t.from, t.to, t.steps, t.stops.value_or(std::vector<double>{}), t.until, std::abs(problem.path.to - problem.path.from)};
   for (const ExpectTable& e : problem.expect)
     if (const auto second = second_of(e.at)) options.stops.push_back(*second);
-  const auto [status, why] = trace_curve(variants, std::move(start), options, [&](const CurvePoint& point) {
-    const std::shared_ptr<Variant> there = variants(point.threshold.second);
-    PathPoint p = point.threshold.at.point;
-    p.label = point.label, p.what = point.what;
+  const auto [status, why] = trace_curve(variants, std::move(start), options, [&](const Threshold& point) {
+    const std::shared_ptr<Variant> there = variants(point.second);
+    const PathPoint& p = point.at.point;
     const Observables observables(problem, there->model);
     const std::vector<Touch> touches = observed_touches(there->energy, p.state, observables);
     std::vector<double> values = observables.evaluate(p.state, there->energy.forces(p.state), touches);
     for (const auto& own : p.energy.own) values.push_back(own.second);
-    found(curve_row(point.threshold.second, point.threshold.asymmetry, p, values), point);
+    found(curve_row(point.second, point.asymmetry, p, values), point);
   });
   return {status, why};
 }

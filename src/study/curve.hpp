@@ -13,6 +13,6 @@ using ModelAt = std::function<Model(double second)>;
 /// Follows the event that a path has ended at; every point of the curve and everything that happens on it is a row of curve_columns. Where
 /// the structure cannot be made, or has other particles, bonds or coordinates, the curve ends and the outcome says so.
 Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoint& event,
-                    const std::function<void(const Row&, const CurvePoint&)>& found);
+                    const std::function<void(const Row&, const Threshold&)>& found);
 
 }  // namespace elamin

@@ -174,8 +174,9 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   const auto follow_curve = [&]() -> Outcome {
     if (!event)
       return {Status::not_converged, "the path has no " + problem.curve->of + " that a curve could begin with: " + outcome.why};
-    return trace_curve(problem, options.models, *event, [&](const Row& row, const CurvePoint& point) {
-      const double second = point.threshold.second, load = point.threshold.at.point.state.load_factor;
+    return trace_curve(problem, options.models, *event, [&](const Row& row, const Threshold& threshold) {
+      const PathPoint& point = threshold.at.point;
+      const double second = threshold.second, load = point.state.load_factor;
       results.add_curve(row);
       const std::string line = fmt::format("{} = {:.12g}: {} at load factor {:.12g}{}{}", problem.curve->second, second, problem.curve->of, load,
                                            point.label.empty() ? "" : ": " + point.label, point.what.empty() ? "" : ": " + point.what);
