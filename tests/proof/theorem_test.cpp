@@ -159,3 +159,28 @@ TEST_CASE("contacts are proven closed or open, and one that just touches is not 
     CHECK(t.open.size() == (by > 0 ? all : 0));
   }
 }
+
+// Both overlaps δ: H = 3/2 k √δ (n₁n₁ᵀ + n₂n₂ᵀ), whose eigenvalues are 3/2 k √δ (1 ± n₁·n₂).
+TEST_CASE("a ball that nothing but two inclined walls holds is proven a minimum, with their stiffness", "[proof]") {
+  constexpr double delta = 1e-3, radius = 0.5;
+  const std::array<Vec3, 2> normals{Vec3(1, 0, 1).normalized(), Vec3(-1, 0, 2).normalized()};
+  const double k = 4.0 / 3 * std::sqrt(radius), least = 1.5 * k * std::sqrt(delta) * (1 - std::abs(normals[0].dot(normals[1])));
+  Model model = chain(1, 1, 1, 2 * radius);
+  model.plane_normal = 1;
+  for (const Vec3& n : normals) {
+    Wall wall;
+    wall.name = "wedge", wall.particles = {0}, wall.effective_modulus = 1;
+    wall.region.normal = n, wall.region.center = (delta - radius) * n;
+    model.walls.push_back(wall);
+  }
+  model.loads.push_back({"", {0}, -k * std::pow(delta, 1.5) * (normals[0] + normals[1]), Scaling::constant()});
+  std::string not_covered;
+  const proof::Structure s = proof::structure_of(model, model.start, not_covered);
+  REQUIRE(not_covered.empty());
+  const proof::Theorem t = proof::prove(s, model.start);
+  INFO(t.why_not);
+  REQUIRE(t.holds);
+  CHECK(t.negative == 0);
+  CHECK(t.shift == Approx(0.9 * least).epsilon(1e-9));
+  CHECK(t.inverse >= 1 / least);
+}
