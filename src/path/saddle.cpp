@@ -104,9 +104,8 @@ class Walker {
     State next = moved(energy_, state_, p);
     Plane here{Vector::Zero(energy_.dofs()), 1};                 // Δλ = 0
     here.guided = true;
-    const bool relaxed = newton_.correct(next, side_by_side(modes_.vectors, held_), &state_, equilibrium::most_in_contact, &here).converged();
-    const bool far = energy_.kinematics().difference(state_, next).norm() > saddle::relaxed * p.norm();
-    bool good = relaxed && !far;
+    bool good = newton_.correct(next, side_by_side(modes_.vectors, held_), &state_, equilibrium::most_in_contact, &here).converged() &&
+                energy_.kinematics().difference(state_, next).norm() <= saddle::relaxed * p.norm();
     double off = 0;
     if (good) {
       energy_.evaluate(next, false);
