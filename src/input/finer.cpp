@@ -185,7 +185,8 @@ std::vector<Setting> finer_loads(const Problem& coarse, const Model& coarse_mode
     const GroupTable &g = coarse.groups[k], &changed = fine.groups[k];
     std::vector<std::string> of = g.of;
     if (g.except) of.insert(of.end(), g.except->begin(), g.except->end());
-    if (std::ranges::any_of(of, [&](const std::string& name) { return contains(apart, name); }) || g.inside != changed.inside || g.outside != changed.outside) {
+    const bool of_apart = std::ranges::any_of(of, [&](const std::string& name) { return contains(apart, name); });
+    if (of_apart || g.inside != changed.inside || g.outside != changed.outside) {
       apart.insert(g.name);
       continue;
     }

@@ -13,8 +13,8 @@ namespace elamin {
 
 using namespace limits;
 
-// The conditions' derivatives along directions of unit length, and what the conditions lack, both in parts of the largest derivative. The last row is that of
-// one condition more.
+// The conditions' derivatives along directions of unit length, and what the conditions lack, both in parts of the largest derivative. The last
+// row is that of one condition more.
 struct ExtendedSystem::Linear {
   std::vector<CurveDirection> directions;       // (v, 0, 0) but of a contact, (p_L, δ_L, 0), (p_M, δ_M, 1)
   CurveDirection rest;                          // (p₀, δ₀, 0)
