@@ -248,10 +248,10 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, 
   if (lost.point.stability.negative != negative_ && (fading = fades(*change, lost))) {
     Candidate c{.parameter = fading->b, .e = lost};
     const auto bears = [&](const ContactKey& key) { return !change->after.count(key) && borne(newton_.energy(), key, c.e.point.state) > contact_event::unloaded; };
-    // Where what is lost bears nothing any more the limit point cannot be told from it: then they are one event.
+    // Where what is lost bears nothing any more, or the load factor has not gone as far, the limit point cannot be told from the loss: then they are one event.
     std::string why;
-    const bool found = find_critical(*fading, c, why);
-    if (found && c.events.front().kind == EventKind::limit && std::any_of(closed_.begin(), closed_.end(), bears)) return c;
+    const bool found = find_critical(*fading, c, why), beyond = sign_ * (c.e.point.state.load_factor - lost.point.state.load_factor) >= 0;
+    if (found && beyond && c.events.front().kind == EventKind::limit && std::any_of(closed_.begin(), closed_.end(), bears)) return c;
     if (!found && change->at.point.stability.negative == lost.point.stability.negative)       // the same search would fail again
       return kink_refused_ = true, std::nullopt;
     fading.reset();
@@ -260,7 +260,7 @@ std::optional<Branch::Candidate> ArcSteps::reach_kink(const Arc& arc, double s, 
   if (t > arc_steps::standing * s && !joins(arc, change->at, current_) && !(fading = fades(*change, lost))) return {};
   if (!fading && t > arc_steps::standing * s)
     if (auto earlier = before_it_leaves([&](double at, const Equilibrium& nearest) { return arc.at(at, nearest); }, 0, t, change->after)) return earlier;
-  return with_contact(Candidate{.parameter = fading ? fading->b : t, .e = {}}, std::move(*change));
+  return with_contact(Candidate{.parameter = fading ? fading->b : t, .e = {}, .stands = !fading && t <= arc_steps::standing * s}, std::move(*change));
 }
 
 // The branch to where a contact is lost over what is left of it, if it leads there.

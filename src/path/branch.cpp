@@ -375,7 +375,7 @@ bool Branch::find_critical(Segment segment, Candidate& c, std::string& why) {
   segment.b = c.parameter;
   const auto rises = [&](const Equilibrium& e) { return segment.load_rate(e) >= 0 ? 1 : -1; };
   const bool kink = !c.events.empty() && c.events.front().beyond;               // it may be where the branch stands
-  const auto goes_on_alike = [&] { return !c.natural && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_; };
+  const auto goes_on_alike = [&] { return !c.natural && !c.stands && !kink && c.e.point.stability.negative == negative_ && rises(c.e) == sign_; };
   if (goes_on_alike() && !stop_where_load_goes_back(segment, c)) return why = "the load factor goes back between two states at which it goes on", false;
   segment.b = c.parameter;
   if (goes_on_alike() && !stop_where_index_goes_back(segment, c))

@@ -60,6 +60,7 @@ class Branch {
     std::vector<Event> events = {};
     std::optional<double> stop = {};
     bool natural = false;              // a step of the load factor
+    bool stands = false;               // a contact changes all but where the step begins: nothing lies between
   };
   /// The event that decides how the branch goes on behind a candidate; none if there are only user_events.
   static const Event* deciding(const Candidate& c);
