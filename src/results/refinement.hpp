@@ -55,7 +55,7 @@ RefinedValues refined_values(const Problem& problem, const std::vector<RunTables
 /// Whether a limit is what is expected: |value − expected| ≤ error + rtol |expected| + atol, and error ≤ bar |expected|.
 Verdict check_continuum(const Problem& problem, const ExpectTable& expected, const RefinedValues& refined);
 
-/// "3.0000000(12)", whose last digits are the error's.
+/// "3.00000012 ± 3.4e-07": two digits of the error, and the value to the last of them.
 std::string value_and_error(const Extrapolated& limit);
 
 /// refine.csv: at, quantity, value, error, order, approach, level_1, level_2, …; the same for a terminal; the same as JSON.
