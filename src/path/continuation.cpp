@@ -1,6 +1,7 @@
 #include "path/continuation.hpp"
 
 #include "core/find.hpp"
+#include "energy/step_limits.hpp"
 #include "model/entities.hpp"
 #include "path/cause.hpp"
 #include "path/family.hpp"
@@ -84,7 +85,12 @@ void Continuation::begin() {
   emit(e.point);
   e.point.label.clear();
   if (options_.resume && (!arcs() || options_.resume->direction.size() == e.tangent.size())) return take_up(std::move(e), *options_.resume);
-  if (e.point.stability.negative > 0 && options_.when_unstable == WhenUnstable::stop) return end(Status::converged, "the starting state is unstable");
+  if (options_.when_unstable == WhenUnstable::stop) {
+    // At a limit point, where a stage has stopped, the sign is rounding's, and the tangent may have any size.
+    const bool singular = distortion(newton_.energy(), e.point.state, e.tangent, 1) * std::abs(range()) * equilibrium::next_to_nothing > 1;
+    if (e.point.stability.negative > 0 || singular) take_nearly_neutral(newton_, e, 1, {});
+    if (e.point.stability.negative > 0) return end(Status::converged, "the starting state is unstable");
+  }
   e = back_from_limit(std::move(e));
   ContactSet closed = closed_contacts(newton_.energy(), e);
   const int negative = e.point.stability.negative;
