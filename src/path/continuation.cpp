@@ -86,7 +86,7 @@ void Continuation::begin() {
   e.point.label.clear();
   if (options_.resume && (!arcs() || options_.resume->direction.size() == e.tangent.size())) return take_up(std::move(e), *options_.resume);
   if (options_.when_unstable == WhenUnstable::stop) {
-    // At a limit point, where a stage has stopped, the sign is rounding's, and the tangent may have any size.
+    // At a limit point, where a stage has stopped, the sign of the eigenvalue that vanishes is rounding's, and the tangent ~ 1/μ would rotate bonds by 10⁶ rad over the range.
     const bool singular = distortion(newton_.energy(), e.point.state, e.tangent, 1) * std::abs(range()) * equilibrium::next_to_nothing > 1;
     if (e.point.stability.negative > 0 || singular) take_nearly_neutral(newton_, e, 1, {});
     if (e.point.stability.negative > 0) return end(Status::converged, "the starting state is unstable");
