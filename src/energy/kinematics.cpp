@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 namespace elamin {
@@ -135,6 +136,12 @@ Field Kinematics::displacement(const State& a, const State& b) const {
     u.col(rotation_of(static_cast<int>(k))) = characteristic_length_[k] * rotation_between(from.rotation, to.rotation);
   }
   return u;
+}
+
+double Kinematics::norm(const State& state) const {
+  double squares = state.position.squaredNorm();
+  for (std::size_t k = 0; k < characteristic_length_.size(); ++k) squares += state.bodies[k].position.hi.squaredNorm() + characteristic_length_[k] * characteristic_length_[k];
+  return std::sqrt(squares);
 }
 
 void Kinematics::pull_back(Vector& gradient, const Vector& y) const {
