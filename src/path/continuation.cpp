@@ -223,14 +223,7 @@ bool Continuation::goes_on_behind(Event& event) {
   return !ends;
 }
 
-// A load factor just past an event, but not beyond what is to be hit, unless that is nearer than a snap may begin.
-double Continuation::beyond(double at, double most) const {
-  double way = most;
-  for (const double target : arcs() ? arc_options(options_).stops : load_targets(options_))
-    if (const double ahead = (target - at) / range(); ahead > continuation::least_snap) way = std::min(way, ahead / 2);
-  const double left = left_of_path(at);
-  return left < continuation::least_snap ? options_.to : at + way * range();
-}
+double Continuation::beyond(double at, double most) const { return snap_begins(options_, at, most); }
 
 // The part of the path that lies behind a load factor.
 double Continuation::left_of_path(double at) const { return (options_.to - at) / range(); }

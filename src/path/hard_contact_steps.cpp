@@ -112,7 +112,7 @@ void HardContactSteps::accept(Equilibrium at, const Contacts& slack, const std::
   const double load_factor = current_.point.state.load_factor;
   side_.resize(options_.user_events.size(), 0);
   pass_user_events(options_.user_events, passed, current_.point.state, side_);
-  if (interval_ < targets_.size() && load_factor == targets_[interval_]) ++interval_;
+  while (interval_ < targets_.size() && (load_factor - targets_[interval_]) * direction() >= 0) ++interval_;
 }
 
 // The equilibrium at the load factor with these contacts closed, whatever their forces.
@@ -271,7 +271,7 @@ void HardContactSteps::kink(Equilibrium at, const Contacts& slack) {
     const std::string why = "contacts change without end";
     if (options_.when_unstable == WhenUnstable::stop || interval_ == targets_.size())
       return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
-    return snap(targets_[interval_], why, false);
+    return snap(why, false);
   }
   std::optional<Contacts> now = equilibrium_.onward(at.point.state, slack, direction());
   if (!now) {
@@ -466,7 +466,7 @@ void HardContactSteps::lose(Event event) {
     return end(Status::not_converged, fmt::format("{} at load factor {:.10g}: load steps cannot follow the branch beyond", label, at));
   accept(whole, judge(whole, &current_).slack);
   if (limit || (loses && options_.when_unstable == WhenUnstable::jump)) {
-    if (interval_ < targets_.size()) snap(targets_[interval_], "stability is lost", true);
+    if (interval_ < targets_.size()) snap("stability is lost", true);
     return;
   }
   current_.point.stability.negative = event.after;
@@ -486,7 +486,7 @@ void HardContactSteps::miss(double target, int after) {
 void HardContactSteps::leave_unstable() {
   if (options_.when_unstable == WhenUnstable::stop)
     return end(Status::converged, fmt::format("stopped where stability is lost, load factor {:.10g}", current_.point.state.load_factor));
-  if (options_.when_unstable == WhenUnstable::jump && interval_ < targets_.size()) snap(targets_[interval_], "stability is lost", true);
+  if (options_.when_unstable == WhenUnstable::jump && interval_ < targets_.size()) snap("stability is lost", true);
 }
 
 void HardContactSteps::halve(double target, const std::string& why) {
@@ -496,15 +496,15 @@ void HardContactSteps::halve(double target, const std::string& why) {
   note(fmt::format("load factor {:.10g} could not be passed in steps of {:.3g}: {}", here, std::abs(target - here), why));
   if (options_.when_unstable == WhenUnstable::stop)
     return end(Status::not_converged, fmt::format("the branch ends at load factor {:.10g}: {}", here, why));
-  snap(targets_[interval_], why, false);
+  snap(why, false);
 }
 
 // A little farther on, the minimum that Ipopt finds from here. Where the branch goes on, unstable, it is left to both sides of its
 // critical mode, and the lower of two minima is taken; of two that are alike always the same, so that rounding does not choose.
-void HardContactSteps::snap(double target, const std::string& why, bool stability_lost) {
+void HardContactSteps::snap(const std::string& why, bool stability_lost) {
   Energy& energy = newton_.energy();
   const Kinematics& kinematics = energy.kinematics();
-  const double here = current_.point.state.load_factor, past = here + direction() * std::min(hard_contact_steps::beyond_event * std::abs(options_.to - options_.from), hard_contact_steps::before_target * std::abs(target - here));
+  const double here = current_.point.state.load_factor, past = snap_begins(options_, here, continuation::snap_beyond.front());
   const auto ends = [&](Status status, const std::string& sentence) {
     end(status, fmt::format("the branch ends at load factor {:.10g}{}", here, sentence));
   };

@@ -45,7 +45,7 @@ class HardContactSteps final : public Path {
   void miss(double target, int after);
   void leave_unstable();
   void halve(double target, const std::string& why);
-  void snap(double target, const std::string& why, bool stability_lost);
+  void snap(const std::string& why, bool stability_lost);
   void accept(Equilibrium at, const Contacts& slack, const std::vector<Event>& passed = {});
   void tell(PathPoint point);
 

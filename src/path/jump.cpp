@@ -45,10 +45,15 @@ Equilibrium jump_from(Newton& newton, const Event& event, double past, std::stri
     if (found || k == jump::most_nearer) break;
   }
   const State from = state;
-  if (from_saddle) std::ignore = newton.leave_saddle(state, event.modes.col(0));   // where not, minimise looks for a way itself
   energy.evaluate(from);
   const double before = energy.last_terms().total();
-  Report report = go_down(newton, state);
+  Report report;
+  for (Eigen::Index j = 0; j == 0 || (from_saddle && j < event.modes.cols()); ++j) {   // of several critical modes rounding has chosen which is the first
+    state = from;
+    if (from_saddle) std::ignore = newton.leave_saddle(state, event.modes.col(j));     // where not, minimise looks for a way itself
+    report = go_down(newton, state);
+    if (report.status != Status::not_converged) break;
+  }
   what = fmt::format("from energy {:.10g} to {:.10g} at load factor {:.10g}", before, report.energy, past);
   if (report.converged()) return assess(newton, state, report);
   Equilibrium failed;

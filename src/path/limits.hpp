@@ -48,7 +48,7 @@ constexpr double close_values = 1e-6;  // lengths that a symmetry makes equal
 /// What lies between two equilibria.
 namespace segment {
 constexpr double rounding = 1e-13;  // of a segment: what its parameter tells
-constexpr double no_way = 1e-12;  // of where everything is: what moves no farther tells no bend
+constexpr double no_way = 1e-12;  // of where everything is: what moves no farther tells no bend, and no other branch
 constexpr double widest = 0.5;  // of the chord, to the side and beyond its ends: a branch that is resolved bends less
 }
 
@@ -266,8 +266,6 @@ constexpr std::size_t most_near = 12;  // states that stand for the branches
 namespace hard_contact_steps {
 constexpr int finest = 24;  // halvings of a step
 constexpr int most_changes = 20;  // of contacts at one load factor
-constexpr double beyond_event = continuation::snap_beyond.front();  // of the path: where a snap begins …
-constexpr double before_target = 0.5;  // … or of the way to the next step
 constexpr double aside = 1e-3;  // turn of what is glued, and way in diameters, to where a snap begins
 constexpr double nearest = 1e-7;  // the barrier where a snap begins: of a column that stays with its contacts 1e-5 led over to mirror images by 3 of 4 numbers of steps, 1e-6 and less never
 constexpr double alike = 1e-6;  // of the energy that is lost

@@ -29,6 +29,16 @@ std::vector<double> load_targets(const PathOptions& o) {
   return targets;
 }
 
+double snap_begins(const PathOptions& o, double at, double part) {
+  const double range = o.to - o.from;
+  if ((o.to - at) / range < continuation::least_snap) return o.to;
+  std::vector<double> met = o.stops;
+  for (const double end : {o.to, o.lowest.value_or(o.to), o.highest.value_or(o.to)}) met.push_back(end);
+  for (const double stop : met)
+    if (const double ahead = (stop - at) / range; ahead > continuation::least_snap) part = std::min(part, ahead / 2);
+  return at + part * range;
+}
+
 LoadSteps::LoadSteps(Newton& newton, Departure from, const PathOptions& options)
     : Branch(newton, std::move(from), options.contacts, options.event_errors, options.user_events), grid_(load_targets(options), options.start.value_or(options.from)),
       correct_(options.correct) {

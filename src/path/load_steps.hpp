@@ -9,6 +9,10 @@ namespace elamin {
 /// Load factors to hit, in order: the even steps and the stops asked for.
 std::vector<double> load_targets(const PathOptions& options);
 
+/// The load factor at which a snap behind an event begins: a part of the range farther on, or half as far as a stop or an end of the path, whatever
+/// the steps. What is nearer than a snap may begin is not looked at; so near to its end it begins there.
+double snap_begins(const PathOptions& options, double at, double part);
+
 /// A branch in steps of the load factor. Steps that fail are halved, down to 2⁻²⁰ of a step; halved steps double again, so
 /// that every multiple of the step is hit. Where steps fail, the branch is followed in arc length to see what is there: a limit point, a
 /// branch point that is reached along a side branch, or only a sharp bend. Where something touches and nobody asks for contacts, a path that may

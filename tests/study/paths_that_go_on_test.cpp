@@ -85,15 +85,15 @@ const std::string by_arcs = "path.method=\"arc_length\"", by_load_steps = "path.
     CHECK((run).end() == (load));                                        \
   } while (false)
 
-/// The same kinds of events at the same load factors, up to a first fall.
+/// The same kinds of events at the same load factors, up to a first snap, which begins as far behind its event.
 void same_events(const Run& a, const Run& b) {
   INFO(a.what << ": " << a.told() << "\n" << b.what << ": " << b.told());
   for (std::size_t k = 0; k < std::max(a.events.size(), b.events.size()); ++k) {
     REQUIRE(k < a.events.size());
     REQUIRE(k < b.events.size());
-    if (kind_of(a.events[k]) == "jump" && kind_of(b.events[k]) == "jump") return;
     CHECK(kind_of(a.events[k]) == kind_of(b.events[k]));
     CHECK(a.events[k]["lambda"] == Approx(b.events[k]["lambda"]).epsilon(to_events));
+    if (kind_of(a.events[k]) == "jump") return;
   }
 }
 
