@@ -223,8 +223,6 @@ bool Continuation::goes_on_behind(Event& event) {
   return !ends;
 }
 
-double Continuation::beyond(double at, double most) const { return snap_begins(options_, at, most); }
-
 // The part of the path that lies behind a load factor.
 double Continuation::left_of_path(double at) const { return (options_.to - at) / range(); }
 
@@ -249,7 +247,7 @@ bool Continuation::crosses_over(const Event& event) {
   Equilibrium held = event.at;
   held.zero_modes = side_by_side(held.zero_modes, event.modes);
   const double here = event.at.point.state.load_factor;
-  double way = beyond(here, continuation::snap_beyond.back()) - here;
+  double way = snap_begins(options_, here, continuation::snap_beyond.back()) - here;
   Equilibrium other = continue_to(newton_, held, here + way);
   // What is all but critical, too, may bend more on this way than its tangent tells: then nearer.
   for (int k = 0; k < continuation::most_nearer && !other.point.report.converged(); ++k) other = continue_to(newton_, held, here + (way /= 4));
@@ -267,7 +265,7 @@ void Continuation::jump(const Event& event) {
   family_ = std::max(family_, static_cast<int>(event.modes.cols()) - 1);
   Equilibrium landed;
   for (const double way : continuation::snap_beyond) {
-    landed = jump_from(newton_, event, beyond(event.at.point.state.load_factor, way), what);
+    landed = jump_from(newton_, event, snap_begins(options_, event.at.point.state.load_factor, way), what);
     if (landed.point.report.status != Status::not_converged) break;
   }
   note(fmt::format("jump at {}: {}", event.at.point.label, what));
@@ -331,7 +329,7 @@ bool Continuation::comes_back(const Equilibrium& landed, const Equilibrium& from
 // that is reached by going down from there, beyond.
 bool Continuation::snap(std::string& why) {
   const Equilibrium last = steps_->at();
-  const double at = last.point.state.load_factor, target = arcs() ? beyond(at, continuation::snap_beyond.back()) : load_steps().goal();
+  const double at = last.point.state.load_factor, target = arcs() ? snap_begins(options_, at, continuation::snap_beyond.back()) : load_steps().goal();
   State state = last.point.state;
   newton_.energy().kinematics().prescribe(state, target);
   if (newton_.energy().collision_free_step(last.point.state, state) < 1) return false;

@@ -44,7 +44,6 @@ class Continuation : public Path {
   void show(Waypoint waypoint);
   std::optional<Resume> resume_here(const Waypoint& waypoint) const;
   bool goes_on_behind(Event& event);
-  double beyond(double at, double most) const;
   double left_of_path(double at) const;
   bool at_end(double load) const;
   void end_reached();
