@@ -45,7 +45,7 @@ class Kinematics {
   /// b − a, of rotations ℓ times the rotation vector from a to b: 3 × sites, and on the free dofs: retract's inverse.  [length]
   Field displacement(const State& a, const State& b) const;
   Vector difference(const State& a, const State& b) const { return restrict(displacement(a, b)); }
-  /// √(Σ |x|² + Σ ℓ²) over the places of particles and bodies, and bodies' characteristic lengths: what displacements are small beside.  [length]
+  /// √(Σ |x|² + Σ ℓ²) over the places of particles and bodies, and bodies' characteristic lengths: the scale of a displacement's rounding.  [length]
   double norm(const State& state) const;
   /// From derivatives by a further step at retract(origin, y) to those by y itself: of bodies that have rotated they differ.
   void pull_back(Vector& gradient, const Vector& y) const;

@@ -268,7 +268,7 @@ bool same_branch(Energy& energy, const Equilibrium& a, const Equilibrium& b) {
   const double change = b.point.state.load_factor - a.point.state.load_factor;
   const double by_a = (moved - change * tangent_a).norm(), by_b = (moved - change * tangent_b).norm(),
                by_both = (moved - change / 2 * (tangent_a + tangent_b)).norm();
-  const double rounding = segment::no_way * energy.kinematics().norm(b.point.state);
+  const double rounding = segment::least_movement * energy.kinematics().norm(b.point.state);
   if (std::min({by_a, by_b, by_both}) > equilibrium::largest_part * moved.norm() + rounding) return false;
   const bool comes_to_rest = change * tangent_b.dot(moved) < equilibrium::least_rest * moved.squaredNorm() && by_both > equilibrium::parabola * moved.norm();
   const bool alike = tangent_a.dot(tangent_b) >= equilibrium::least_cosine * tangent_a.norm() * tangent_b.norm();

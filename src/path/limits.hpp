@@ -48,7 +48,7 @@ constexpr double close_values = 1e-6;  // lengths that a symmetry makes equal
 /// What lies between two equilibria.
 namespace segment {
 constexpr double rounding = 1e-13;  // of a segment: what its parameter tells
-constexpr double no_way = 1e-12;  // of where everything is: what moves no farther tells no bend, and no other branch
+constexpr double least_movement = 1e-12;  // of Kinematics::norm: less is rounding, and tells neither a bend nor another branch
 constexpr double widest = 0.5;  // of the chord, to the side and beyond its ends: a branch that is resolved bends less
 }
 

@@ -47,7 +47,7 @@ std::function<double(double parameter)> load_along(const Segment& segment, const
 /// which is as stable as what is before.
 [[nodiscard]] inline bool bends(const Kinematics& kinematics, const Equilibrium& a, const Equilibrium& b, double most) {
   const Vector moved = kinematics.difference(a.point.state, b.point.state);
-  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = limits::segment::no_way * kinematics.norm(b.point.state), way = moved.norm();
+  const double change = b.point.state.load_factor - a.point.state.load_factor, rounding = limits::segment::least_movement * kinematics.norm(b.point.state), way = moved.norm();
   const auto off = [&](const Vector& tangent) { return (moved - change * tangent).norm(); };
   return !(off((a.tangent + b.tangent) / 2) <= most * way + rounding && std::min(off(a.tangent), off(b.tangent)) <= way + rounding);
 }
