@@ -40,7 +40,7 @@ TEST_CASE("no include runs upward", "[structure]") {
   REQUIRE(all.size() > 100);
   for (const Include& i : all) {
     INFO(i.from << " includes " << i.to);
-    if (i.from == "main.cpp" || i.from == "elamin.hpp") continue;
+    if (folder(i.from) == i.from) continue;          // main, command_line, elamin.hpp
     CHECK(stage(folder(i.from)) < stages.size());
     CHECK(stage(folder(i.to)) <= stage(folder(i.from)));
   }

@@ -36,14 +36,14 @@ quantity = "position.x"
 }  // namespace
 
 TEST_CASE("help, version and wrong commands", "[study]") {
-  CHECK(elamin_says("--version").text.find("elamin ") == 0);
-  CHECK(elamin_says("--version").status == 0);
-  const Answer help = elamin_says("--help");
+  CHECK(program_says("--version").text.find("elamin ") == 0);
+  CHECK(program_says("--version").status == 0);
+  const Answer help = program_says("--help");
   CHECK(help.status == 0);
   for (const char* word : {"energy", "check", "verify", "Exit status", "--set"}) CHECK(help.text.find(word) != std::string::npos);
-  CHECK(elamin_says("").status == 1);
-  CHECK(elamin_says("--nonsense").status == 1);
-  CHECK(elamin_says("no-such-file.toml").status == 1);
+  CHECK(program_says("").status == 1);
+  CHECK(program_says("--nonsense").status == 1);
+  CHECK(program_says("no-such-file.toml").status == 1);
 }
 
 TEST_CASE("a run leaves what the contract says", "[study]") {

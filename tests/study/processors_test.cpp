@@ -22,7 +22,7 @@ TEST_CASE("events and the end of a path are the same with the kernels of other p
     for (const std::string& kind : kinds) {
       INFO(problem << " by the kernels of " << kind);
       setenv("OPENBLAS_CORETYPE", kind.c_str(), 1);
-      const Answer answer = elamin_says("'" ELAMIN_ROOT "/problems/" + problem + ".toml' --quiet --threads 1 -o '" + (scratch / kind) + "'");
+      const Answer answer = program_says("'" ELAMIN_ROOT "/problems/" + problem + ".toml' --quiet --threads 1 -o '" + (scratch / kind) + "'");
       unsetenv("OPENBLAS_CORETYPE");
       REQUIRE(answer.status == 0);
       std::vector<TableRow> rows = table_of(scratch / (kind + "/events.csv"));
