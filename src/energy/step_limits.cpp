@@ -51,6 +51,11 @@ double movement(const Energy& energy, const Vector& step) {
   return largest;
 }
 
+double step_size(const Energy& energy, const State& state, const Vector& step, double load_change) {
+  const double turn = distortion(energy, state, step, load_change);
+  return turn > 0 ? turn : movement(energy, step);
+}
+
 double extent(const Model& model) {
   if (model.contacts.empty() && model.walls.empty() && model.rounded.empty()) return infinity;
   Eigen::AlignedBox3d box = box_of(model, model.start);

@@ -11,6 +11,9 @@ double distortion(const Energy& energy, const State& state, const Vector& step, 
 /// Largest movement of a particle in its own diameters.
 double movement(const Energy& energy, const Vector& step);
 
+/// The distortion of a step; where nothing turns or stretches, its movement.
+double step_size(const Energy& energy, const State& state, const Vector& step, double load_change = 0);
+
 /// The extent of all particles and of the finite corners of walls where there are contacts or walls, else infinity: no
 /// single step should be longer. [length]
 double extent(const Model& model);

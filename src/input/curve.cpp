@@ -14,7 +14,7 @@
 namespace elamin {
 namespace {
 
-constexpr std::array kinds_of_curve{"limit", "branch", "contact"};
+constexpr std::array kinds_of_curve{"limit", "branch", "contact", "jump"};
 constexpr std::array labels_of_curve{"cusp", "turn", "symmetric", "hilltop", "double", "meeting", "contact"};
 
 }  // namespace
@@ -22,7 +22,7 @@ constexpr std::array labels_of_curve{"cusp", "turn", "symmetric", "hilltop", "do
 void describe(Keys& keys, CurveTable& t) {
   keys.about("An event of the path, followed as a second parameter changes: a curve of load factors. The path is traced at `from` and ends "
              "at the event.");
-  keys.must("of", t.of, "the event: limit:1, branch:1, contact:1, or another one of them by its number");
+  keys.must("of", t.of, "the event: limit:1, branch:1, contact:1, or another one of them by its number; jump:1: the one at which that snap begins");
   keys.must("second", t.second,
             "a key whose value is a number, such as \"beam.column.youngs_modulus\", \"support.top.displacement.3\" or \"constants.t\"");
   keys.must("from", t.from, "its value where the curve begins");
@@ -57,10 +57,12 @@ void check_curve(Problem& p, Mistakes& mistakes) {
   if (!p.stages.empty()) mistakes.add(t.place, "is of paths without stages");
   if (t.place.broken) return;
   if (!is_numbered(t.of, kinds_of_curve))
-    mistakes.add(t.place, "of", "must be a limit point, a branch point or a contact, such as \"limit:1\", \"branch:1\" or \"contact:1\", " +
+    mistakes.add(t.place, "of", "must be a limit point, a branch point, a contact or a snap, such as \"limit:1\", \"branch:1\", \"contact:1\" or \"jump:1\", " +
                                     ("is " + in_quotes(t.of)));
-  else if (const std::string kind = t.of.substr(0, t.of.find(':')); !contains(p.path.locate, kind) && !p.path.place.broken)
+  else if (const std::string kind = t.of.substr(0, t.of.find(':')); kind != "jump" && !contains(p.path.locate, kind) && !p.path.place.broken)
     mistakes.add(t.place, "of", in_quotes(kind) + " is not among path.locate; only located events can be followed");
+  else if (kind == "jump" && p.path.when_unstable != WhenUnstable::jump)
+    mistakes.add(t.place, "of", "is a snap, which a path has with path.when_unstable = \"jump\"");
   for (const std::string& label : t.until)
     if (!is_numbered(label, labels_of_curve))
       mistakes.add(t.place, "until", fmt::format("must be \"{}:1\" or such, is {}", fmt::join(labels_of_curve, ":1\", \""), in_quotes(label)));

@@ -6,7 +6,7 @@ namespace elamin {
 
 struct CurveTable {
   TablePlace place;
-  std::string of;                        // the label of an event: limit:1, branch:1, contact:1
+  std::string of;                        // the label of an event: limit:1, branch:1, contact:1, or of the snap that begins there, jump:1
   std::string second;                    // a key, as `--set` has it
   double from = 0, to = 0;               // its values; the path is traced at `from`
   int steps = 40;

@@ -60,9 +60,8 @@ CurveDirection ExtendedSystem::way(const Threshold& from, const Threshold& to) {
 // How far along a direction of unit length a central difference goes: ε^(1/3) of a turn of the bonds by a radian, of the scale of λ, of
 // that of μ and of the overlap of every contact, where its rounding ε/h and what it leaves out, h²/6 of the third derivative, are alike.
 double ExtendedSystem::step_of(const Threshold& at, const CurveDirection& along) {
-  const Energy& energy = variant(at.second)->energy;
-  const double turn = distortion(energy, at.at.point.state, along.x, along.load), by_turn = turn > 0 ? turn : movement(energy, along.x);
-  const double part = std::cbrt(epsilon), h = part / std::max({by_turn, std::abs(along.load) / metric.load, std::abs(along.second) / metric.second});
+  const double part = std::cbrt(epsilon), turn = step_size(variant(at.second)->energy, at.at.point.state, along.x, along.load);
+  const double h = part / std::max({turn, std::abs(along.load) / metric.load, std::abs(along.second) / metric.second});
   const State beside = moved(at, along * h);
   Energy &here = variant(at.second)->energy, &there = variant(at.second + h * along.second)->energy;
   double within = 1;

@@ -115,8 +115,7 @@ class Explorer {
       State state = base.point.state;
       const EigenPairs soft = soft_modes(newton_, state, base.zero_modes, 2 * options_.modes);
       Vector p = soft.vectors * Vector::NullaryExpr(soft.values.size(), [&] { return number(); });
-      const double turn = distortion(energy_, state, p);
-      energy_.kinematics().retract(state, p, landscape::nudge * std::abs(number()) / (turn > 0 ? turn : movement(energy_, p)));
+      energy_.kinematics().retract(state, p, landscape::nudge * std::abs(number()) / step_size(energy_, state, p));
       if (energy_.collision_free_step(base.point.state, state) < 1) continue;
       if (const Report report = go_down(newton_, state); report.converged()) add(assess(newton_, state, report)), grow();
     }

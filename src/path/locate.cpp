@@ -189,8 +189,7 @@ std::optional<Equilibrium> settle_branch_point(Newton& newton, const Event& even
     there.work = there.mode.col(0).dot(energy.load_derivative());
     return there;
   };
-  const double turned = distortion(energy, event.at.point.state, event.modes.col(0)), unit = turned > 0 ? turned : movement(energy, event.modes.col(0));
-  const double load_step = event_error::step * range, step = event_error::step / unit;
+  const double load_step = event_error::step * range, step = event_error::step / step_size(energy, event.at.point.state, event.modes.col(0));
   std::optional<Place> here = beside({event.at, event.modes, 0, 0}, 0, 0);
   bool moved = false;
   for (int k = 0; k < locate::most_settling && here; ++k) {

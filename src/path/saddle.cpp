@@ -14,12 +14,6 @@ using namespace limits;
 
 namespace {
 
-/// By how much a step turns what is glued [rad]; of what is not, how far it moves [diameters].
-double size_of(const Energy& energy, const State& state, const Vector& step) {
-  const double turn = distortion(energy, state, step);
-  return turn > 0 ? turn : movement(energy, step);
-}
-
 /// x + p, or as much of it as nothing is in the way of.
 State moved(const Energy& energy, const State& from, const Vector& p) {
   State to = from;
@@ -86,11 +80,11 @@ class Walker {
     double along = 0;
     const bool stiff = climbs_ >= 0 && !(modes_.values[climbs_] < 0);
     if (climbs_ >= 0) along = -step_[climbs_], step_[climbs_] = 0;
-    const double down = size_of(energy_, state_, v * step_), up = climbs_ < 0 ? 0 : size_of(energy_, state_, v.col(climbs_));
+    const double down = step_size(energy_, state_, v * step_), up = climbs_ < 0 ? 0 : step_size(energy_, state_, v.col(climbs_));
     arrived_ = !stiff && down <= saddle::arrived && std::abs(along) * up <= saddle::arrived;
     if (first_.size() > 0) {
       step_ = v.transpose() * first_;
-      step_ *= radius_ / size_of(energy_, state_, v * step_);
+      step_ *= radius_ / step_size(energy_, state_, v * step_);
       return step_.allFinite();
     }
     if (down > radius_) step_ *= radius_ / down;
@@ -111,7 +105,7 @@ class Walker {
       energy_.evaluate(next, false);
       const Vector told = (modes_.values.array() * step_.array()).matrix();
       off = (slopes() - slopes_ - told).norm() / std::max({told.norm(), slopes_.norm(), 1e-300});
-      good = off <= saddle::most_off || size_of(energy_, state_, p) <= saddle::arrived;
+      good = off <= saddle::most_off || step_size(energy_, state_, p) <= saddle::arrived;
       if (up_.size() == 0) good = good && energy_.last_terms().total() <= energy_here_ + rounding_;
     }
     if (!good) {
@@ -129,7 +123,7 @@ class Walker {
   std::optional<Equilibrium> settle() {
     const State before = state_;
     const Report report = newton_.correct(state_, held_, nullptr, equilibrium::most_in_contact);
-    if (!report.converged() || size_of(energy_, before, energy_.kinematics().difference(before, state_)) > saddle::settled) return {};
+    if (!report.converged() || step_size(energy_, before, energy_.kinematics().difference(before, state_)) > saddle::settled) return {};
     return assess(newton_, state_, report);
   }
 
@@ -198,7 +192,7 @@ std::vector<Equilibrium> passes_between(Newton& newton, const State& a, const St
       const Eigen::MatrixXd across = side_by_side(tangent(k), held), y = newton.factors().cholesky().solve(across);
       const Vector z = newton.factors().cholesky().solve(energy.gradient());
       Vector p = y * solved(across.transpose() * y, across.transpose() * z) - z;
-      const double size = size_of(energy, line[k], p);
+      const double size = step_size(energy, line[k], p);
       if (!std::isfinite(size)) return {};
       most = std::max(most, size);
       if (size > saddle::largest_radius) p *= saddle::largest_radius / size;

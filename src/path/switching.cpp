@@ -44,10 +44,7 @@ class Switch {
   void hold(const Eigen::MatrixXd& family) { family_ = family; }
 
   /// A bond turned by one radian, or a particle moved by its diameter, is amplitude one over this.
-  double rotation(const Vector& along) const {
-    const double t = distortion(newton_.energy(), event_.at.point.state, along);
-    return t > 0 ? t : movement(newton_.energy(), along);
-  }
+  double rotation(const Vector& along) const { return step_size(newton_.energy(), event_.at.point.state, along); }
 
   /// The longest amplitude along a mode, other modes held, at which the load factor has changed by no more than a step: λ(a) is taken
   /// as a parabola.

@@ -34,6 +34,13 @@ ContactKey nearest_contact(Energy& energy, const State& state) {
 
 }  // namespace
 
+void StartOfCurve::take(const PathPoint& point) {
+  if (of_.starts_with("jump:") && !point.label.empty()) seen_[point.label] = point;
+  if (!is_end(point)) return;
+  if (!of_.starts_with("jump:")) event_ = point;
+  else if (const auto begins = seen_.find(point.parent); begins != seen_.end()) event_ = begins->second;
+}
+
 Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoint& event,
                     const std::function<void(const Row&, const Threshold&)>& found) {
   const CurveTable& t = *problem.curve;
@@ -55,7 +62,7 @@ Outcome trace_curve(const Problem& problem, const ModelAt& models, const PathPoi
   Threshold start;
   start.second = t.from;
   start.at.point = event;
-  start.kind = t.of.starts_with("limit:") ? EventKind::limit : t.of.starts_with("branch:") ? EventKind::branch : EventKind::contact;
+  start.kind = event.label.starts_with("limit:") ? EventKind::limit : event.label.starts_with("branch:") ? EventKind::branch : EventKind::contact;
   here->energy.evaluate(event.state);
   start.at.zero_modes = assess(here->newton, event.state, event.report).zero_modes;
   if (start.kind == EventKind::contact) {

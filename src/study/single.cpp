@@ -83,7 +83,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
   Summary summary;
   PathOfLandscape path_of_landscape(problem);
   std::optional<std::pair<Model, PathPoint>> ending;           // what is checked when the path has gone, whose factors may take half of the memory
-  std::optional<PathPoint> event;                              // that a curve begins at
+  StartOfCurve start_of_curve(problem);
   StrainWatch strains;
   std::vector<Mode> found;
   std::string of_lowest;                                       // what they carried when the run was stopped
@@ -94,7 +94,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
     if (!a.reads() && lowest) own(*lowest);
     std::string eigenvalues = own.bytes();
     if (!a.reads()) carry_results(a, results);                 // which have been read as they were made
-    a(path_of_landscape, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check, factor_counts());
+    a(path_of_landscape, start_of_curve, strains, teller, summary.zero_modes, setup, seconds, eigenvalues, outcome.status, outcome.why, summary.check, factor_counts());
     if (a.reads()) before = seconds, of_lowest = std::move(eigenvalues);
   };
   if (stopped) carry(archive);
@@ -144,7 +144,7 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
         setup = total.seconds();
       },
       .point = [&](const PathPoint& point, bool last) {
-        if (problem.curve && point.label == problem.curve->of) event = point;
+        start_of_curve.take(point);
         if (problem.landscape) path_of_landscape.take(point);
         add(point, last, lowest ? lowest->at(point.state) : std::vector<double>{});
       },
@@ -170,8 +170,9 @@ SingleResult run_single(const Problem& problem, const Model& model, const Single
       .progress = [&](const std::string& line, double step) { teller.moved(line, step); },
       .checkpoint = [&](const std::function<void(Archive&)>& of_study) { checkpoints.offer([&](Archive& a) { carry(a), of_study(a); }); },
       .reached = [&](const PathPoint& point) { teller.reached(point); },
-      .enough = [&](const PathPoint& point) { return problem.curve && point.label == problem.curve->of; }};
+      .enough = [&](const PathPoint& point) { return start_of_curve.is_end(point); }};
   const auto follow_curve = [&]() -> Outcome {
+    const PathPoint* const event = start_of_curve.event();
     if (!event)
       return {Status::not_converged, "the path has no " + problem.curve->of + " that a curve could begin with: " + outcome.why};
     return trace_curve(problem, options.models, *event, [&](const Row& row, const Threshold& threshold) {

@@ -333,7 +333,7 @@ TEST_CASE("a curve is expected, and what is wrong with one is told", "[curve]") 
   CHECK(answer.text.find("there is no such structure") != std::string::npos);
 
   for (const auto& [text, says] : {std::pair{curve("snap:1", "load.1.total_force.3", 1, 2),
-                                             "must be a limit point, a branch point or a contact"},
+                                             "must be a limit point, a branch point, a contact or a snap"},
                                    {curve("limit:1", "beam.column.particles", 11, 12), "is a whole number"},
                                    {curve("limit:1", "beam.column.center", 11, 12), "is no number"},
                                    {curve("limit:1", "beam.column.bend", 11, 12), "is no key"},
@@ -357,5 +357,19 @@ TEST_CASE("a limit point at a contact that is hardly closed is followed", "[curv
     const std::string file = scratch.file("p.toml", problem);
     CHECK(elamin_says("'" + file + "' --quiet --set beam.thin.center.1=" + row.text("second"), 60).status == 0);
     CHECK(row_of(table_of(scratch / "p/events.csv"), "limit:1")["lambda"] == Approx(row["lambda"]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a snap leads to the event that it begins at, which is followed", "[curve]") {
+  std::string snaps = tall_truss;
+  snaps.replace(snaps.find("arc_length"), 10, "load_steps");
+  for (const auto& [from, to, of] : {std::tuple{75, 71, "branch:1"}, std::tuple{40, 45, "limit:1"}}) {
+    const auto rows = [&](const std::string& event) {
+      return curve_of(snaps + curve(event, "constants.degrees", from, to, "steps = 4\n"));
+    };
+    const std::vector<TableRow> of_snap = rows("jump:1"), of_event = rows(of);
+    INFO(of);
+    REQUIRE(of_snap.size() == of_event.size());
+    for (std::size_t k = 0; k < of_snap.size(); ++k) CHECK(of_snap[k]["lambda"] == of_event[k]["lambda"]);
   }
 }
