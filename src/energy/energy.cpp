@@ -190,6 +190,7 @@ void Energy::assemble_groups() {
   groups_[body_pairs] = body_pair_group(model_, kinematics_, body_neighbours_);
   groups_[hard_pairs] = hard_pair_group(model_, neighbours_);
   assembler_ = std::make_unique<Assembler>(kinematics_, groups_);
+  current_ = false;
   if (!before || !same_pattern(before->hessian(), assembler_->hessian())) ++pattern_version_;
 }
 
@@ -247,6 +248,7 @@ Vector Energy::shares(const State& state) {
 }
 
 void Energy::evaluate(const State& state, bool with_hessian, const Tangent& tangent) {
+  current_ = false;
   cover(state);
   terms_ = terms_of(assembler_->evaluate(state, with_hessian, tangent), state);
   finish_gradient(state);
@@ -254,6 +256,11 @@ void Energy::evaluate(const State& state, bool with_hessian, const Tangent& tang
   assembler_->sum_hessian();
   evaluated_ = state, predicted_ = tangent.from || tangent.convex > 0;
   anchor_null_dofs();
+  current_ = !predicted_;
+}
+
+void Energy::be_at(const State& state) {
+  if (!current_ || !own_.empty() || !identical(state, evaluated_)) evaluate(state);
 }
 
 void Energy::anchor_null_dofs() {

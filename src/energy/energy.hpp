@@ -48,6 +48,8 @@ class Energy {
   /// that a step came from, the Hessian takes the forces predicted there for its geometric part (see HarmonicBond): the
   /// same at an equilibrium, far better than the exact one after a long step of a slender structure.
   void evaluate(const State& state, bool with_hessian = true, const Tangent& tangent = {});
+  /// The same with Hessian, unless the last evaluation was that; with laws of a program's own, which may have changed meanwhile, always.
+  void be_at(const State& state);
   /// Energy at the state that the linearisation at `from` did not predict: what the next step will take out again.
   double residual_energy(const State& state, const State& from) { return assembler_->residual_energy(state, from); }
   const EnergyTerms& last_terms() const { return terms_; }
@@ -55,7 +57,7 @@ class Energy {
   /// H = ∂²E/∂q∂q, lower triangle [force/length]; its pattern is there before any evaluation.
   const SparseMatrix& hessian() const { return std::as_const(*assembler_).hessian(); }
   /// The same, for whoever changes coordinates until the next evaluation.
-  SparseMatrix& hessian() { return assembler_->hessian(); }
+  SparseMatrix& changeable_hessian() { return current_ = false, assembler_->hessian(); }
   /// Free dofs of single particles that nothing gives a stiffness, at the last evaluation with Hessian: grains that fly, or
   /// slide on a plane. On the diagonal of hessian() they have |gᵢ|/2d, so that a step of Newton's method lets a grain
   /// fall by two diameters, or where no force acts on them the largest stiffness there is, so that they stay.
@@ -143,6 +145,7 @@ class Energy {
   Vector gradient_, row_sums_;
   State evaluated_;                                           // with Hessian, last …
   bool predicted_ = false;                                    // … which takes forces predicted from another state
+  bool current_ = false;                                      // whether all that an evaluation leaves is of it, and takes none
   int pattern_version_ = 0;
   EnergyTerms terms_;
   static constexpr double nothing = 1e-7;                     // of the floor: well above what residuals leave, 1e-10 of it

@@ -2,6 +2,7 @@
 // Where everything is: the configuration that an energy is a function of.
 #include "laws/rounded/pose.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace elamin {
@@ -32,6 +33,15 @@ struct State {
   ExactVector at(Eigen::Index i) const { return {position.col(i), low.col(i)}; }
   void set(Eigen::Index i, const ExactVector& x) { position.col(i) = x.hi, low.col(i) = x.lo; }
 };
+
+/// Whether all numbers of two states of a model are the same.
+inline bool identical(const State& a, const State& b) {
+  const auto same_pose = [](const Pose& p, const Pose& q) {
+    return p.position.hi == q.position.hi && p.position.lo == q.position.lo && p.rotation.coeffs() == q.rotation.coeffs();
+  };
+  return a.load_factor == b.load_factor && a.particles() == b.particles() && a.position == b.position && a.low == b.low && a.hard == b.hard &&
+         std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_pose);
+}
 
 /// b − a of all particles, 3 × particles [length]; with bodies see Kinematics::difference.
 inline Field displacement(const State& a, const State& b) { return (b.position - a.position) + (b.low - a.low); }

@@ -189,7 +189,7 @@ Equilibrium assess(Newton& newton, const State& state, const Report& report) {
   Equilibrium e;
   e.point.state = state;
   e.point.report = report;
-  energy.evaluate(state);
+  energy.be_at(state);
   e.point.energy = energy.last_terms();
   e.tangent = Vector::Zero(energy.dofs());
   if (energy.dofs() == 0) {

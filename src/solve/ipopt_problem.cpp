@@ -247,7 +247,7 @@ bool IpoptProblem::differentiate(const Number* y, bool renewed) {
     stale_ = stale_ || energy_.pattern_version() != version_;
     gradient_ = energy_.gradient();
     const Vector way = length_ * step_;
-    energy_.kinematics().pull_back(energy_.hessian(), gradient_, way), energy_.kinematics().pull_back(gradient_, way);
+    energy_.kinematics().pull_back(energy_.changeable_hessian(), gradient_, way), energy_.kinematics().pull_back(gradient_, way);
     steady_bodies(energy_, gradient_);
     differentiated_ = true;
   }

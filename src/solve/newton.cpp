@@ -65,7 +65,7 @@ void Newton::record(Report& report, double step, double shift) const {
 }
 
 Report Newton::finish(const State& state, Report report, const Halt& halt) {
-  energy_.evaluate(state);
+  energy_.be_at(state);
   report.energy = energy_.last_terms().total(), report.residual = residual();
   report.status = halt.status, report.why = halt.why;
   return report;
@@ -346,7 +346,7 @@ Report Newton::correct(State& state, const Eigen::MatrixXd& held, const State* f
       }
       // Else, where it would still bend the structure, it may be all that tells one branch from another, or, where something may touch, whether it
       // does: then on, as long as that halves it.
-      energy_.evaluate(state, false), see(state);
+      energy_.be_at(state), see(state);
       const Factors::Bordered left = correction();
       if (!meets && distortion(energy_, state, left.p, left.delta) <= limits::unbent)
         return end(Status::converged, below(options_.tolerance));

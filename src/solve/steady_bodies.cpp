@@ -7,7 +7,7 @@ namespace elamin {
 void steady_bodies(Energy& energy, const Vector& g) {
   if (energy.model().bodies.empty() || g.size() == 0) return;
   const Kinematics& kinematics = energy.kinematics();
-  SparseMatrix& h = energy.hessian();
+  SparseMatrix& h = energy.changeable_hessian();
   const double force = g.cwiseAbs().maxCoeff();
   auto idle = energy.null_dofs().begin();
   for (int d = 0; d < energy.dofs(); ++d) {

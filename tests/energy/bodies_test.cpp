@@ -145,7 +145,7 @@ TEST_CASE("coordinates about another state have derivatives of their own", "[ene
   const Vector g = gradient(y);
   energy.evaluate(at(y));
   const Vector here = energy.gradient();
-  energy.kinematics().pull_back(energy.hessian(), here, y);
+  energy.kinematics().pull_back(energy.changeable_hessian(), here, y);
   const Eigen::MatrixXd H = whole(energy.hessian());
   CHECK((energy.kinematics().difference(origin, at(y)) - y).norm() <= 1e-14 * y.norm());
   for (int k = 0; k < energy.dofs(); ++k) {

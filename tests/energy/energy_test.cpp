@@ -145,3 +145,22 @@ TEST_CASE("same bits for any number of threads", "[energy]") {
     CHECK(std::equal(H.valuePtr(), H.valuePtr() + H.nonZeros(), energy.hessian().valuePtr()));
   }
 }
+
+TEST_CASE("what the last evaluation has left is not made again, and anything else is", "[energy]") {
+  Model model = chain(20, 50, 0.4, 1, Vec3(1, 0.2, -0.3));
+  hold(model, 0, 1);
+  Energy energy(model), plain(model);
+  const State a = bent(energy, 0, 0.2), b = bent(energy, 0, 0.3);
+  const auto is_at = [&](const State& state) {
+    energy.be_at(state), plain.evaluate(state);
+    CHECK(energy.gradient() == plain.gradient());
+    CHECK(energy.hessian().toDense() == plain.hessian().toDense());
+    CHECK(energy.last_terms().total() == plain.last_terms().total());
+  };
+  is_at(a), is_at(a), is_at(b);
+  energy.evaluate(a, false), is_at(b);                   // the gradient is of another state
+  energy.evaluate(b, true, {.from = &a}), is_at(b);      // the Hessian has other forces
+  energy.changeable_hessian() *= 2, is_at(b);
+  State driven = b;
+  driven.load_factor = 0.5, is_at(driven);
+}
